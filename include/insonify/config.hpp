@@ -1,0 +1,82 @@
+// Every policy macro of the library, in one place. A user may define any of those under "Yours to set" before the
+// first include (the same in every translation unit that shares insonify types).
+//
+//   Yours to set
+//     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
+//     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
+//     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return
+//
+// All symbols live in an inline namespace that names the version and whatever changes the code behind a symbol, so
+// that two translation units compiled with different flags never share one by accident.
+#pragma once
+
+#include <insonify/version.hpp>
+
+#if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 202002L
+#error "insonify needs C++20: compile with -std=c++20 (or /std:c++20) or newer."
+#endif
+
+#if defined(__FAST_MATH__)
+#error "insonify promises the same bytes everywhere and cannot keep that under -ffast-math: compile without it."
+#endif
+
+#if !defined(INSONIFY_SIMD)
+#if defined(__GNUC__)
+#define INSONIFY_SIMD 1
+#else
+#define INSONIFY_SIMD 0
+#endif
+#endif
+
+#if !defined(INSONIFY_ASSERT)
+#include <cassert>
+#define INSONIFY_ASSERT(condition) assert(condition)
+#endif
+
+// Run-time dispatch to wider instruction sets: x86-64 with GNU attributes only. Other targets compile one path.
+#if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__)
+#define INSONIFY_DISPATCH 1
+#define INSONIFY_TARGET(isa) __attribute__((target(isa), flatten, noinline))
+#else
+#define INSONIFY_DISPATCH 0
+#endif
+
+#if defined(__GNUC__)
+#define INSONIFY_INLINE inline __attribute__((always_inline))
+#else
+#define INSONIFY_INLINE inline
+#endif
+
+#define INSONIFY_JOIN_RAW(a, b) a##b
+#define INSONIFY_JOIN(a, b) INSONIFY_JOIN_RAW(a, b)
+
+#if defined(__cpp_exceptions)
+#define INSONIFY_TAG_EXCEPTIONS
+#else
+#define INSONIFY_TAG_EXCEPTIONS _noexcept
+#endif
+
+#if !INSONIFY_SIMD
+#define INSONIFY_TAG_SIMD _scalar
+#elif defined(__AVX512F__)
+#define INSONIFY_TAG_SIMD _avx512
+#elif defined(__AVX2__)
+#define INSONIFY_TAG_SIMD _avx2
+#else
+#define INSONIFY_TAG_SIMD _base
+#endif
+
+#if defined(NDEBUG)
+#define INSONIFY_TAG_ASSERT
+#else
+#define INSONIFY_TAG_ASSERT _checked
+#endif
+
+#define INSONIFY_TAGS INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SIMD, INSONIFY_TAG_EXCEPTIONS), INSONIFY_TAG_ASSERT)
+#define INSONIFY_ABI_OF(major, minor, patch) v##major##_##minor##_##patch
+#define INSONIFY_ABI_NAME(major, minor, patch) INSONIFY_ABI_OF(major, minor, patch)
+#define INSONIFY_ABI                                                                                                   \
+    INSONIFY_JOIN(INSONIFY_ABI_NAME(INSONIFY_VERSION_MAJOR, INSONIFY_VERSION_MINOR, INSONIFY_VERSION_PATCH),           \
+                  INSONIFY_TAGS)
+
+namespace insonify::inline INSONIFY_ABI {}

@@ -1,0 +1,68 @@
+// The two errors that leave the library, and the one way they do.
+//
+// Bad data that comes by the million (a NaN vertex, a degenerate triangle) is never an error: it is skipped and counted.
+#pragma once
+
+#include <insonify/config.hpp>
+
+#include <charconv>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// An argument that cannot be right. `what()` names the argument, its value, and what was expected.
+struct invalid_input : std::invalid_argument {
+    using std::invalid_argument::invalid_argument;
+};
+
+/// A file that could not be read or written. `what()` names the file and the reason.
+struct io_error : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+namespace detail {
+
+template <class Error>
+[[noreturn]] void raise(Error error) {
+#if defined(__cpp_exceptions)
+    throw error;
+#elif defined(INSONIFY_THROW)
+    INSONIFY_THROW(error);
+    std::terminate();
+#else
+    static_cast<void>(error);
+    std::terminate();
+#endif
+}
+
+/// Shortest text that reads back as the same number, without the locale.
+template <class Number>
+    requires std::is_arithmetic_v<Number>
+std::string to_text(Number value) {
+    if constexpr (std::is_same_v<Number, bool>) {
+        return value ? "true" : "false";
+    } else {
+        char buffer[64];
+        const auto [end, status] = std::to_chars(buffer, buffer + sizeof buffer, value);
+        static_cast<void>(status);  // 64 characters hold any number
+        return {buffer, end};
+    }
+}
+
+template <class Number>
+[[noreturn]] void refuse(std::string_view argument, Number value, std::string_view expected) {
+    raise(invalid_input(std::string(argument) + " is " + to_text(value) + ", expected " + std::string(expected)));
+}
+
+/// Preconditions of public functions read: `require(width > 0, "width", width, "at least 1")`.
+template <class Number>
+void require(bool holds, std::string_view argument, Number value, std::string_view expected) {
+    if (!holds) refuse(argument, value, expected);
+}
+
+}  // namespace detail
+}  // namespace insonify::inline INSONIFY_ABI

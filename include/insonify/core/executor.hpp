@@ -1,0 +1,40 @@
+// Who runs the loops. An executor is an argument, serial by default; the library starts no thread of its own.
+#pragma once
+
+#include <insonify/core/error.hpp>
+
+#include <concepts>
+#include <cstddef>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// `ex.bulk(count, fn)` calls `fn(i)` once for every i in [0, count), in any order and on any thread, and returns when
+/// all calls have returned. If calls throw, it rethrows one of their exceptions after the others have ended.
+/// No result of the library depends on which executor ran it.
+template <class E>
+concept executor = requires(E& ex, void (*fn)(std::size_t)) { ex.bulk(std::size_t{}, fn); };
+
+/// Runs everything on the calling thread, in order.
+struct serial_executor {
+    template <std::invocable<std::size_t> Fn>
+    void bulk(std::size_t count, Fn&& fn) const {
+        for (std::size_t i = 0; i < count; ++i) fn(i);
+    }
+};
+
+/// Lets a temporary stand for the default: `Executor&& ex = serial_executor{}`.
+template <class E>
+concept executor_argument = executor<std::remove_reference_t<E>>;
+
+/// Splits [0, count) into runs of `grain` and calls `fn(first, last)` for each. The split depends on the arguments
+/// alone, so whatever is summed per run comes out the same on any executor.
+template <executor E, std::invocable<std::size_t, std::size_t> Fn>
+void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
+    detail::require(grain > 0, "grain", grain, "at least 1");
+    ex.bulk((count + grain - 1) / grain, [&](std::size_t run) {
+        const std::size_t first = run * grain;
+        fn(first, count - first < grain ? count : first + grain);
+    });
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

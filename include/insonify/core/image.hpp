@@ -1,0 +1,112 @@
+// Pixels that own their memory.
+#pragma once
+
+#include <insonify/core/image_view.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Red, green and blue, in that order in memory.
+template <class T>
+struct rgb {
+    T r{}, g{}, b{};
+    friend bool operator==(const rgb&, const rgb&) = default;
+};
+using rgb8 = rgb<std::uint8_t>;
+
+/// Owning row-major image without padding; row 0 is at the top, pixel (x, y) covers [x, x+1) x [y, y+1).
+template <class T>
+class image {
+  public:
+    using value_type = T;
+
+    image() = default;
+
+    /// @param width, height  pixels, each in [0, 2^30], together at most 2^40
+    /// @throws invalid_input for a size outside that range
+    image(int width, int height, T fill = T{})
+        : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), fill) {}
+
+    /// Rows written out, for tests and small tables: `image<float>{{0, 1}, {2, 3}}`.
+    /// @throws invalid_input for rows of different lengths
+    image(std::initializer_list<std::initializer_list<T>> rows)
+        : width_(rows.size() == 0 ? 0 : static_cast<int>(rows.begin()->size())), height_(static_cast<int>(rows.size())) {
+        pixels_.reserve(area());
+        for (const auto& row : rows) {
+            detail::require(row.size() == static_cast<std::size_t>(width_), "row length", row.size(),
+                            "that of the first row");
+            pixels_.insert(pixels_.end(), row.begin(), row.end());
+        }
+    }
+
+    /// A packed copy of what a view shows.
+    explicit image(image_view<const T> source) : image(source.width(), source.height()) {
+        for (int y = 0; y < height_; ++y) {
+            const auto from = source.row(y);
+            std::copy(from.begin(), from.end(), row(y).begin());
+        }
+    }
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    std::size_t size() const { return pixels_.size(); }
+    bool empty() const { return pixels_.empty(); }
+
+    T& operator()(int x, int y) { return pixels_[index(x, y)]; }
+    const T& operator()(int x, int y) const { return pixels_[index(x, y)]; }
+
+    std::span<T> row(int y) { return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)}; }
+    std::span<const T> row(int y) const { return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)}; }
+    std::span<T> pixels() { return pixels_; }
+    std::span<const T> pixels() const { return pixels_; }
+
+    image_view<T> view() & { return {pixels_.data(), width_, height_}; }
+    image_view<const T> view() const& { return {pixels_.data(), width_, height_}; }
+    image_view<T> view() && = delete;  // the view would outlive its pixels
+    operator image_view<T>() & { return view(); }
+    operator image_view<const T>() const& { return view(); }
+
+    friend bool operator==(const image&, const image&) = default;
+
+  private:
+    static int checked(int extent, const char* name) {
+        detail::require(extent >= 0 && extent <= (1 << 30), name, extent, "0 to 2^30");
+        return extent;
+    }
+    std::size_t area() const {
+        const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+        detail::require(pixels <= (std::size_t{1} << 40), "width x height", pixels, "at most 2^40 pixels");
+        return pixels;
+    }
+    std::size_t index(int x, int y) const {
+        INSONIFY_ASSERT(0 <= x && (x < width_ || width_ == 0) && 0 <= y && y < height_);
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+    }
+
+    int width_ = 0;
+    int height_ = 0;
+    std::vector<T> pixels_;
+};
+
+/// The image with every pixel replaced by `fn(pixel)`; the size stays, the type is what `fn` returns.
+template <class T, class Fn>
+auto map_pixels(image_view<const T> source, Fn&& fn) {
+    using result = std::decay_t<decltype(fn(std::declval<const T&>()))>;
+    image<result> out(source.width(), source.height());
+    for (int y = 0; y < source.height(); ++y) {
+        const auto from = source.row(y);
+        std::transform(from.begin(), from.end(), out.row(y).begin(), fn);
+    }
+    return out;
+}
+template <class T, class Fn>
+auto map_pixels(const image<T>& source, Fn&& fn) {
+    return map_pixels(source.view(), fn);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

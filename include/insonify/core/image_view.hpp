@@ -1,0 +1,71 @@
+// A window onto pixels that live somewhere else: pointer, size and row stride. Every algorithm takes these.
+#pragma once
+
+#include <insonify/core/error.hpp>
+
+#include <cstddef>
+#include <span>
+#include <type_traits>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Non-owning, strided view of row-major pixels; row 0 is at the top. Copying it copies no pixel.
+template <class T>
+class image_view {
+  public:
+    using value_type = std::remove_const_t<T>;
+
+    image_view() = default;
+
+    /// @param data    first pixel of the first row (may be null for an empty view)
+    /// @param width   pixels in a row, >= 0
+    /// @param height  rows, >= 0
+    /// @param stride  pixels from one row to the next, >= width
+    /// @throws invalid_input for a negative size or a stride shorter than a row
+    image_view(T* data, int width, int height, std::ptrdiff_t stride)
+        : data_(data), width_(width), height_(height), stride_(stride) {
+        detail::require(width >= 0, "width", width, "at least 0");
+        detail::require(height >= 0, "height", height, "at least 0");
+        detail::require(stride >= width, "stride", stride, "at least the width");
+    }
+    image_view(T* data, int width, int height) : image_view(data, width, height, width) {}
+
+    /// A view of mutable pixels reads as a view of constant ones.
+    image_view(image_view<value_type> other)
+        requires std::is_const_v<T>
+        : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    std::ptrdiff_t stride() const { return stride_; }
+    std::size_t size() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
+    bool empty() const { return width_ == 0 || height_ == 0; }
+    T* data() const { return data_; }
+
+    T& operator()(int x, int y) const {
+        INSONIFY_ASSERT(0 <= x && x < width_ && 0 <= y && y < height_);
+        return data_[y * stride_ + x];
+    }
+    std::span<T> row(int y) const {
+        INSONIFY_ASSERT(0 <= y && y < height_);
+        return {data_ + y * stride_, static_cast<std::size_t>(width_)};
+    }
+
+    /// The part of the view that starts at (x, y); shares the pixels.
+    /// @throws invalid_input if the part is not inside the view
+    image_view part(int x, int y, int width, int height) const {
+        detail::require(x >= 0 && x <= width_, "x", x, "a column of the view");
+        detail::require(y >= 0 && y <= height_, "y", y, "a row of the view");
+        detail::require(width >= 0 && width <= width_ - x, "width", width, "a part inside the view");
+        detail::require(height >= 0 && height <= height_ - y, "height", height, "a part inside the view");
+        return {data_ + y * stride_ + x, width, height, stride_};
+    }
+
+  private:
+    T* data_ = nullptr;
+    int width_ = 0;
+    int height_ = 0;
+    std::ptrdiff_t stride_ = 0;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,167 @@
+// Mathematics that gives the same bits on every machine, and the `deg` literal.
+//
+// The C library's log, sin and exp differ between versions and even between processors of one version, so whatever
+// reaches a pixel is computed here: + - * / and the correctly rounded square root alone, in a fixed order.
+#pragma once
+
+#include <insonify/core/error.hpp>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace literals {
+/// Angles are radians in the API: `6_deg` is 0.10472.
+constexpr float operator""_deg(long double degrees) {
+    return static_cast<float>(degrees * std::numbers::pi_v<long double> / 180);
+}
+constexpr float operator""_deg(unsigned long long degrees) {
+    return operator""_deg(static_cast<long double>(degrees));
+}
+}  // namespace literals
+
+namespace numeric {
+
+inline constexpr double pi = std::numbers::pi;
+
+constexpr double to_radians(double degrees) {
+    return degrees * (pi / 180);
+}
+constexpr double to_degrees(double radians) {
+    return radians * (180 / pi);
+}
+
+/// Finite by its bits, which no compiler flag can argue away.
+constexpr bool is_finite(float value) {
+    return (std::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
+}
+constexpr bool is_finite(double value) {
+    return (std::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
+}
+
+/// IEEE 754 square root, correctly rounded everywhere.
+inline double square_root(double value) {
+    return std::sqrt(value);
+}
+inline float square_root(float value) {
+    return std::sqrt(value);
+}
+
+/// Largest integer not above the value, for |value| < 2^62; a truncation and a comparison, no library call.
+constexpr std::int64_t floor_to_int(double value) {
+    const auto truncated = static_cast<std::int64_t>(value);
+    return truncated - (static_cast<double>(truncated) > value ? 1 : 0);
+}
+
+/// Natural logarithm, <= 1 ulp or so. log(0) = -infinity, negative and NaN give NaN.
+///
+/// x = 2^k m with m in [sqrt(1/2), sqrt(2)); log m = 2 atanh((m - 1) / (m + 1)) as a series.
+inline double log(double x) {
+    if (!(x > 0)) return x == 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+    if (!is_finite(x)) return x;
+    int k = 0;
+    if (x < 0x1p-1022) {  // subnormal
+        x *= 0x1p54;
+        k = -54;
+    }
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    // Adding the distance from sqrt(1/2) to 1 moves the cut between exponents to sqrt(2).
+    const std::uint64_t shifted = bits + (0x3FF0000000000000u - 0x3FE6A09E667F3BCDu);
+    k += static_cast<int>(shifted >> 52) - 1023;
+    const auto m = std::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFu) + 0x3FE6A09E667F3BCDu);
+    const double s = (m - 1) / (m + 1);
+    const double t = s * s;
+    double tail = 1.0 / 23;
+    for (int n = 21; n >= 3; n -= 2) tail = tail * t + 1.0 / n;
+    // ln 2 in two parts: the first has trailing zeros, so its product with k is exact.
+    constexpr double ln2_high = 0x1.62e42feep-1;
+    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
+    return k * ln2_high + (2 * s + (2 * s * t * tail + k * ln2_low));
+}
+
+/// Exponential, <= 2 ulp; overflow gives infinity, underflow 0 (gradually), NaN gives NaN.
+inline double exp(double x) {
+    if (x > 709.8) return std::numeric_limits<double>::infinity();
+    if (x < -745.2) return 0;
+    if (!(x == x)) return x;
+    constexpr double ln2_high = 0x1.62e42feep-1;
+    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
+    const std::int64_t k = floor_to_int(x * std::numbers::log2e + 0.5);
+    const double r = (x - static_cast<double>(k) * ln2_high) - static_cast<double>(k) * ln2_low;
+    double sum = 1.0;
+    for (int n = 14; n >= 1; --n) sum = sum * r / n + 1.0;
+    // 2^k in two steps, so that results below the normal range are reached without losing the factor.
+    const std::int64_t half = k / 2;
+    const auto power = [](std::int64_t e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); };
+    return sum * power(half) * power(k - half);
+}
+
+struct sine_cosine {
+    double sine;
+    double cosine;
+};
+
+/// Sine and cosine of 2 pi x, absolute error < 2e-16; x in turns, so that the reduction is exact. |x| < 2^50.
+inline sine_cosine sin_cos_turns(double x) {
+    // Reduce to [-1/8, 1/8] turn around the nearest quarter.
+    const std::int64_t quarter = floor_to_int(4 * x + 0.5);
+    const double angle = (x - 0.25 * static_cast<double>(quarter)) * (2 * pi);
+    const double t = angle * angle;
+    double sine = 1.0, cosine = 1.0;
+    for (int n = 16; n >= 2; n -= 2) {
+        sine = 1.0 - sine * t / (n * (n + 1));
+        cosine = 1.0 - cosine * t / (n * (n - 1));
+    }
+    sine *= angle;
+    switch (quarter & 3) {
+        case 0: return {sine, cosine};
+        case 1: return {cosine, -sine};
+        case 2: return {-sine, -cosine};
+        default: return {-cosine, sine};
+    }
+}
+
+/// Sine and cosine of an angle in radians; the reduction costs |x| * 1e-16 of absolute error.
+inline sine_cosine sin_cos(double radians) {
+    return sin_cos_turns(radians * (0.5 * std::numbers::inv_pi));
+}
+inline double tan(double radians) {
+    const auto [sine, cosine] = sin_cos(radians);
+    return sine / cosine;
+}
+
+/// x to the power y for x >= 0, relative error about |y log x| * 2e-16; pow(0, y > 0) = 0, pow(x, 0) = 1.
+inline double pow(double x, double y) {
+    return y == 0 ? 1.0 : x == 0 ? (y > 0 ? 0.0 : std::numeric_limits<double>::infinity()) : exp(y * log(x));
+}
+
+/// Arc tangent of y / x in (-pi, pi], absolute error < 1e-15; (0, 0) gives 0.
+inline double atan2(double y, double x) {
+    const double ax = x < 0 ? -x : x, ay = y < 0 ? -y : y;
+    const double larger = ax > ay ? ax : ay, smaller = ax > ay ? ay : ax;
+    if (larger == 0) return 0;
+    // Reduce to |t| <= tan(pi / 16) by subtracting a known angle: atan t = atan c + atan((t - c) / (1 + t c)).
+    struct step {
+        double tangent, angle;
+    };
+    constexpr step steps[] = {{0.0, 0.0},
+                              {0.41421356237309503, pi / 8},
+                              {1.0, pi / 4}};
+    const double ratio = smaller / larger;
+    const step& near_step = steps[ratio < 0.19891236737965800 ? 0 : ratio < 0.66817863791929891 ? 1 : 2];
+    const double t = (ratio - near_step.tangent) / (1 + ratio * near_step.tangent);
+    const double square = t * t;
+    double series = 0;
+    for (int n = 25; n >= 3; n -= 2) series = (1.0 / n - series) * square;
+    double angle = near_step.angle + t * (1.0 - series);
+    if (ay > ax) angle = pi / 2 - angle;
+    if (x < 0) angle = pi - angle;
+    return y < 0 ? -angle : angle;
+}
+
+}  // namespace numeric
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,95 @@
+// Random numbers without state: a number is a pure function of (seed, stream, counter).
+//
+// Noise that is counted by pixel or world cell doesn't depend on tiling, cropping, threads or the order of frames.
+//
+// Based on: John K. Salmon, Mark A. Moraes, Ron O. Dror, David E. Shaw. Parallel Random Numbers: As Easy as 1, 2, 3.
+// SC11, 2011 (Philox4x32-10; checked against the known answers of Random123).
+#pragma once
+
+#include <insonify/core/numeric.hpp>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace insonify::inline INSONIFY_ABI {
+
+using philox_counter = std::array<std::uint32_t, 4>;
+using philox_key = std::array<std::uint32_t, 2>;
+
+/// Philox4x32 with ten rounds: four independent 32-bit words for each counter and key.
+constexpr philox_counter philox4x32(philox_counter counter, philox_key key) {
+    for (int round = 0; round < 10; ++round) {
+        const std::uint64_t a = std::uint64_t{0xD2511F53u} * counter[0];
+        const std::uint64_t b = std::uint64_t{0xCD9E8D57u} * counter[2];
+        counter = {static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(b),
+                   static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(a)};
+        key[0] += 0x9E3779B9u;
+        key[1] += 0xBB67AE85u;
+    }
+    return counter;
+}
+
+/// The key of a stream: draws of different streams are independent under one seed.
+constexpr philox_key stream_key(std::uint64_t seed, std::uint32_t stream) {
+    // A whole block is spent on mixing, so that neighbouring seeds and streams share no key word.
+    const philox_counter mixed = philox4x32(
+        {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), stream, 0x696E736Fu}, {0, 0});
+    return {mixed[0], mixed[1]};
+}
+
+/// Uniform in (0, 1), symmetric about 1/2, all 32 bits used; never 0 or 1, so its logarithm is finite.
+constexpr double uniform_open(std::uint32_t word) {
+    return (static_cast<double>(word) + 0.5) * 0x1p-32;
+}
+
+/// Two independent standard normal draws from two words (Box and Muller, 1958); reaches 6.66 sigma.
+inline std::array<double, 2> normal_pair(std::uint32_t a, std::uint32_t b) {
+    const double radius = numeric::square_root(-2.0 * numeric::log(uniform_open(a)));
+    const auto [sine, cosine] = numeric::sin_cos_turns(uniform_open(b));
+    return {radius * cosine, radius * sine};
+}
+
+/// Draws in sequence, for parameters of scenes and other small jobs; two sequences of one seed differ in `stream`.
+class random_sequence {
+  public:
+    /// @param seed    the run
+    /// @param stream  what the numbers are for
+    /// @param item    which image, target or track of that run
+    explicit random_sequence(std::uint64_t seed, std::uint32_t stream = 0, std::uint64_t item = 0)
+        : key_(stream_key(seed, stream)), item_(item) {}
+
+    std::uint32_t word() {
+        if (used_ == 4) {
+            block_ = philox4x32({static_cast<std::uint32_t>(item_), static_cast<std::uint32_t>(item_ >> 32), count_++, 0},
+                                key_);
+            used_ = 0;
+        }
+        return block_[used_++];
+    }
+
+    /// Uniform in (0, 1).
+    double uniform() { return uniform_open(word()); }
+    /// Uniform in (low, high).
+    double uniform(double low, double high) { return low + (high - low) * uniform(); }
+    /// Uniform over 0 ... count - 1; the bias is below count / 2^32.
+    /// @throws invalid_input for count = 0
+    std::uint32_t below(std::uint32_t count) {
+        detail::require(count > 0, "count", count, "at least 1");
+        return static_cast<std::uint32_t>((std::uint64_t{word()} * count) >> 32);
+    }
+    /// Standard normal.
+    double normal() {
+        const std::uint32_t a = word();
+        return normal_pair(a, word())[0];
+    }
+
+  private:
+    philox_key key_;
+    std::uint64_t item_;
+    std::uint32_t count_ = 0;
+    philox_counter block_{};
+    std::size_t used_ = 4;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,30 @@
+// Triangles as plain data: what builders and importers make, and what everything downstream draws.
+#pragma once
+
+#include <insonify/core/error.hpp>
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// An indexed triangle mesh. Counter-clockwise triangles face the viewer; positions are metres in the mesh's own frame.
+struct mesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;  ///< unit, one per position, or none at all
+    std::vector<glm::uvec3> triangles;
+};
+
+/// @throws invalid_input if an index has no position, or normals are neither absent nor one per position
+inline void validate(const mesh& m) {
+    detail::require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()",
+                    m.normals.size(), "0 or one per position");
+    for (const glm::uvec3& t : m.triangles) {
+        const std::uint32_t largest = t.x > t.y ? (t.x > t.z ? t.x : t.z) : (t.y > t.z ? t.y : t.z);
+        detail::require(largest < m.positions.size(), "mesh.triangles", largest, "an index of a position");
+    }
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
