@@ -3,6 +3,7 @@
 
 #include <insonify/core/error.hpp>
 
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -31,8 +32,9 @@ class image_view {
     image_view(T* data, int width, int height) : image_view(data, width, height, width) {}
 
     /// A view of mutable pixels reads as a view of constant ones.
-    image_view(image_view<value_type> other)
+    template <std::same_as<value_type> Mutable>
         requires std::is_const_v<T>
+    image_view(image_view<Mutable> other)
         : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
 
     int width() const { return width_; }

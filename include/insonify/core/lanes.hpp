@@ -1,0 +1,48 @@
+// Several values that go through one instruction: GNU vector types, or a plain value where N is 1.
+//
+// Kernels write `mask ? a : b` and + - * < & on these and read the same for one lane and for eight. Lanes stay local:
+// they cross function boundaries by reference or inside always-inlined code only, because a 32-byte vector by value
+// means something else to a caller compiled without AVX.
+#pragma once
+
+#include <insonify/config.hpp>
+
+#include <cstdint>
+#include <cstring>
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+template <class T, int N>
+struct lanes_of {
+#if INSONIFY_SIMD
+    typedef T type __attribute__((vector_size(N * sizeof(T))));
+#else
+    static_assert(N == 1, "this build is scalar");
+#endif
+};
+template <class T>
+struct lanes_of<T, 1> {
+    using type = T;
+};
+
+template <class T, int N>
+using lanes = typename lanes_of<T, N>::type;
+
+template <class T, class Lanes>
+INSONIFY_INLINE void load(Lanes& into, const T* from) {
+    std::memcpy(&into, from, sizeof into);
+}
+template <class T, class Lanes>
+INSONIFY_INLINE void store(T* into, const Lanes& from) {
+    std::memcpy(into, &from, sizeof from);
+}
+
+/// 0, 1, ... N - 1.
+template <class T, int N>
+INSONIFY_INLINE void count_up(lanes<T, N>& into) {
+    T values[static_cast<unsigned>(N)];
+    for (int i = 0; i < N; ++i) values[i] = static_cast<T>(i);
+    load(into, values);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail

@@ -1,0 +1,109 @@
+// Clipping of the few triangles that need it: in front of the camera plane, beyond the depth range, or so far outside
+// the picture that fixed point can't hold them. Everything else is left to the rectangle of the image.
+//
+// Where an edge crosses a plane, the new vertex is computed from the inner end to the outer one. Both triangles that
+// share the edge see the same two ends, hence get the same bits: no crack opens, however many planes cut.
+#pragma once
+
+#include <insonify/raster/setup.hpp>
+
+#include <array>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// A corner of a clipped piece: where it is, and what share each vertex of the whole triangle has in it.
+struct clip_corner {
+    glm::dvec4 position;
+    glm::dvec3 shares;
+};
+
+/// A convex piece of a triangle: three corners and at most one more for each plane.
+struct clip_polygon {
+    static constexpr int planes = 7;
+    std::array<clip_corner, 3 + planes> corners;
+    int count = 0;
+};
+
+/// From clip space to the fixed-point grid.
+class projection {
+  public:
+    projection(const pixel_grid& grid, keep_depth keep)
+        : grid_(grid),
+          half_width_(0.5 * grid.width),
+          half_height_(0.5 * grid.height),
+          reach_x_(grid.guard_pixels() / half_width_),
+          reach_y_(grid.guard_pixels() / half_height_),
+          sign_(keep == keep_depth::smaller ? 1.0 : -1.0) {}
+
+    /// Distance to each clipping plane in clip space, >= 0 inside. The first keeps w away from zero.
+    double distance(int plane, const glm::dvec4& p) const {
+        switch (plane) {
+            case 0: return p.w - 1e-30;
+            case 1: return p.z;
+            case 2: return p.w - p.z;
+            case 3: return reach_x_ * p.w + p.x;
+            case 4: return reach_x_ * p.w - p.x;
+            case 5: return reach_y_ * p.w + p.y;
+            default: return reach_y_ * p.w - p.y;
+        }
+    }
+
+    /// Inside all planes; false for NaN and infinity too.
+    bool holds(const glm::dvec4& p) const {
+        const double x = p.x < 0 ? -p.x : p.x, y = p.y < 0 ? -p.y : p.y;
+        return p.w >= 1e-30 && p.z >= 0 && p.z <= p.w && x <= reach_x_ * p.w && y <= reach_y_ * p.w && p.w <= 1e38;
+    }
+
+    /// Internally smaller depth always wins; a target that keeps the larger one sees it negated.
+    screen_vertex to_screen(const glm::dvec4& p) const {
+        const double inverse = 1.0 / p.w;
+        return {grid_.snap(p.x * inverse * half_width_, grid_.width),
+                grid_.snap(-(p.y * inverse) * half_height_, grid_.height), static_cast<float>(sign_ * (p.z * inverse)),
+                static_cast<float>(inverse)};
+    }
+
+    /// The part of a triangle that lies inside all planes (Sutherland and Hodgman, 1974).
+    clip_polygon clip(const std::array<glm::dvec4, 3>& triangle) const {
+        clip_polygon piece;
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 share{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
+            piece.corners[static_cast<std::size_t>(i)] = {triangle[static_cast<std::size_t>(i)], share};
+        }
+        piece.count = 3;
+        for (int plane = 0; plane < clip_polygon::planes && piece.count > 0; ++plane) piece = cut(piece, plane);
+        return piece;
+    }
+
+  private:
+    clip_polygon cut(const clip_polygon& whole, int plane) const {
+        clip_polygon kept;
+        const auto keep = [&](const clip_corner& corner) {
+            kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
+        };
+        for (int i = 0; i < whole.count; ++i) {
+            const clip_corner& here = whole.corners[static_cast<std::size_t>(i)];
+            const clip_corner& next = whole.corners[static_cast<std::size_t>((i + 1) % whole.count)];
+            const double d_here = distance(plane, here.position), d_next = distance(plane, next.position);
+            const bool here_inside = d_here >= 0, next_inside = d_next >= 0;
+            if (here_inside) keep(here);
+            if (here_inside != next_inside)
+                keep(here_inside ? crossing(here, d_here, next, d_next) : crossing(next, d_next, here, d_here));
+        }
+        return kept;
+    }
+
+    static clip_corner crossing(const clip_corner& inner, double d_inner, const clip_corner& outer, double d_outer) {
+        const double t = d_inner / (d_inner - d_outer);
+        return {inner.position + t * (outer.position - inner.position), inner.shares + t * (outer.shares - inner.shares)};
+    }
+
+    pixel_grid grid_;
+    double half_width_, half_height_;
+    double reach_x_, reach_y_;
+    double sign_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail

@@ -1,0 +1,164 @@
+// The public entry of the rasterizer: a mesh, what to do with vertices and pixels, and where to leave the result.
+#pragma once
+
+#include <insonify/raster/assembly.hpp>
+#include <insonify/raster/tile.hpp>
+
+#include <bit>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// How to draw. None of these but `subpixel_bits`, `cull` and `keep` changes a single bit of the result.
+struct draw_options {
+    cull_mode cull = cull_mode::none;
+    keep_depth keep = keep_depth::smaller;
+    depth_load load = depth_load::keep;
+    int subpixel_bits = 8;   ///< 4 to 16: vertices are rounded to 2^-bits pixels
+    int tile = 64;           ///< pixels, a power of two from 8 to 256
+    isa level = best_isa();  ///< the widest instruction set to use
+};
+
+namespace detail {
+
+inline void check(const draw_options& options, image_view<const float> depth) {
+    require(options.subpixel_bits >= 4 && options.subpixel_bits <= 16, "subpixel_bits", options.subpixel_bits,
+            "4 to 16");
+    require(options.tile >= 8 && options.tile <= 256 && std::has_single_bit(static_cast<unsigned>(options.tile)),
+            "tile", options.tile, "a power of two from 8 to 256");
+    const int widest = 1 << (30 - options.subpixel_bits);
+    require(depth.width() <= widest, "target width", depth.width(), "at most 2^30 sub-pixels");
+    require(depth.height() <= widest, "target height", depth.height(), "at most 2^30 sub-pixels");
+}
+
+/// The triangles of one tile, as the pixel kernel asks for them.
+struct tile_triangles {
+    const screen_mesh& screen;
+    std::span<const std::uint32_t> names;
+    pixel_box box;
+
+    std::uint32_t count() const { return static_cast<std::uint32_t>(names.size()); }
+    INSONIFY_INLINE triangle_setup setup(std::uint32_t i) const {
+        const screen_triangle t = screen[names[i]];
+        return triangle_setup::of(t.a, t.b, t.c, screen.grid(),
+                                  intersect(box, center_box(t.a, t.b, t.c, screen.grid())));
+    }
+};
+
+/// Calls the fragment callable for every pixel of a tile that shows a triangle of this draw.
+template <class Target, class VertexShader, class FragmentShader>
+std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShader& shader, const Target& target,
+                    const tile_triangles& triangles, tile_buffer<true>& tile, float depth_sign) {
+    using varyings = varyings_of<VertexShader>;
+    const pixel_grid& grid = triangles.screen.grid();
+    std::uint64_t shaded = 0;
+    for (std::uint32_t i = 0; i < triangles.count(); ++i) {
+        const screen_triangle t = triangles.screen[triangles.names[i]];
+        const triangle_setup s = triangles.setup(i);
+
+        // The corners may stand in mirrored order on the screen; weights go back to the mesh's order.
+        const glm::uvec3 index = m.triangles[t.triangle];
+        const auto corner = [&](std::uint32_t v) { return varyings_at(place, mesh_vertex(m, v)); };
+        const varyings va = corner(index.x), vb = corner(index.y), vc = corner(index.z);
+
+        for (int y = s.box.y0; y <= s.box.y1; ++y) {
+            const std::uint32_t* const winner = tile.winner(s.box.x0, y);
+            for (int x = s.box.x0; x <= s.box.x1; ++x) {
+                if (winner[x - s.box.x0] != i) continue;
+                const auto weights = t.weights_at(x, y, grid);
+                const fragment<varyings> f{x,        y,       depth_sign * s.depth.at(x, y),
+                                           t.triangle, weights, t.front, weighted(va, vb, vc, weights)};
+                if constexpr (requires { target.color; })
+                    target.color(x, y) = shader(f);
+                else
+                    shader(f);
+                ++shaded;
+            }
+        }
+    }
+    return shaded;
+}
+
+/// Everything but the shading, which `finish(tile triangles, tile buffer)` does; it returns the pixels it shaded.
+template <bool Winners, vertex_shader VertexShader, executor E, class Finish>
+draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float> depth, const draw_options& options,
+                      E& ex, Finish&& finish) {
+    check(options, depth);
+    require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
+            "0 or one per position");
+    if (depth.empty()) return {};
+    const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
+    const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));
+    const screen_mesh screen(m, place, grid, tiles, options.cull, options.keep, ex);
+    const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
+
+    // A few tiles share a buffer; how many doesn't matter to the result.
+    constexpr std::size_t run = 4;
+    std::vector<std::uint64_t> shaded((tiles.count() + run - 1) / run, 0);
+    bulk_ranges(ex, tiles.count(), run, [&](std::size_t first, std::size_t last) {
+        tile_buffer<Winners> buffer(options.tile);
+        for (std::size_t tile = first; tile < last; ++tile) {
+            const int x = static_cast<int>(tile % static_cast<std::size_t>(tiles.columns)) * options.tile;
+            const int y = static_cast<int>(tile / static_cast<std::size_t>(tiles.columns)) * options.tile;
+            const pixel_box box =
+                intersect({x, y, x + options.tile - 1, y + options.tile - 1}, {0, 0, grid.width - 1, grid.height - 1});
+            const tile_triangles triangles{screen, screen.bin(tile), box};
+            if (triangles.names.empty() && options.load == depth_load::keep) continue;
+
+            buffer.restart(x, y);
+            if (options.load == depth_load::keep)
+                for (int row = y; row <= box.y1; ++row)
+                    for (int column = x; column <= box.x1; ++column)
+                        *buffer.depth(column, row) = sign * depth(column, row);
+            dispatch(tile_kernel<tile_triangles, Winners>{triangles, buffer}, options.level);
+            for (int row = y; row <= box.y1; ++row)
+                for (int column = x; column <= box.x1; ++column)
+                    depth(column, row) = sign * *buffer.depth(column, row);
+            shaded[first / run] += finish(triangles, buffer, sign);
+        }
+    });
+    draw_stats stats = screen.stats();
+    for (const std::uint64_t pixels : shaded) stats.pixels += pixels;
+    return stats;
+}
+
+}  // namespace detail
+
+/// Draws depth alone; no shading is compiled.
+///
+/// @param m        the mesh, any number of triangles up to 2^32 - 1
+/// @param place    vertex_shader: `vertex` to clip space
+/// @param target   depth image of up to 2^22 pixels a side; rows are tiles' rows, from the top
+/// @param options  see draw_options
+/// @param ex       who runs it; the result is the same bytes for any executor
+/// @returns what became of the triangles
+/// @throws invalid_input for an index without a position, normals that don't match, or options out of range;
+///         the target is then untouched
+template <vertex_shader VertexShader, class E = serial_executor>
+    requires executor_argument<E>
+draw_stats draw(const mesh& m, const VertexShader& place, const depth_target& target, const draw_options& options = {},
+                E&& ex = {}) {
+    return detail::draw_tiles<false>(m, place, target.depth, options, ex, [](auto&&...) { return std::uint64_t{0}; });
+}
+
+/// Draws depth and shades every pixel that this draw won, once.
+///
+/// @param shader  fragment_shader: `fragment` to a value for target.color, or to nothing if Pixel is void
+/// The other parameters, the result and the errors are those of the depth-only draw; it also throws invalid_input if
+/// the color image's size isn't the depth image's.
+template <vertex_shader VertexShader, class FragmentShader, class Pixel, class E = serial_executor>
+    requires executor_argument<E> && fragment_shader<FragmentShader, varyings_of<VertexShader>, Pixel>
+draw_stats draw(const mesh& m, const VertexShader& place, const FragmentShader& shader,
+                const framebuffer<Pixel>& target, const draw_options& options = {}, E&& ex = {}) {
+    if constexpr (requires { target.color; }) {
+        detail::require(target.color.width() == target.depth.width(), "color width", target.color.width(),
+                        "the depth image's");
+        detail::require(target.color.height() == target.depth.height(), "color height", target.color.height(),
+                        "the depth image's");
+    }
+    return detail::draw_tiles<true>(m, place, target.depth, options, ex,
+                                    [&](const detail::tile_triangles& triangles, auto& tile, float sign) {
+                                        return detail::shade(m, place, shader, target, triangles, tile, sign);
+                                    });
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
