@@ -75,8 +75,8 @@
 #define INSONIFY_TAGS INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SIMD, INSONIFY_TAG_EXCEPTIONS), INSONIFY_TAG_ASSERT)
 #define INSONIFY_ABI_OF(major, minor, patch) v##major##_##minor##_##patch
 #define INSONIFY_ABI_NAME(major, minor, patch) INSONIFY_ABI_OF(major, minor, patch)
-#define INSONIFY_ABI                                                                                                   \
-    INSONIFY_JOIN(INSONIFY_ABI_NAME(INSONIFY_VERSION_MAJOR, INSONIFY_VERSION_MINOR, INSONIFY_VERSION_PATCH),           \
+#define INSONIFY_ABI                                                                                         \
+    INSONIFY_JOIN(INSONIFY_ABI_NAME(INSONIFY_VERSION_MAJOR, INSONIFY_VERSION_MINOR, INSONIFY_VERSION_PATCH), \
                   INSONIFY_TAGS)
 
 namespace insonify::inline INSONIFY_ABI {}

@@ -1,6 +1,7 @@
 // The two errors that leave the library, and the one way they do.
 //
-// Bad data that comes by the million (a NaN vertex, a degenerate triangle) is never an error: it is skipped and counted.
+// Bad data that comes by the million (a NaN vertex, a degenerate triangle) is never an error: it is skipped and
+// counted.
 #pragma once
 
 #include <insonify/config.hpp>
@@ -39,9 +40,11 @@ template <class Error>
 #endif
 }
 
+template <class T>
+concept arithmetic = std::is_arithmetic_v<T>;
+
 /// Shortest text that reads back as the same number, without the locale.
-template <class Number>
-    requires std::is_arithmetic_v<Number>
+template <arithmetic Number>
 std::string to_text(Number value) {
     if constexpr (std::is_same_v<Number, bool>) {
         return value ? "true" : "false";
@@ -53,13 +56,13 @@ std::string to_text(Number value) {
     }
 }
 
-template <class Number>
+template <arithmetic Number>
 [[noreturn]] void refuse(std::string_view argument, Number value, std::string_view expected) {
     raise(invalid_input(std::string(argument) + " is " + to_text(value) + ", expected " + std::string(expected)));
 }
 
 /// Preconditions of public functions read: `require(width > 0, "width", width, "at least 1")`.
-template <class Number>
+template <arithmetic Number>
 void require(bool holds, std::string_view argument, Number value, std::string_view expected) {
     if (!holds) refuse(argument, value, expected);
 }

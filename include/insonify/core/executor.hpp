@@ -12,7 +12,9 @@ namespace insonify::inline INSONIFY_ABI {
 /// all calls have returned. If calls throw, it rethrows one of their exceptions after the others have ended.
 /// No result of the library depends on which executor ran it.
 template <class E>
-concept executor = requires(E& ex, void (*fn)(std::size_t)) { ex.bulk(std::size_t{}, fn); };
+concept executor = requires(E& ex, void (*fn)(std::size_t)) {
+    ex.bulk(std::size_t{}, fn);
+};
 
 /// Runs everything on the calling thread, in order.
 struct serial_executor {

@@ -35,7 +35,8 @@ class image {
     /// Rows written out, for tests and small tables: `image<float>{{0, 1}, {2, 3}}`.
     /// @throws invalid_input for rows of different lengths
     image(std::initializer_list<std::initializer_list<T>> rows)
-        : width_(rows.size() == 0 ? 0 : static_cast<int>(rows.begin()->size())), height_(static_cast<int>(rows.size())) {
+        : width_(rows.size() == 0 ? 0 : static_cast<int>(rows.begin()->size())),
+          height_(static_cast<int>(rows.size())) {
         pixels_.reserve(area());
         for (const auto& row : rows) {
             detail::require(row.size() == static_cast<std::size_t>(width_), "row length", row.size(),

@@ -33,7 +33,7 @@ class image_view {
 
     /// A view of mutable pixels reads as a view of constant ones.
     template <std::same_as<value_type> Mutable>
-        requires std::is_const_v<T>
+        requires(std::is_const_v<T>)
     image_view(image_view<Mutable> other)
         : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
 

@@ -148,9 +148,7 @@ inline double atan2(double y, double x) {
     struct step {
         double tangent, angle;
     };
-    constexpr step steps[] = {{0.0, 0.0},
-                              {0.41421356237309503, pi / 8},
-                              {1.0, pi / 4}};
+    constexpr step steps[] = {{0.0, 0.0}, {0.41421356237309503, pi / 8}, {1.0, pi / 4}};
     const double ratio = smaller / larger;
     const step& near_step = steps[ratio < 0.19891236737965800 ? 0 : ratio < 0.66817863791929891 ? 1 : 2];
     const double t = (ratio - near_step.tangent) / (1 + ratio * near_step.tangent);

@@ -61,8 +61,8 @@ class random_sequence {
 
     std::uint32_t word() {
         if (used_ == 4) {
-            block_ = philox4x32({static_cast<std::uint32_t>(item_), static_cast<std::uint32_t>(item_ >> 32), count_++, 0},
-                                key_);
+            block_ = philox4x32(
+                {static_cast<std::uint32_t>(item_), static_cast<std::uint32_t>(item_ >> 32), count_++, 0}, key_);
             used_ = 0;
         }
         return block_[used_++];

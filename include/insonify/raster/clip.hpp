@@ -97,7 +97,8 @@ class projection {
 
     static clip_corner crossing(const clip_corner& inner, double d_inner, const clip_corner& outer, double d_outer) {
         const double t = d_inner / (d_inner - d_outer);
-        return {inner.position + t * (outer.position - inner.position), inner.shares + t * (outer.shares - inner.shares)};
+        return {inner.position + t * (outer.position - inner.position),
+                inner.shares + t * (outer.shares - inner.shares)};
     }
 
     pixel_grid grid_;

@@ -65,8 +65,8 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
             for (int x = s.box.x0; x <= s.box.x1; ++x) {
                 if (winner[x - s.box.x0] != i) continue;
                 const auto weights = t.weights_at(x, y, grid);
-                const fragment<varyings> f{x,        y,       depth_sign * s.depth.at(x, y),
-                                           t.triangle, weights, t.front, weighted(va, vb, vc, weights)};
+                const fragment<varyings> f{x,       y,       depth_sign * s.depth.at(x, y), t.triangle,
+                                           weights, t.front, weighted(va, vb, vc, weights)};
                 if constexpr (requires { target.color; })
                     target.color(x, y) = shader(f);
                 else
@@ -111,8 +111,7 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
                         *buffer.depth(column, row) = sign * depth(column, row);
             dispatch(tile_kernel<tile_triangles, Winners>{triangles, buffer}, options.level);
             for (int row = y; row <= box.y1; ++row)
-                for (int column = x; column <= box.x1; ++column)
-                    depth(column, row) = sign * *buffer.depth(column, row);
+                for (int column = x; column <= box.x1; ++column) depth(column, row) = sign * *buffer.depth(column, row);
             shaded[first / run] += finish(triangles, buffer, sign);
         }
     });
@@ -133,8 +132,7 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
 /// @returns what became of the triangles
 /// @throws invalid_input for an index without a position, normals that don't match, or options out of range;
 ///         the target is then untouched
-template <vertex_shader VertexShader, class E = serial_executor>
-    requires executor_argument<E>
+template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh& m, const VertexShader& place, const depth_target& target, const draw_options& options = {},
                 E&& ex = {}) {
     return detail::draw_tiles<false>(m, place, target.depth, options, ex, [](auto&&...) { return std::uint64_t{0}; });
@@ -145,8 +143,8 @@ draw_stats draw(const mesh& m, const VertexShader& place, const depth_target& ta
 /// @param shader  fragment_shader: `fragment` to a value for target.color, or to nothing if Pixel is void
 /// The other parameters, the result and the errors are those of the depth-only draw; it also throws invalid_input if
 /// the color image's size isn't the depth image's.
-template <vertex_shader VertexShader, class FragmentShader, class Pixel, class E = serial_executor>
-    requires executor_argument<E> && fragment_shader<FragmentShader, varyings_of<VertexShader>, Pixel>
+template <vertex_shader VertexShader, class FragmentShader, class Pixel, executor_argument E = serial_executor>
+    requires(fragment_shader<FragmentShader, varyings_of<VertexShader>, Pixel>)
 draw_stats draw(const mesh& m, const VertexShader& place, const FragmentShader& shader,
                 const framebuffer<Pixel>& target, const draw_options& options = {}, E&& ex = {}) {
     if constexpr (requires { target.color; }) {

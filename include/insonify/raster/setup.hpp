@@ -67,7 +67,8 @@ struct pixel_grid {
 
 /// Twice the signed area in squared fixed-point units; positive for triangles that run clockwise on the screen.
 inline std::int64_t doubled_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
-    return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) - (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
+    return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) -
+           (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
 }
 
 /// The pixels whose centres a triangle's bounding box holds.

@@ -92,8 +92,7 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::vec3& 
         const auto fb = std::bit_cast<floats>(b);
         const auto fc = std::bit_cast<floats>(c);
         floats sum;
-        for (std::size_t i = 0; i < sum.size(); ++i)
-            sum[i] = fa[i] * weights.x + fb[i] * weights.y + fc[i] * weights.z;
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = fa[i] * weights.x + fb[i] * weights.y + fc[i] * weights.z;
         return std::bit_cast<V>(sum);
     }
 }
@@ -118,7 +117,7 @@ struct fragment {
 /// is asked for exactly once per draw, after all of the draw's triangles have been resolved against each other.
 template <class S, class Varyings, class Pixel>
 concept fragment_shader = requires(const S& shader, const fragment<Varyings>& f) {
-    { shader(f) } -> std::convertible_to<Pixel>;
-} || (std::is_void_v<Pixel> && requires(const S& shader, const fragment<Varyings>& f) { shader(f); });
+    requires std::is_void_v<Pixel> || std::is_convertible_v<decltype(shader(f)), Pixel>;
+};
 
 }  // namespace insonify::inline INSONIFY_ABI
