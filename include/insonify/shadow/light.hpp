@@ -1,0 +1,55 @@
+// A parallel light over the sea floor, and the sheared frame in which its shadows are upright.
+//
+// In this frame a point moves along the light until it meets the datum: u = x . travel + z cot(elevation), v across.
+// All points of one ray share (u, v), and of two of them the higher one is nearer to the light. The map from world to
+// frame is affine, so triangles stay triangles; equal steps in (u, v) are equal steps on level ground at every
+// elevation; and level ground is level here too, so it needs no bias.
+#pragma once
+
+#include <insonify/core/numeric.hpp>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace insonify::inline INSONIFY_ABI::shadow {
+
+/// Light from infinitely far away.
+struct directional_light {
+    double azimuth = 0;                         ///< radians: where it travels to, from +x towards +y
+    double elevation = numeric::to_radians(6);  ///< radians above the horizon, in (0, pi / 2]
+};
+
+/// Frame of a directional light; coordinates are metres.
+class light_frame {
+  public:
+    /// @throws invalid_input for an elevation outside (0, pi / 2] or an azimuth that isn't finite
+    explicit light_frame(const directional_light& light) {
+        detail::require(light.elevation > 0 && light.elevation <= numeric::pi / 2 + 1e-7, "elevation", light.elevation,
+                        "above 0 and at most pi / 2");
+        detail::require(numeric::is_finite(light.azimuth), "azimuth", light.azimuth, "a finite angle");
+        const auto [sin_azimuth, cos_azimuth] = numeric::sin_cos(light.azimuth);
+        const auto [sin_elevation, cos_elevation] = numeric::sin_cos(light.elevation);
+        travel_ = {cos_azimuth, sin_azimuth};
+        cot_ = cos_elevation > 0 ? cos_elevation / sin_elevation : 0;
+        to_light_ = {-cos_azimuth * cos_elevation, -sin_azimuth * cos_elevation, sin_elevation};
+    }
+
+    /// Unit vector on the ground along which shadows grow.
+    const glm::dvec2& travel() const { return travel_; }
+    /// Unit vector from a point towards the light.
+    const glm::dvec3& to_light() const { return to_light_; }
+    /// Length of a shadow on level ground for a height of one.
+    double cot_elevation() const { return cot_; }
+
+    /// (u, v, z) of a world position.
+    glm::dvec3 operator()(const glm::dvec3& p) const {
+        return {p.x * travel_.x + p.y * travel_.y + p.z * cot_, p.y * travel_.x - p.x * travel_.y, p.z};
+    }
+
+  private:
+    glm::dvec2 travel_;
+    glm::dvec3 to_light_;
+    double cot_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::shadow

@@ -1,0 +1,90 @@
+// Whether a point is lit, asked of a shadow map: at the nearest texel, or averaged over some (PCF).
+//
+// The point's own surface is in the map too. Its plane is carried to each texel's centre before heights are compared,
+// and what the plane can't know (curvature within a texel) is covered by a bias that grows with the slope of the
+// surface as the light sees it. Level ground has no slope in the light's frame, hence no bias and no gap between an
+// object and its shadow; where the slope goes to infinity, the surface faces away and is dark anyway.
+//
+// Based on: William T. Reeves, David H. Salesin, Robert L. Cook. Rendering Antialiased Shadows with Depth Maps. 1987
+#pragma once
+
+#include <insonify/shadow/map.hpp>
+#include <insonify/shadow/policy.hpp>
+
+namespace insonify::inline INSONIFY_ABI::shadow {
+
+/// A surface point as a light sees it: where it lies in the light's frame, and how its plane rises there.
+struct receiver {
+    glm::dvec3 uvz{};
+    double slope_u = 0, slope_v = 0;  ///< dz / du, dz / dv; 0 where it faces away
+    bool faces_light = false;
+
+    receiver() = default;
+
+    /// @param position  in the frame in which the light is described, metres
+    /// @param normal    unit
+    receiver(const light_frame& frame, const glm::dvec3& position, const glm::dvec3& normal) : uvz(frame(position)) {
+        const glm::dvec2& travel = frame.travel();
+        const double along = normal.x * travel.x + normal.y * travel.y;
+        const double across = normal.y * travel.x - normal.x * travel.y;
+        const double facing = normal.z - along * frame.cot_elevation();
+        faces_light = facing > 0;
+        if (faces_light) {
+            slope_u = -along / facing;
+            slope_v = -across / facing;
+        }
+    }
+};
+
+namespace detail {
+
+/// A receiver in the units of one map.
+class map_receiver {
+  public:
+    map_receiver(const height_map& map, const receiver& r)
+        : at_(map.on_map(r.uvz)), slope_u_(map.on_map(r.slope_u)), slope_v_(map.on_map(r.slope_v)) {
+        const auto size = [](float v) { return v < 0 ? -v : v; };
+        // Room for the rounding of heights and, on slopes, for half a texel of surface that isn't the plane.
+        bias_ = 1e-6f + 0.5f * (size(slope_u_) + size(slope_v_));
+        // Points off the map stay within the range of int; every texel out there is open.
+        const auto whole = [](float v) {
+            return v > -1e6f && v < 1e6f ? static_cast<int>(v + 1e6f) - 1000000 : -1000000;
+        };
+        column_ = whole(at_.x);
+        row_ = whole(at_.y);
+    }
+
+    /// Whether the ray through the texel that is (i, j) away from the nearest one gets past the map to this surface.
+    bool is_open(const height_map& map, int i, int j) const {
+        const int column = column_ + i, row = row_ + j;
+        if (column < 0 || row < 0 || column >= map.columns() || row >= map.rows()) return true;
+        const float plane = at_.z + slope_u_ * (static_cast<float>(column) + 0.5f - at_.x) +
+                            slope_v_ * (static_cast<float>(row) + 0.5f - at_.y);
+        return map(column, row) <= plane + bias_;
+    }
+
+  private:
+    glm::vec3 at_;
+    float slope_u_, slope_v_, bias_;
+    int column_, row_;
+};
+
+}  // namespace detail
+
+/// Share of light that reaches a point: 0 or 1, from the nearest texel. Surfaces that face away count as level.
+inline float lit(const height_map& map, const receiver& r, const shadow::map&) {
+    return map.empty() || detail::map_receiver(map, r).is_open(map, 0, 0) ? 1.0f : 0.0f;
+}
+
+/// Share of light that reaches a point, averaged over (2 radius + 1)^2 texels.
+inline float lit(const height_map& map, const receiver& r, const pcf& how) {
+    if (map.empty()) return 1;
+    const detail::map_receiver at(map, r);
+    int open = 0;
+    for (int j = -how.radius; j <= how.radius; ++j)
+        for (int i = -how.radius; i <= how.radius; ++i) open += at.is_open(map, i, j) ? 1 : 0;
+    const int taps = (2 * how.radius + 1) * (2 * how.radius + 1);
+    return static_cast<float>(open) / static_cast<float>(taps);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::shadow

@@ -1,0 +1,123 @@
+// The shadow map: for every ray of a parallel light, the height of the first thing it meets.
+//
+// It is an image over the light's sheared frame, drawn by the rasterizer with height as depth. See light.hpp for why
+// this frame; the resolution it needs is the picture's ground sampling, whatever the elevation.
+#pragma once
+
+#include <insonify/core/image.hpp>
+#include <insonify/geometry/transform.hpp>
+#include <insonify/raster/draw.hpp>
+#include <insonify/shadow/light.hpp>
+
+#include <limits>
+
+namespace insonify::inline INSONIFY_ABI::shadow {
+
+/// A rectangle of the light's frame and the heights that count within it.
+struct map_extent {
+    glm::dvec2 lowest{(std::numeric_limits<double>::max)()};  ///< (u, v), metres
+    glm::dvec2 highest{-(std::numeric_limits<double>::max)()};
+    double floor = (std::numeric_limits<double>::max)();  ///< z
+    double ceiling = -(std::numeric_limits<double>::max)();
+
+    bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
+
+    void include(const glm::dvec3& uvz) {
+        lowest = {(std::min)(lowest.x, uvz.x), (std::min)(lowest.y, uvz.y)};
+        highest = {(std::max)(highest.x, uvz.x), (std::max)(highest.y, uvz.y)};
+        floor = (std::min)(floor, uvz.z);
+        ceiling = (std::max)(ceiling, uvz.z);
+    }
+
+    /// Only rays that both meet matter; all casters' heights do.
+    map_extent clipped_to(const map_extent& receivers) const {
+        map_extent both = *this;
+        both.lowest = {(std::max)(lowest.x, receivers.lowest.x), (std::max)(lowest.y, receivers.lowest.y)};
+        both.highest = {(std::min)(highest.x, receivers.highest.x), (std::min)(highest.y, receivers.highest.y)};
+        return both;
+    }
+};
+
+/// The extent of a mesh under a light; positions that aren't finite are passed over.
+inline map_extent extent_of(const mesh& m, const affine& to_world, const light_frame& frame) {
+    map_extent extent;
+    for (const glm::vec3& p : m.positions) {
+        const glm::dvec3 world = transform_point(to_world, p);
+        if (numeric::is_finite(world.x + world.y + world.z)) extent.include(frame(world));
+    }
+    return extent;
+}
+
+/// Heights of casters over a grid of rays.
+class height_map {
+  public:
+    /// An empty map: nothing casts, everything is lit.
+    height_map() : frame_(directional_light{}) {}
+
+    /// @param frame    of the light
+    /// @param extent   which rays, and between which heights; casters outside are left out
+    /// @param texel    metres, the same along u and v; grows if more than `largest` texels a side were needed
+    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
+    height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
+        : frame_(frame), origin_(extent.lowest), floor_(extent.floor) {
+        detail::require(texel > 0 && numeric::is_finite(texel), "texel", texel, "a positive length");
+        detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
+        if (extent.empty()) return;
+        const glm::dvec2 size = extent.highest - extent.lowest;
+        texel_ = (std::max)(texel, (std::max)(size.x, size.y) / (largest - 0.5));
+        const auto texels = [&](double length) {
+            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(length / texel_)) + 1);
+        };
+        // A little room below and above, so that rounding can't clip the highest caster away.
+        const double relief = extent.ceiling - extent.floor;
+        const double room = 1e-3 * relief + 1e-6;
+        floor_ -= room;
+        relief_ = relief + 2 * room;
+        heights_ = image<float>(texels(size.x), texels(size.y));
+        std::fill(heights_.pixels().begin(), heights_.pixels().end(), empty_depth(keep_depth::larger));
+    }
+
+    /// Lets a mesh cast; several may share a map.
+    /// @param to_world  from the mesh's frame to the one in which the light is described
+    template <executor_argument E = serial_executor>
+    draw_stats cast(const mesh& m, const affine& to_world, E&& ex = {}) {
+        if (heights_.empty()) return {};
+        // The whole way from mesh to clip space is one affine map; it is made in double and small when narrowed.
+        const glm::dvec2 scale{2 / (texel_ * heights_.width()), 2 / (texel_ * heights_.height())};
+        const auto to_clip = [&](const glm::dvec3& uvz) {
+            return glm::dvec3((uvz.x - origin_.x) * scale.x - 1, 1 - (uvz.y - origin_.y) * scale.y,
+                              (uvz.z - floor_) / relief_);
+        };
+        const glm::dvec3 zero = to_clip(frame_(to_world.offset));
+        glm::mat3 axes;
+        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame_(to_world.offset + to_world.linear[i])) - zero);
+        const glm::vec3 start(zero);
+        const auto place = [=](const vertex& v) { return glm::vec4(axes * v.position + start, 1.0f); };
+        return draw(m, place, depth_target{heights_}, {.keep = keep_depth::larger}, ex);
+    }
+
+    const light_frame& frame() const { return frame_; }
+    bool empty() const { return heights_.empty(); }
+    int columns() const { return heights_.width(); }
+    int rows() const { return heights_.height(); }
+    /// Metres between texels.
+    double texel() const { return texel_; }
+
+    /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
+    /// and its height as the map stores heights.
+    glm::vec3 on_map(const glm::dvec3& uvz) const {
+        return glm::vec3((uvz.x - origin_.x) / texel_, (uvz.y - origin_.y) / texel_, (uvz.z - floor_) / relief_);
+    }
+    /// A slope dz / du in stored heights per texel.
+    float on_map(double slope) const { return static_cast<float>(slope * (texel_ / relief_)); }
+    /// What a texel's ray meets first: a stored height, minus infinity for nothing.
+    float operator()(int column, int row) const { return heights_(column, row); }
+
+  private:
+    light_frame frame_;
+    glm::dvec2 origin_{};
+    double floor_ = 0, relief_ = 1, texel_ = 1;
+    image<float> heights_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::shadow

@@ -1,0 +1,29 @@
+// Which shadows a picture has, as types: what is not asked for is not compiled.
+#pragma once
+
+#include <insonify/config.hpp>
+
+#include <concepts>
+
+namespace insonify::inline INSONIFY_ABI::shadow {
+
+/// No shadows: no map, no look-up, no memory.
+struct none {};
+
+/// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
+struct map {
+    float texels_per_pixel = 2;  ///< of the picture's ground sampling; a shadow edge is off by half a texel at most
+    int largest = 8192;          ///< texels a side; what would need more gets coarser texels
+};
+
+/// The same map, averaged over (2 radius + 1)^2 texels: edges are soft over as many.
+struct pcf {
+    float texels_per_pixel = 2;
+    int largest = 8192;
+    int radius = 1;  ///< texels, 0 to 8
+};
+
+template <class P>
+concept policy = std::same_as<P, none> || std::same_as<P, map> || std::same_as<P, pcf>;
+
+}  // namespace insonify::inline INSONIFY_ABI::shadow

@@ -1,0 +1,74 @@
+// What there is to see: a seabed, and targets on it.
+#pragma once
+
+#include <insonify/geometry/normals.hpp>
+#include <insonify/geometry/transform.hpp>
+#include <insonify/seabed/any.hpp>
+#include <insonify/sonar/backscatter.hpp>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// An object with a class of its own.
+struct target {
+    mesh shape;
+    pose placement;
+    std::string class_name;
+    material surface{.reflectivity = 0.9f};
+};
+
+/// The bottom and what lies on it. Heights are metres above the datum z = 0.
+struct scene {
+    insonify::seabed::any seabed = insonify::seabed::flat{};
+    std::array<material, 4> bottom{{{0.45f}, {0.5f}, {0.35f}, {0.6f}}};  ///< by seabed::type: sand, ripples, mud, rock
+    std::vector<target> targets;
+
+    /// Adds a mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
+    /// Targets are told apart by instance numbers, 1 for the first. A mesh without normals gets smooth ones.
+    /// @throws invalid_input for a mesh whose indices or normals don't match its positions
+    template <class Shape>
+    target& add(const Shape& shape, const pose& placement, std::string class_name, const material& surface = {0.9f}) {
+        targets.push_back({mesh_of(shape), placement, std::move(class_name), surface});
+        mesh& added = targets.back().shape;
+        if (added.normals.empty()) added.normals = smooth_normals(added);
+        validate(added);
+        return targets.back();
+    }
+
+    template <class Shape>
+    static mesh mesh_of(const Shape& shape) {
+        if constexpr (std::is_same_v<Shape, mesh>)
+            return shape;
+        else
+            return to_mesh(shape);
+    }
+
+    const material& bottom_of(insonify::seabed::type type) const { return bottom[static_cast<std::size_t>(type)]; }
+};
+
+/// The same pose lowered or raised until the shape just touches the seabed: no vertex is below it, one is on it.
+/// `burial` then sinks it from there.
+/// @param shape  of at least one position
+/// @throws invalid_input for a shape without positions
+inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose placement) {
+    detail::require(!shape.positions.empty(), "shape.positions.size()", shape.positions.size(), "at least 1");
+    pose bare = placement;
+    bare.burial = 0;
+    const affine map = to_world(bare);
+    const auto bottom = insonify::seabed::prepare(seabed);
+    double clearance = std::numeric_limits<double>::infinity();
+    for (const glm::vec3& p : shape.positions) {
+        const glm::dvec3 world = transform_point(map, p);
+        const float height = insonify::seabed::at(bottom, world.x, world.y).height;
+        if (numeric::is_finite(height)) clearance = (std::min)(clearance, world.z - static_cast<double>(height));
+    }
+    if (numeric::is_finite(clearance)) placement.position.z -= clearance;
+    return placement;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
