@@ -14,24 +14,25 @@ namespace insonify::inline INSONIFY_ABI {
 enum class cull_mode { none, back, front };
 
 /// What became of a mesh's triangles. Nothing that a draw meets by the million is an error.
+/// Each of `triangles` is counted once among drawn, culled, missed, degenerate and not_finite.
 struct draw_stats {
     std::uint64_t triangles = 0;   ///< submitted
-    std::uint64_t drawn = 0;       ///< reached the pixel loop, clipped or not
+    std::uint64_t drawn = 0;       ///< reached the pixel loop
     std::uint64_t culled = 0;      ///< faced the wrong way
-    std::uint64_t degenerate = 0;  ///< no area left on the sub-pixel grid
     std::uint64_t missed = 0;      ///< covered no pixel centre of the picture
-    std::uint64_t clipped = 0;     ///< crossed the camera plane, the depth range or the guard band
+    std::uint64_t degenerate = 0;  ///< no area left on the sub-pixel grid
     std::uint64_t not_finite = 0;  ///< a vertex was NaN or infinite
+    std::uint64_t clipped = 0;     ///< of all these, how many were cut by a clipping plane
     std::uint64_t pixels = 0;      ///< shaded; 0 for depth alone
 
     draw_stats& operator+=(const draw_stats& other) {
         triangles += other.triangles;
         drawn += other.drawn;
         culled += other.culled;
-        degenerate += other.degenerate;
         missed += other.missed;
-        clipped += other.clipped;
+        degenerate += other.degenerate;
         not_finite += other.not_finite;
+        clipped += other.clipped;
         pixels += other.pixels;
         return *this;
     }
@@ -149,57 +150,62 @@ class screen_mesh {
     template <vertex_shader Shader>
     void assemble(const Shader& shader, const tile_grid& tiles, std::size_t first, std::size_t last, chunk& out,
                   std::atomic<std::uint32_t>& bad_index) const {
-        const std::size_t count = vertices_.size();
+        const std::size_t vertices = vertices_.size();
         out.stats.triangles = last - first;
         for (std::size_t i = first; i < last; ++i) {
             const glm::uvec3& index = mesh_.triangles[i];
-            if (index.x >= count || index.y >= count || index.z >= count) {
+            if (index.x >= vertices || index.y >= vertices || index.z >= vertices) {
                 bad_index = (std::max)({index.x, index.y, index.z});
                 return;
             }
             const screen_vertex &a = vertices_[index.x], &b = vertices_[index.y], &c = vertices_[index.z];
-            if (a.x != off_grid && b.x != off_grid && c.x != off_grid) [[likely]]
-                bin_triangle(a, b, c, static_cast<std::uint32_t>(i), tiles, out);
-            else
-                clip_triangle(shader, static_cast<std::uint32_t>(i), tiles, out);
+            const auto name = static_cast<std::uint32_t>(i);
+            const bool on_grid = a.x != off_grid && b.x != off_grid && c.x != off_grid;
+            count(out.stats,
+                  on_grid ? bin_triangle(a, b, c, name, tiles, out) : clip_triangle(shader, name, tiles, out));
         }
     }
 
-    /// Culls, and notes what is left in the bins. @returns whether anything was left
-    bool bin_triangle(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, std::uint32_t name,
+    /// Counted in draw_stats under these names; of a clipped triangle's pieces the first of these counts.
+    enum class fate { drawn, culled, missed, degenerate, not_finite };
+
+    static void count(draw_stats& stats, fate f) {
+        switch (f) {
+            case fate::drawn: ++stats.drawn; break;
+            case fate::culled: ++stats.culled; break;
+            case fate::missed: ++stats.missed; break;
+            case fate::degenerate: ++stats.degenerate; break;
+            case fate::not_finite: ++stats.not_finite; break;
+        }
+    }
+
+    /// Notes a triangle or a piece of one in the bins, unless it can't be seen.
+    fate bin_triangle(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, std::uint32_t name,
                       const tile_grid& tiles, chunk& out) const {
-        const pixel_box box = intersect(center_box(a, b, c, grid_), {0, 0, grid_.width - 1, grid_.height - 1});
         const std::int64_t area = doubled_area(a, b, c);
-        if (area == 0) return ++out.stats.degenerate, false;
+        if (area == 0) return fate::degenerate;
         const bool front = area < 0;
-        if ((cull_ == cull_mode::back && !front) || (cull_ == cull_mode::front && front))
-            return ++out.stats.culled, false;
-        if (box.empty()) return ++out.stats.missed, false;
-        ++out.stats.drawn;
+        if ((cull_ == cull_mode::back && !front) || (cull_ == cull_mode::front && front)) return fate::culled;
+        const pixel_box box = intersect(center_box(a, b, c, grid_), {0, 0, grid_.width - 1, grid_.height - 1});
+        if (box.empty()) return fate::missed;
         out.pairs.add(name, box, tiles);
-        return true;
+        return fate::drawn;
     }
 
     template <vertex_shader Shader>
-    void clip_triangle(const Shader& shader, std::uint32_t triangle, const tile_grid& tiles, chunk& out) const {
+    fate clip_triangle(const Shader& shader, std::uint32_t triangle, const tile_grid& tiles, chunk& out) const {
         std::array<glm::dvec4, 3> clip;
         for (int i = 0; i < 3; ++i) {
-            const std::uint32_t index = mesh_.triangles[triangle][i];
-            const glm::dvec4 p(clip_position(shader, mesh_vertex(mesh_, index)));
+            const glm::dvec4 p(clip_position(shader, mesh_vertex(mesh_, mesh_.triangles[triangle][i])));
             if (!(numeric::is_finite(p.x) && numeric::is_finite(p.y) && numeric::is_finite(p.z) &&
-                  numeric::is_finite(p.w))) {
-                ++out.stats.not_finite;
-                return;
-            }
+                  numeric::is_finite(p.w)))
+                return fate::not_finite;
             clip[static_cast<std::size_t>(i)] = p;
         }
-        const clip_polygon polygon = projection_.clip(clip);
-        if (polygon.count < 3) {
-            ++out.stats.missed;
-            return;
-        }
         ++out.stats.clipped;
+        const clip_polygon polygon = projection_.clip(clip);
         const auto corner = [&](int i) -> const clip_corner& { return polygon.corners[static_cast<std::size_t>(i)]; };
+        fate whole_fate = polygon.count < 3 ? fate::missed : fate::degenerate;
         for (int i = 1; i + 1 < polygon.count; ++i) {
             const std::array<const clip_corner*, 3> fan{&corner(0), &corner(i), &corner(i + 1)};
             clipped_triangle piece{};
@@ -209,9 +215,11 @@ class screen_mesh {
             }
             piece.triangle = triangle;
             const auto name = whole() + static_cast<std::uint32_t>(out.clipped.size());
-            if (bin_triangle(piece.corners[0], piece.corners[1], piece.corners[2], name, tiles, out))
-                out.clipped.push_back(piece);
+            const fate f = bin_triangle(piece.corners[0], piece.corners[1], piece.corners[2], name, tiles, out);
+            if (f == fate::drawn) out.clipped.push_back(piece);
+            whole_fate = (std::min)(whole_fate, f);
         }
+        return whole_fate;
     }
 
     const mesh& mesh_;

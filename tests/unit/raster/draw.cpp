@@ -1,0 +1,227 @@
+// What a draw promises beyond coverage: depth, interpolation, clipping, counting, and the same bytes everywhere.
+#include <insonify/core/random.hpp>
+#include <insonify/core/thread_pool.hpp>
+
+#include <bit>
+#include <limits>
+
+#include "../../catch.hpp"
+#include "pixel_space.hpp"
+
+namespace in = insonify;
+using namespace testing_raster;
+
+namespace {
+
+/// A bumpy ground of (n - 1)^2 cells around the origin, z up, 8 m wide.
+in::mesh bumps(std::uint32_t n) {
+    in::mesh m;
+    in::random_sequence random(5);
+    for (std::uint32_t j = 0; j < n; ++j)
+        for (std::uint32_t i = 0; i < n; ++i)
+            m.positions.emplace_back(8.0 * i / (n - 1) - 4, 8.0 * j / (n - 1) - 4, random.uniform(-0.4, 0.4));
+    for (std::uint32_t j = 0; j + 1 < n; ++j)
+        for (std::uint32_t i = 0; i + 1 < n; ++i) {
+            const std::uint32_t a = j * n + i;
+            m.triangles.push_back({a, a + 1, a + n + 1});
+            m.triangles.push_back({a, a + n + 1, a + n});
+        }
+    return m;
+}
+
+/// A pinhole at (0, 0, 3) looking down, 90 degrees wide, reversed depth.
+glm::vec4 pinhole(const glm::vec3& p) {
+    return {p.x, p.y, 0.01f, 3 - p.z};
+}
+const auto place_with_position = [](const in::vertex& v) {
+    return in::placed_vertex<glm::vec3>{pinhole(v.position), v.position};
+};
+const auto place_only = [](const in::vertex& v) { return pinhole(v.position); };
+
+struct picture {
+    in::image<float> color, depth;
+    explicit picture(int width, int height) : color(width, height), depth(width, height) {}
+    friend bool operator==(const picture&, const picture&) = default;
+};
+
+picture draw_bumps(const in::mesh& m, in::draw_options options, auto&& ex) {
+    picture p(200, 130);
+    options.keep = in::keep_depth::larger;
+    options.load = in::depth_load::clear;
+    in::draw(
+        m, place_with_position, [](const in::fragment<glm::vec3>& f) { return f.varyings.z; },
+        in::framebuffer<float>{p.color, p.depth}, options, ex);
+    return p;
+}
+
+template <class Target>
+concept accepts_a_fragment = requires(const in::mesh& m, const Target& t) {
+    in::draw(
+        m, place_only, [](const auto&) { return 1.0f; }, t);
+};
+
+}  // namespace
+
+TEST_CASE("The same bytes for any executor, thread count, tile size and instruction set") {
+    const in::mesh m = bumps(60);
+    const picture expected = draw_bumps(m, {.tile = 64, .level = in::isa::scalar}, in::serial_executor{});
+    for (const int threads : {1, 2, 3, 8}) {
+        in::thread_pool pool(threads);
+        for (const int tile : {8, 32, 128})
+            for (const in::isa level : {in::isa::scalar, in::isa::baseline, in::isa::avx2})
+                CHECK(draw_bumps(m, {.tile = tile, .level = level}, pool) == expected);
+    }
+}
+
+TEST_CASE("A depth-only draw leaves the depth of a shaded one and takes no fragment callable") {
+    static_assert(!accepts_a_fragment<in::depth_target>);
+    static_assert(accepts_a_fragment<in::framebuffer<float>>);
+    const in::mesh m = bumps(30);
+    const picture shaded = draw_bumps(m, {}, in::serial_executor{});
+    in::image<float> depth(200, 130);
+    const auto stats = in::draw(m, place_only, in::depth_target{depth},
+                                {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+    CHECK(depth == shaded.depth);
+    CHECK(stats.pixels == 0);
+}
+
+TEST_CASE("Varyings are interpolated as rays meet planes") {
+    // One large tilted triangle, seen by the pinhole: the varying is the position itself.
+    const in::mesh m{{{-9, -9, -1}, {9, -9, 1}, {0, 9, 0.5f}}, {}, {{0, 1, 2}}};
+    const glm::dvec3 a(m.positions[0]), b(m.positions[1]), c(m.positions[2]);
+    const glm::dvec3 u = b - a, v = c - a;
+    const glm::dvec3 normal(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
+    const auto dot = [](glm::dvec3 p, glm::dvec3 q) { return p.x * q.x + p.y * q.y + p.z * q.z; };
+    in::image<float> depth(128, 128);
+    double worst = 0, worst_depth = 0;
+    const auto stats = in::draw(
+        m, place_with_position,
+        [&](const in::fragment<glm::vec3>& f) {
+            const glm::dvec3 eye(0, 0, 3), ray((f.x + 0.5) / 64 - 1, 1 - (f.y + 0.5) / 64, -1);
+            const glm::dvec3 hit = eye + ray * (dot(a - eye, normal) / dot(ray, normal));
+            for (int i = 0; i < 3; ++i)
+                worst = (std::max)(worst, std::abs(hit[i] - static_cast<double>(f.varyings[i])));
+            worst_depth = (std::max)(worst_depth, std::abs(static_cast<double>(f.depth) * (3 - hit.z) / 0.01 - 1));
+            CHECK(f.weights.x + f.weights.y + f.weights.z == Approx(1));
+        },
+        in::framebuffer<void>{depth}, {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+    CHECK(stats.pixels > 5000);
+    // Snapping moves a vertex by up to 2^-9 pixels of 2^-6 m x distance each.
+    CHECK(worst < 3e-4);
+    CHECK(worst_depth < 3e-4);
+}
+
+TEST_CASE("What is nearer hides what is farther, whatever comes first; a tie stays with the first") {
+    const auto sheet = [](float z) { return in::mesh{{{-9, -9, z}, {9, -9, z}, {0, 9, z}}, {}, {{0, 1, 2}}}; };
+    const bool near_first = GENERATE(true, false);
+    picture p(32, 32);
+    const auto paint = [&](float z, float color, in::depth_load load) {
+        in::draw(sheet(z), place_only, [=](const auto&) { return color; }, in::framebuffer<float>{p.color, p.depth},
+                 {.keep = in::keep_depth::larger, .load = load});
+    };
+    paint(near_first ? 1.0f : 0.0f, near_first ? 1.0f : 2.0f, in::depth_load::clear);
+    paint(near_first ? 0.0f : 1.0f, near_first ? 2.0f : 1.0f, in::depth_load::keep);
+    CHECK(p.color(16, 16) == 1.0f);
+    paint(1.0f, 3.0f, in::depth_load::keep);
+    CHECK(p.color(16, 16) == 1.0f);
+}
+
+TEST_CASE("Triangles that cross the camera plane show the part in front, without cracks") {
+    // A floor that passes under and behind a camera which looks along y from 1 m above.
+    const auto along = [](const in::vertex& v) {
+        const glm::vec3& p = v.position;
+        return glm::vec4(p.x, p.z - 1, 0.01f, p.y);
+    };
+    in::mesh floor;
+    const std::uint32_t n = 8;
+    for (std::uint32_t j = 0; j < n; ++j)
+        for (std::uint32_t i = 0; i < n; ++i) floor.positions.emplace_back(400.0 * i - 1400.0, 400.0 * j - 1390.0, 0.0);
+    for (std::uint32_t j = 0; j + 1 < n; ++j)
+        for (std::uint32_t i = 0; i + 1 < n; ++i) {
+            const std::uint32_t a = j * n + i;
+            floor.triangles.push_back({a, a + 1, a + n + 1});
+            floor.triangles.push_back({a, a + n + 1, a + n});
+        }
+    const int bits = GENERATE(8, 12);
+    const auto count = hits(floor, 64, 64, along, {.keep = in::keep_depth::larger, .subpixel_bits = bits});
+    CHECK(most(count) == 1);
+    for (int y = 34; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) CHECK(count(x, y) == 1);  // all below the horizon
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x) CHECK(count(x, y) == 0);
+}
+
+TEST_CASE("Vertices that are not numbers are skipped and counted, and touch nobody else's pixels") {
+    const in::mesh good = bumps(12);
+    const float bad = GENERATE(std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                               -std::numeric_limits<float>::infinity());
+    const int component = GENERATE(0, 1, 2);
+    in::mesh broken = good;
+    broken.positions[30][component] = bad;
+    in::mesh without = good;
+    std::erase_if(without.triangles, [](const glm::uvec3& t) { return t.x == 30 || t.y == 30 || t.z == 30; });
+    CHECK(draw_bumps(broken, {}, in::serial_executor{}) == draw_bumps(without, {}, in::serial_executor{}));
+
+    in::image<float> depth(64, 64);
+    const auto stats = in::draw(broken, place_only, in::depth_target{depth}, {.load = in::depth_load::clear});
+    CHECK(stats.not_finite == good.triangles.size() - without.triangles.size());
+    CHECK(stats.triangles == good.triangles.size());
+}
+
+TEST_CASE("Every triangle is accounted for once") {
+    in::mesh m{{{1, 1, 0}, {6, 1, 0}, {1, 6, 0}, {3, 3, 0}, {100, 100, 0}, {101, 100, 0}, {100, 101, 0}, {2, 6, 5}},
+               {},
+               {{0, 1, 2}, {0, 2, 1}, {3, 3, 3}, {4, 6, 5}, {0, 7, 1}}};
+    in::image<float> depth(8, 8);
+    const auto stats = in::draw(m, pixel_space{8, 8}, in::depth_target{depth},
+                                {.cull = in::cull_mode::back, .load = in::depth_load::clear});
+    CHECK(stats.triangles == 5);
+    CHECK(stats.culled == 1);      // clockwise as seen: y is down, so {0, 1, 2}
+    CHECK(stats.degenerate == 1);  // three times the same vertex
+    CHECK(stats.missed == 1);      // outside
+    CHECK(stats.clipped == 1);     // one vertex beyond the depth range
+    CHECK(stats.drawn + stats.culled + stats.missed + stats.degenerate + stats.not_finite == stats.triangles);
+    CHECK(stats.drawn >= 2);  // {0, 2, 1}, and what is left of the clipped one
+}
+
+TEST_CASE("Facing follows the winding") {
+    const in::mesh m{{{1, 1, 0}, {1, 6, 0}, {6, 1, 0}}, {}, {{0, 1, 2}}};  // counter-clockwise, y being down
+    in::mesh back = m;
+    back.triangles = {{0, 2, 1}};
+    const auto drawn = [](const in::mesh& mesh, in::cull_mode cull) { return total(hits(mesh, 8, 8, {.cull = cull})); };
+    CHECK(drawn(m, in::cull_mode::none) == drawn(back, in::cull_mode::none));
+    CHECK(drawn(m, in::cull_mode::back) > 0);
+    CHECK(drawn(m, in::cull_mode::front) == 0);
+    CHECK(drawn(back, in::cull_mode::back) == 0);
+    CHECK(drawn(back, in::cull_mode::front) > 0);
+}
+
+TEST_CASE("Empty meshes and odd sizes draw") {
+    const auto [width, height] = GENERATE(std::pair{1, 1}, std::pair{1, 500}, std::pair{2047, 3}, std::pair{0, 5});
+    in::image<float> depth(width, height, 7.0f);
+    CHECK(in::draw(in::mesh{}, place_only, in::depth_target{depth}) == in::draw_stats{});
+    for (const float d : depth.pixels()) CHECK(d == 7.0f);
+
+    const in::mesh cover{{{-9, -9, 0.5f}, {9, -9, 0.5f}, {0, 18, 0.5f}}, {}, {{0, 1, 2}}};
+    in::draw(cover, [](const in::vertex& v) { return glm::vec4(v.position, 1); }, in::depth_target{depth},
+             {.load = in::depth_load::clear});
+    for (const float d : depth.pixels()) CHECK(d == 0.5f);
+}
+
+TEST_CASE("What can't be right is refused before a pixel changes") {
+    const in::mesh m{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {{0, 1, 3}}};
+    in::image<float> depth(4, 4, 7.0f);
+    REQUIRE_THROWS_WITH(in::draw(m, place_only, in::depth_target{depth}, {.load = in::depth_load::clear}),
+                        ContainsSubstring("mesh.triangles is 3"));
+    const in::mesh one_normal{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}}, {{0, 1, 2}}};
+    REQUIRE_THROWS_AS(in::draw(one_normal, place_only, in::depth_target{depth}), in::invalid_input);
+    const in::mesh fine{};
+    REQUIRE_THROWS_WITH(in::draw(fine, place_only, in::depth_target{depth}, {.tile = 48}), ContainsSubstring("tile"));
+    REQUIRE_THROWS_WITH(in::draw(fine, place_only, in::depth_target{depth}, {.subpixel_bits = 3}),
+                        ContainsSubstring("subpixel_bits is 3"));
+    in::image<float> color(4, 5);
+    REQUIRE_THROWS_WITH(in::draw(
+                            fine, place_only, [](const auto&) { return 0.0f; }, in::framebuffer<float>{color, depth}),
+                        ContainsSubstring("color height is 5"));
+    for (const float d : depth.pixels()) CHECK(d == 7.0f);
+}
