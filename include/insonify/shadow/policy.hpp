@@ -12,13 +12,13 @@ struct none {};
 
 /// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
 struct map {
-    float texels_per_pixel = 2;  ///< of the picture's ground sampling; a shadow edge is off by half a texel at most
-    int largest = 8192;          ///< texels a side; what would need more gets coarser texels
+    float texels_per_pixel = 1.5f;  ///< of the picture's ground sampling; a shadow edge is off by half a texel at most
+    int largest = 8192;             ///< texels a side; what would need more gets coarser texels
 };
 
 /// The same map, averaged over (2 radius + 1)^2 texels: edges are soft over as many.
 struct pcf {
-    float texels_per_pixel = 2;
+    float texels_per_pixel = 1.5f;
     int largest = 8192;
     int radius = 1;  ///< texels, 0 to 8
 };

@@ -13,10 +13,11 @@ struct light_share {
     std::uint16_t caster;
 };
 
-/// Nothing is ever dark but what faces away from the light.
+/// Nothing is ever dark, and nobody needs to know which way a facet looks.
 struct no_shadow_maps {
-    light_share operator()(const glm::vec3&, const glm::vec3&, bool faces_light, std::uint16_t itself) const {
-        return faces_light ? light_share{1, labels::is_lit} : light_share{0, itself};
+    template <class Facet>
+    light_share operator()(const glm::vec3&, const Facet&, std::uint16_t) const {
+        return {1, labels::is_lit};
     }
 };
 
@@ -24,6 +25,9 @@ struct no_shadow_maps {
 struct placed_mesh {
     const mesh* shape;
     affine to_rig;
+    glm::mat3 normals;  ///< takes normals along
+
+    placed_mesh(const mesh& m, const affine& map) : shape(&m), to_rig(map), normals(cofactors(map.linear)) {}
 };
 
 /// The maps of all casters of a scene.
@@ -42,16 +46,17 @@ class shadow_maps {
         for (const placed_mesh& t : targets) targets_.push_back(cast(t, receivers, texel, ex));
     }
 
-    /// @param position, normal  in the rig's frame; the normal is unit
-    /// @param itself            who is to blame if the surface faces away and nobody else stands in the light
-    light_share operator()(const glm::vec3& position, const glm::vec3& normal, bool faces_light,
-                           std::uint16_t itself) const {
+    /// @param position  in the rig's frame
+    /// @param facet     called for the normal of the triangle at that point, of any length
+    /// @param itself    who is to blame if the surface faces away and nobody else stands in the light
+    template <class Facet>
+    light_share operator()(const glm::vec3& position, const Facet& facet, std::uint16_t itself) const {
         // A target's shadow goes on over what would be dark without it.
-        const shadow::receiver at(light_, glm::dvec3(position), glm::dvec3(normal));
+        const shadow::receiver at(light_, glm::dvec3(position), glm::dvec3(facet()));
         light_share share{1, labels::is_lit};
         for (std::size_t i = 0; i < targets_.size(); ++i)
             darken(share, shadow::lit(targets_[i], at, policy_), static_cast<std::uint16_t>(i + 1));
-        if (!faces_light)
+        if (!at.faces_light)
             darken(share, 0, itself);
         else if (share.lit > 0)
             darken(share, shadow::lit(bottom_, at, policy_), labels::by_seabed);

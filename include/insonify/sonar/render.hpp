@@ -51,11 +51,15 @@ class overhead_painter {
   public:
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
-        : scene_(s), view_(rig), options_(options), depth_(rig.size.x, rig.size.y) {
+        : scene_(s),
+          view_(rig),
+          to_light_(view_.light().to_light()),
+          options_(options),
+          depth_(rig.size.x, rig.size.y) {
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y);
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y);
-        for (const target& t : s.targets) targets_.push_back({&t.shape, view_.rig_from(to_world(t.placement))});
+        for (const target& t : s.targets) targets_.emplace_back(t.shape, view_.rig_from(to_world(t.placement)));
         sample_seabed(ex);
     }
 
@@ -135,7 +139,7 @@ class overhead_painter {
     }
 
     placed_mesh bottom_in_rig() const {
-        return {&bottom_, view_.rig_from({glm::dmat3(1), glm::dvec3(field_.origin, 0)})};
+        return {bottom_, view_.rig_from({glm::dmat3(1), glm::dvec3(field_.origin, 0)})};
     }
 
     /// All rays of the light that reach something which the picture may show.
@@ -164,18 +168,20 @@ class overhead_painter {
         const auto type_of = [&](const fragment<surface_point>& f) {
             return field_.types.empty() ? field_.fallback : field_.types.pixels()[nearest_vertex(f)];
         };
+        const placed_mesh bottom = bottom_in_rig();
         out_.stats.seabed = draw_one(
-            bottom_in_rig(), depth_load::clear,
+            bottom, depth_load::clear,
             [&](const fragment<surface_point>& f) {
                 const seabed::type type = type_of(f);
-                shade(f, scene_.bottom_of(type), shadows, labels::no_instance, static_cast<std::uint8_t>(type));
+                shade(f, bottom, scene_.bottom_of(type), shadows, labels::no_instance, static_cast<std::uint8_t>(type));
             },
             ex);
         for (std::size_t i = 0; i < targets_.size(); ++i)
             out_.stats.targets += draw_one(
                 targets_[i], depth_load::keep,
                 [&](const fragment<surface_point>& f) {
-                    shade(f, scene_.targets[i].surface, shadows, static_cast<std::uint16_t>(i + 1), labels::no_seabed);
+                    shade(f, targets_[i], scene_.targets[i].surface, shadows, static_cast<std::uint16_t>(i + 1),
+                          labels::no_seabed);
                 },
                 ex);
     }
@@ -184,10 +190,9 @@ class overhead_painter {
     draw_stats draw_one(const placed_mesh& object, depth_load load, const Fragment& fragment_callable, E& ex) {
         const glm::mat3 linear(object.to_rig.linear);
         const glm::vec3 offset(object.to_rig.offset);
-        const glm::mat3 normals(cofactors(object.to_rig.linear));
-        const auto place = [&, linear, offset, normals](const vertex& v) {
+        const auto place = [&, linear, offset](const vertex& v) {
             const glm::vec3 position = linear * v.position + offset;
-            return placed_vertex<surface_point>{view_.clip(position), {position, normals * v.normal}};
+            return placed_vertex<surface_point>{view_.clip(position), {position, object.normals * v.normal}};
         };
         return draw(*object.shape, place, fragment_callable, framebuffer<void>{depth_},
                     {.keep = keep_depth::larger, .load = load, .tile = options_.tile, .level = options_.level}, ex);
@@ -200,19 +205,28 @@ class overhead_painter {
                                           : (f.weights.y >= f.weights.z ? t.y : t.z);
     }
 
+    /// Normal of the triangle that a pixel shows, on the side that is seen; not unit.
+    static glm::vec3 facet_normal(const placed_mesh& object, const fragment<surface_point>& f) {
+        const glm::uvec3& t = object.shape->triangles[f.triangle];
+        const glm::vec3& a = object.shape->positions[t.x];
+        const glm::vec3 ab = object.shape->positions[t.y] - a, ac = object.shape->positions[t.z] - a;
+        return object.normals * glm::cross(f.front ? ab : ac, f.front ? ac : ab);
+    }
+
     template <class Shadows>
-    void shade(const fragment<surface_point>& f, const material& surface, const Shadows& shadows,
-               std::uint16_t instance, std::uint8_t type) {
+    void shade(const fragment<surface_point>& f, const placed_mesh& object, const material& surface,
+               const Shadows& shadows, std::uint16_t instance, std::uint8_t type) {
         const glm::vec3& n = f.varyings.normal;
         const float length = numeric::square_root(n.x * n.x + n.y * n.y + n.z * n.z);
-        const glm::vec3 normal = n * ((f.front ? 1.0f : -1.0f) / length);
-        const glm::vec3 to_light(view_.light().to_light());
-        const float sine = normal.x * to_light.x + normal.y * to_light.y + normal.z * to_light.z;
-        const std::uint16_t itself = instance == labels::no_instance ? labels::by_seabed : instance;
-        const light_share share = shadows(f.varyings.position, normal, sine > 0, itself);
+        const glm::vec3& to_light = to_light_;
+        const float sine = (f.front ? 1.0f : -1.0f) * (n.x * to_light.x + n.y * to_light.y + n.z * to_light.z) / length;
+        const light_share share = shadows(
+            f.varyings.position, [&] { return facet_normal(object, f); },
+            instance == labels::no_instance ? labels::by_seabed : instance);
 
         const overhead& rig = view_.rig();
-        const float direct = share.lit > 0 ? rig.intensity * options_.law((std::min)(sine, 1.0f)) * share.lit : 0;
+        const bool is_dark = !(sine > 0) || share.lit == 0;
+        const float direct = is_dark ? 0 : rig.intensity * options_.law((std::min)(sine, 1.0f)) * share.lit;
         out_.image(f.x, f.y) = (std::min)(surface.reflectivity * (direct + rig.sky), 1.0f);
         if constexpr (labelled) {
             out_.labels.instance(f.x, f.y) = instance;
@@ -223,6 +237,7 @@ class overhead_painter {
 
     const scene& scene_;
     overhead_geometry view_;
+    glm::vec3 to_light_;
     render_options<Shadow, Labels, Law> options_;
     image<float> depth_;
     frame<Labels> out_;
