@@ -1,0 +1,126 @@
+// How far an image or a mask is from the truth.
+//
+// Means hide one broken tile, so the largest difference stands beside them; the ratio of two tiny masks explodes, so
+// the displacement of their border stands beside it.
+#pragma once
+
+#include <insonify/core/image_view.hpp>
+#include <insonify/core/numeric.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace insonify::inline INSONIFY_ABI::accuracy {
+
+/// Counts of pixels; a pixel other than 0 belongs to the mask.
+struct mask_difference {
+    std::size_t common = 0;           ///< in both masks
+    std::size_t false_pixels = 0;     ///< in the result, not in the truth: for shadows, acne
+    std::size_t missed_pixels = 0;    ///< in the truth, not in the result: for shadows, light leaks
+    std::size_t boundary_pixels = 0;  ///< of the truth: in the mask, with a 4-neighbour in the image that is not
+
+    std::size_t wrong_pixels() const { return false_pixels + missed_pixels; }
+
+    /// Intersection over union (Jaccard index), 1 when both masks are empty.
+    double intersection_over_union() const {
+        const std::size_t joined = common + wrong_pixels();
+        return joined == 0 ? 1.0 : static_cast<double>(common) / static_cast<double>(joined);
+    }
+    /// How many pixels the border has moved, on average along it: wrong pixels over boundary pixels. Infinite if there
+    /// are wrong pixels but no border.
+    double mean_boundary_displacement() const {
+        if (wrong_pixels() == 0) return 0;
+        if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();
+        return static_cast<double>(wrong_pixels()) / static_cast<double>(boundary_pixels);
+    }
+};
+
+/// Differences of pixel values, in the values' unit; NaN if any pixel is NaN in one of the images: a broken
+/// pixel shows in every figure.
+struct pixel_difference {
+    std::size_t pixels = 0;
+    double mean_square = 0;
+    double largest = 0;  ///< of the absolute differences
+
+    /// Root of the mean square difference.
+    double rmse() const { return numeric::square_root(mean_square); }
+
+    /// Peak signal-to-noise ratio, 10 log10(peak^2 / mean square), in decibels; infinite without a difference.
+    /// @param peak  the largest value a pixel can take, finite and positive: 1 for the library's floats, 255 for bytes
+    /// @throws invalid_input for another peak
+    double psnr(double peak) const {
+        detail::require(numeric::is_finite(peak) && peak > 0, "peak", peak, "finite and positive");
+        if (mean_square == 0) return std::numeric_limits<double>::infinity();
+        constexpr double decibels = 20 / 2.302585092994045684;  // 20 / ln 10
+        return decibels * (numeric::log(peak) - 0.5 * numeric::log(mean_square));
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::accuracy
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+template <class T>
+void require_same_size(image_view<const T> result, image_view<const T> truth) {
+    require(result.width() == truth.width(), "result.width()", result.width(), "the width of the truth");
+    require(result.height() == truth.height(), "result.height()", result.height(), "the height of the truth");
+}
+
+template <class T>
+accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view<const T> truth) {
+    require_same_size(result, truth);
+    accuracy::pixel_difference out{.pixels = truth.size()};
+    double sum = 0;
+    for (int y = 0; y < truth.height(); ++y) {
+        // Rows are summed on their own, so that small differences survive in large images.
+        double row_sum = 0;
+        const auto a = result.row(y), b = truth.row(y);
+        for (std::size_t x = 0; x < b.size(); ++x) {
+            if (a[x] == b[x]) continue;  // two equal infinities among them
+            const double signed_difference = static_cast<double>(a[x]) - static_cast<double>(b[x]);
+            const double difference = signed_difference < 0 ? -signed_difference : signed_difference;
+            row_sum += difference * difference;
+            if (!(difference <= out.largest) && out.largest == out.largest) out.largest = difference;  // keeps a NaN
+        }
+        sum += row_sum;
+    }
+    if (out.pixels > 0) out.mean_square = sum / static_cast<double>(out.pixels);
+    return out;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+namespace insonify::inline INSONIFY_ABI::accuracy {
+
+/// @throws invalid_input if the sizes differ
+inline mask_difference compare_masks(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
+    detail::require_same_size(result, truth);
+    mask_difference out;
+    const int width = truth.width(), height = truth.height();
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const bool found = result(x, y) != 0;
+            if (truth(x, y) == 0) {
+                out.false_pixels += found ? 1 : 0;
+                continue;
+            }
+            (found ? out.common : out.missed_pixels) += 1;
+            const bool boundary = (x > 0 && truth(x - 1, y) == 0) || (x + 1 < width && truth(x + 1, y) == 0) ||
+                                  (y > 0 && truth(x, y - 1) == 0) || (y + 1 < height && truth(x, y + 1) == 0);
+            out.boundary_pixels += boundary ? 1 : 0;
+        }
+    }
+    return out;
+}
+
+/// Of images with linear pixels, or of bytes in steps of one.
+/// @throws invalid_input if the sizes differ
+inline pixel_difference compare_images(image_view<const float> result, image_view<const float> truth) {
+    return detail::compare_pixels(result, truth);
+}
+inline pixel_difference compare_images(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
+    return detail::compare_pixels(result, truth);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::accuracy

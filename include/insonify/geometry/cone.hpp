@@ -1,0 +1,44 @@
+// Cones, whole and truncated.
+#pragma once
+
+#include <insonify/geometry/revolution.hpp>
+
+#include <vector>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A cone standing on its base, tip towards +z, centred at mid-height: the base is at z = -height / 2.
+struct cone {
+    float radius = 0.5f;   ///< of the base, metres
+    float height = 1;      ///< metres
+    float top_radius = 0;  ///< metres; above 0 the cone is truncated and has a flat top
+    int segments = 64;     ///< around the axis, 3 to 2^20; see `segments_for`
+};
+
+/// The rims (and the tip) have vertices of their own for each side's normal.
+/// @throws invalid_input for a radius or height that is not finite and positive, a top radius that is not finite or
+///         negative, or segments outside 3 to 2^20
+inline mesh to_mesh(const cone& shape) {
+    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "cone.radius", shape.radius,
+                    "finite and positive");
+    detail::require(numeric::is_finite(shape.height) && shape.height > 0, "cone.height", shape.height,
+                    "finite and positive");
+    detail::require(numeric::is_finite(shape.top_radius) && shape.top_radius >= 0, "cone.top_radius", shape.top_radius,
+                    "finite and at least 0");
+    const auto radius = static_cast<double>(shape.radius);
+    const auto height = static_cast<double>(shape.height);
+    const auto top = static_cast<double>(shape.top_radius);
+
+    // The side's normal is its slope turned by a quarter.
+    const double slant = numeric::square_root(height * height + (radius - top) * (radius - top));
+    const double outwards = height / slant;
+    const double upwards = (radius - top) / slant;
+    std::vector<outline_point> outline = {{0, -height / 2, 0, -1},
+                                          {radius, -height / 2, 0, -1},
+                                          {radius, -height / 2, outwards, upwards},
+                                          {top, height / 2, outwards, upwards}};
+    if (top > 0) outline.insert(outline.end(), {{top, height / 2, 0, 1}, {0, height / 2, 0, 1}});
+    return revolve(outline, shape.segments);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,45 @@
+// Boxes.
+#pragma once
+
+#include <insonify/core/numeric.hpp>
+#include <insonify/geometry/mesh.hpp>
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A box centred at the origin, edges along the axes.
+struct cube {
+    glm::vec3 size{1};  ///< edge lengths, metres
+};
+
+/// 24 vertices (each corner three times, once for each face's normal) and 12 triangles.
+/// @throws invalid_input for a size that is not finite and positive
+inline mesh to_mesh(const cube& shape) {
+    mesh out;
+    for (int along = 0; along < 3; ++along) {
+        detail::require(numeric::is_finite(shape.size[along]) && shape.size[along] > 0, "cube.size", shape.size[along],
+                        "finite and positive");
+        for (const float side : {-1.0f, 1.0f}) {
+            // Across the face the axes follow cyclically; on the negative side they change places to face outwards.
+            const int u = (along + (side > 0 ? 1 : 2)) % 3;
+            const int v = (along + (side > 0 ? 2 : 1)) % 3;
+            const auto first = static_cast<std::uint32_t>(out.positions.size());
+            for (int turn = 0; turn < 4; ++turn) {
+                glm::vec3 corner(0), normal(0);
+                corner[along] = normal[along] = side;
+                corner[u] = turn == 1 || turn == 2 ? 1.0f : -1.0f;
+                corner[v] = turn >= 2 ? 1.0f : -1.0f;
+                out.positions.push_back(0.5f * shape.size * corner);
+                out.normals.push_back(normal);
+            }
+            out.triangles.emplace_back(first, first + 1, first + 2);
+            out.triangles.emplace_back(first, first + 2, first + 3);
+        }
+    }
+    return out;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,60 @@
+// Cylinders lying on their side, with flat or with rounded ends.
+#pragma once
+
+#include <insonify/geometry/revolution.hpp>
+
+#include <array>
+#include <vector>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A cylinder along x, centred at the origin, with flat ends.
+struct cylinder {
+    float radius = 0.5f;  ///< metres
+    float length = 2;     ///< metres
+    int segments = 64;    ///< around the axis, 3 to 2^20; see `segments_for`
+};
+
+/// A cylinder along x, centred at the origin, ending in two hemispheres; smooth all over.
+struct capsule {
+    float radius = 0.5f;  ///< metres
+    float length = 2;     ///< metres from tip to tip, at least twice the radius
+    int segments = 64;    ///< around the axis, 3 to 8192; half as many rings over both ends
+};
+
+/// 4 segments + 2 vertices, of which the rims have two sets, one for each normal.
+/// @throws invalid_input for a radius or length that is not finite and positive, or segments outside 3 to 2^20
+inline mesh to_mesh(const cylinder& shape) {
+    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "cylinder.radius", shape.radius,
+                    "finite and positive");
+    detail::require(numeric::is_finite(shape.length) && shape.length > 0, "cylinder.length", shape.length,
+                    "finite and positive");
+    const auto radius = static_cast<double>(shape.radius);
+    const double half = 0.5 * static_cast<double>(shape.length);
+    const std::array<outline_point, 6> outline = {{{0, -half, 0, -1},
+                                                   {radius, -half, 0, -1},
+                                                   {radius, -half, 1, 0},
+                                                   {radius, half, 1, 0},
+                                                   {radius, half, 0, 1},
+                                                   {0, half, 0, 1}}};
+    return revolve(outline, shape.segments, axis::x);
+}
+
+/// @throws invalid_input for a radius that is not finite and positive, a length that is not finite or below 2 radius,
+///         or segments outside 3 to 8192
+inline mesh to_mesh(const capsule& shape) {
+    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "capsule.radius", shape.radius,
+                    "finite and positive");
+    detail::require(numeric::is_finite(shape.length) && shape.length >= 2 * shape.radius, "capsule.length",
+                    shape.length, "finite and at least twice the radius");
+    detail::require_round_segments("capsule.segments", shape.segments);
+    const auto radius = static_cast<double>(shape.radius);
+    const double straight = 0.5 * static_cast<double>(shape.length) - radius;
+    const int steps = (shape.segments + 3) / 4;
+    std::vector<outline_point> outline;
+    detail::append_arc(outline, radius, -straight, 0.0, 0.25, steps);
+    detail::append_arc(outline, radius, straight, 0.25, 0.5, steps);
+    return revolve(outline, shape.segments, axis::x);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

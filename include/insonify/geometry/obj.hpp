@@ -1,0 +1,268 @@
+// Wavefront OBJ import: triangles and normals, from text that may be broken or hostile.
+//
+// Source: Wavefront Technologies. Advanced Visualizer Manual, appendix B1: Object Files (.obj), 1993.
+#pragma once
+
+#include <insonify/core/numeric.hpp>
+#include <insonify/geometry/mesh.hpp>
+#include <insonify/geometry/normals.hpp>
+#include <insonify/geometry/triangulate.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+/// One pass over the text. Words are parted by blanks; a backslash at the end of a line continues it.
+class obj_reader {
+  public:
+    obj_reader(std::string_view text, std::string_view name) : text_(text), name_(name) {}
+
+    mesh read() {
+        // A corner takes at least two characters and makes at most three entries: 32 bits count them.
+        if (text_.size() > (std::size_t{1} << 31)) fail("the text is longer than 2 GiB");
+        if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;  // byte order mark
+        while (at_ < text_.size()) {
+            const std::string_view keyword = word();
+            if (keyword == "v") {
+                positions_.push_back(vector());
+            } else if (keyword == "vn") {
+                normals_.push_back(vector());
+            } else if (keyword == "f") {
+                face();
+            }
+            finish_line();
+        }
+        return assemble();
+    }
+
+  private:
+    /// A corner of a face, as indices into the file's positions and normals.
+    struct corner {
+        std::uint32_t position, normal;
+    };
+    static constexpr std::uint32_t none = (std::numeric_limits<std::uint32_t>::max)();
+
+    // Text.
+
+    /// Characters of the line end at `at`: LF, CR or CR LF; 0 if there is none.
+    std::size_t line_end(std::size_t at) const {
+        if (at >= text_.size()) return 0;
+        if (text_[at] == '\r') return at + 1 < text_.size() && text_[at + 1] == '\n' ? 2 : 1;
+        return text_[at] == '\n' ? 1 : 0;
+    }
+    std::size_t continuation(std::size_t at) const {
+        const std::size_t end = text_[at] == '\\' ? line_end(at + 1) : 0;
+        return end > 0 ? end + 1 : 0;
+    }
+    static bool blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+
+    /// One character on, or over a continuation.
+    void advance() {
+        const std::size_t continued = continuation(at_);
+        line_ += continued > 0 ? 1 : 0;
+        at_ += continued > 0 ? continued : 1;
+    }
+
+    /// The next word of the line; empty at its end, or where a comment starts.
+    std::string_view word() {
+        while (at_ < text_.size() && (blank(text_[at_]) || continuation(at_) > 0)) advance();
+        const std::size_t first = at_;
+        while (at_ < text_.size() && !blank(text_[at_]) && text_[at_] != '#' && line_end(at_) == 0 &&
+               continuation(at_) == 0) {
+            ++at_;
+        }
+        return text_.substr(first, at_ - first);
+    }
+
+    /// Passes over what nobody asked for; a comment isn't continued.
+    void finish_line() {
+        while (at_ < text_.size() && line_end(at_) == 0) {
+            if (text_[at_] == '#') {
+                at_ = (std::min)(text_.find_first_of("\r\n", at_), text_.size());
+            } else {
+                advance();
+            }
+        }
+        at_ += line_end(at_);
+        ++line_;
+    }
+
+    [[noreturn]] void fail(const std::string& reason) const {
+        raise(io_error(std::string(name_) + ":" + to_text(line_) + ": " + reason));
+    }
+    static std::string quoted(std::string_view word) {
+        return "'" + std::string(word.substr(0, 40)) + (word.size() > 40 ? "...'" : "'");
+    }
+
+    // Elements.
+
+    float number() {
+        const std::string_view digits = word();
+        if (digits.empty()) fail("a vertex or normal has fewer than 3 numbers");
+        // from_chars takes no plus, so it is stepped over, but not before a minus.
+        const bool plus = digits[0] == '+' && digits.substr(1, 1) != "-";
+        const char* const first = digits.data() + (plus ? 1 : 0);
+        const char* const last = digits.data() + digits.size();
+        double value = 0;
+        const auto [end, status] = std::from_chars(first, last, value);
+        if (status == std::errc::invalid_argument || end != last) fail(quoted(digits) + " is not a number");
+        constexpr auto limit = static_cast<double>((std::numeric_limits<float>::max)());
+        if (status != std::errc{} || !(value >= -limit && value <= limit)) {
+            fail(quoted(digits) + " is not a finite number that a float can hold");
+        }
+        return static_cast<float>(value);
+    }
+    glm::vec3 vector() {
+        const float x = number(), y = number();
+        return {x, y, number()};
+    }
+
+    /// From the file's count, from 1 up or from -1 back, to a count from 0.
+    std::uint32_t index(std::string_view digits, std::size_t given, const char* what) {
+        std::int64_t value = 0;
+        const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        const auto count = static_cast<std::int64_t>(given);
+        const bool whole = status == std::errc{} && end == digits.data() + digits.size();
+        if (!whole || value == 0 || value > count || value < -count) {
+            fail(std::string(what) + " index " + quoted(digits) + " is none of 1 to " + to_text(count) + " or -1 to -" +
+                 to_text(count) + ", the lines given so far");
+        }
+        return static_cast<std::uint32_t>(value > 0 ? value - 1 : count + value);
+    }
+
+    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`; what stands for the texture is passed over.
+    corner parse_corner(std::string_view text) {
+        const std::size_t slash = text.find('/');
+        const std::size_t second = slash == text.npos ? text.npos : text.find('/', slash + 1);
+        corner out{index(text.substr(0, slash), positions_.size(), "position"), none};
+        if (second != text.npos && second + 1 < text.size()) {
+            out.normal = index(text.substr(second + 1), normals_.size(), "normal");
+        }
+        return out;
+    }
+
+    void face() {
+        polygon_.clear();
+        outline_.clear();
+        cuts_.clear();
+        for (std::string_view text = word(); !text.empty(); text = word()) {
+            polygon_.push_back(parse_corner(text));
+            outline_.push_back(positions_[polygon_.back().position]);
+        }
+        if (polygon_.size() < 3) fail("a face has " + to_text(polygon_.size()) + " corners, expected at least 3");
+        triangulate(outline_, cuts_);
+        for (const glm::uvec3& cut : cuts_) {
+            for (int i = 0; i < 3; ++i) corners_.push_back(polygon_[cut[i]]);
+        }
+    }
+
+    /// Each distinct pair of position and normal becomes a vertex, in the order of the file's positions.
+    mesh assemble() const {
+        // Sort corners into one bucket per position, then each bucket by normal.
+        std::vector<std::uint32_t> bucket(positions_.size() + 1, 0);
+        for (const corner& c : corners_) ++bucket[c.position];
+        std::uint32_t end = 0;
+        for (std::uint32_t& b : bucket) b = end += b;
+        std::vector<std::uint32_t> order(corners_.size());
+        for (std::size_t i = corners_.size(); i-- > 0;) {
+            order[--bucket[corners_[i].position]] = static_cast<std::uint32_t>(i);
+        }
+
+        mesh out;
+        bool complete = true;
+        std::vector<std::uint32_t> vertex(corners_.size());
+        for (std::size_t p = 0; p < positions_.size(); ++p) {
+            const auto first = order.begin() + bucket[p], last = order.begin() + bucket[p + 1];
+            std::sort(first, last, [&](auto a, auto b) { return corners_[a].normal < corners_[b].normal; });
+            for (auto at = first; at != last; ++at) {
+                const std::uint32_t normal = corners_[*at].normal;
+                if (at == first || normal != corners_[*(at - 1)].normal) {
+                    const glm::dvec3 n = normal == none ? glm::dvec3(0) : glm::dvec3(normals_[normal]);
+                    const double length = numeric::square_root(glm::dot(n, n));
+                    complete = complete && length > 0;
+                    out.positions.push_back(positions_[p]);
+                    out.normals.push_back(length > 0 ? glm::vec3(n / length) : glm::vec3(0));
+                }
+                vertex[*at] = static_cast<std::uint32_t>(out.positions.size() - 1);
+            }
+        }
+        out.triangles.reserve(vertex.size() / 3);
+        for (std::size_t i = 0; i < vertex.size(); i += 3) {
+            out.triangles.emplace_back(vertex[i], vertex[i + 1], vertex[i + 2]);
+        }
+
+        // Compute what the file left out.
+        if (!complete) {
+            const std::vector<glm::vec3> smooth = smooth_normals(out);
+            for (std::size_t i = 0; i < smooth.size(); ++i) {
+                if (out.normals[i] == glm::vec3(0)) out.normals[i] = smooth[i];
+            }
+        }
+        return out;
+    }
+
+    std::string_view text_;
+    std::string_view name_;
+    std::size_t at_ = 0;
+    std::size_t line_ = 1;
+    std::vector<glm::vec3> positions_, normals_;
+    std::vector<corner> corners_;  // three per triangle
+    std::vector<corner> polygon_;  // the face being read
+    std::vector<glm::vec3> outline_;
+    std::vector<glm::uvec3> cuts_;
+};
+
+}  // namespace detail
+
+/// The polygons of a Wavefront OBJ text as one mesh, in time linear in its length.
+///
+/// Read are `v` (numbers after the third, weights or colours, are ignored), `vn` and `f`; every other line is passed
+/// over. Polygons become triangles by `triangulate`. A position is kept once for each normal it is used with, and not
+/// at all if no face uses it. Corners without a normal get `smooth_normals`. The frame is the file's own, commonly y
+/// up: turn such a model upright by `pose{.roll = 90_deg}`.
+///
+/// @param name  what error messages call the text
+/// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
+///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; more than
+///         2 GiB of text
+inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text") {
+    return detail::obj_reader(text, name).read();
+}
+
+/// `read_obj` of a file.
+/// @throws io_error if the file can't be read, with the system's reason, and as `read_obj` does
+inline mesh load_obj(const std::string& path) {
+    const auto fail = [&] { detail::raise(io_error(path + ": " + std::generic_category().message(errno))); };
+    const auto close = [](std::FILE* f) { std::fclose(f); };
+    const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
+    if (!file) fail();
+
+    // Grow by doubling and read until the end: a size asked beforehand says nothing about pipes.
+    std::string text;
+    for (std::size_t filled = 0;;) {
+        text.resize((std::max)(std::size_t{1} << 16, 2 * text.size()));
+        filled += std::fread(text.data() + filled, 1, text.size() - filled, file.get());
+        if (std::ferror(file.get())) fail();
+        if (filled < text.size()) {
+            text.resize(filled);
+            return read_obj(text, path);
+        }
+    }
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

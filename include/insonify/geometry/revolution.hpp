@@ -1,0 +1,134 @@
+// Surfaces of revolution: the one builder behind cylinders, cones, spheres, and anything else turned on a lathe.
+#pragma once
+
+#include <insonify/core/numeric.hpp>
+#include <insonify/geometry/mesh.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace insonify::inline INSONIFY_ABI {
+
+enum class axis { x, y, z };
+
+/// A point of the outline that is turned about the axis, and the unit normal there, both in the half plane
+/// (distance from the axis, height along it); metres.
+struct outline_point {
+    double radius = 0;
+    double height = 0;
+    double normal_radius = 0;
+    double normal_height = 0;
+};
+
+/// Fewest segments of a regular polygon, at least 3, whose edges stay within `chord_error` of the circle around it:
+/// n >= pi / acos(1 - e / r).
+/// @param radius, chord_error  in the same unit, finite and positive
+/// @throws invalid_input for other values, or if more than 2^20 segments were needed
+inline int segments_for(float radius, float chord_error) {
+    detail::require(numeric::is_finite(radius) && radius > 0, "radius", radius, "finite and positive");
+    detail::require(numeric::is_finite(chord_error) && chord_error > 0, "chord_error", chord_error,
+                    "finite and positive");
+    const double ratio = static_cast<double>(chord_error) / static_cast<double>(radius);
+    if (ratio >= 0.5) return 3;  // a triangle's edges are r / 2 away
+
+    // acos(1 - x) = atan2(sqrt(x (2 - x)), 1 - x) keeps its digits for small x.
+    const double half_angle = numeric::atan2(numeric::square_root(ratio * (2 - ratio)), 1 - ratio);
+    const double segments = numeric::pi / half_angle;
+    detail::require(segments <= 0x1p20, "chord_error", chord_error, "reachable with 2^20 segments");
+    // A ratio that is whole but for rounding is taken as whole.
+    return static_cast<int>(numeric::floor_to_int(segments * (1 - 1e-12))) + 1;
+}
+
+namespace detail {
+
+/// Appends an arc of a circle centred on the axis, `steps` + 1 points from `first` to `last`: turns, counted from the
+/// lowest point (0) over the equator (1/4) to the highest (1/2).
+inline void append_arc(std::vector<outline_point>& outline, double radius, double centre, double first, double last,
+                       int steps) {
+    for (int i = 0; i <= steps; ++i) {
+        const auto [sine, cosine] = numeric::sin_cos_turns(first + (last - first) * i / steps);
+        outline.push_back({radius * sine, centre - radius * cosine, sine, -cosine});
+    }
+}
+
+/// Grid of `segments` by half as many rings: a bound that keeps the mesh below 2^26 triangles.
+inline void require_round_segments(const char* name, int segments) {
+    require(segments >= 3 && segments <= 8192, name, segments, "3 to 8192");
+}
+
+}  // namespace detail
+
+/// The outline turned about an axis. Two points in the same place with different normals make a sharp edge.
+///
+/// Vertices lie on the true surface, so the mesh is inscribed where it bulges and its error falls with segments^-2.
+/// It is closed if the outline starts and ends on the axis; closed by index alone if it has no sharp edge and no tip.
+///
+/// @param outline   from low to high along the outside, so that triangles face away from the axis
+/// @param segments  around the axis, 3 to 2^20
+/// @throws invalid_input for another number of segments, more than 2^28 vertices, or a point that is not finite or
+///         beyond the axis
+inline mesh revolve(std::span<const outline_point> outline, int segments, axis around = axis::z) {
+    detail::require(segments >= 3 && segments <= (1 << 20), "segments", segments, "3 to 2^20");
+    const auto count = static_cast<std::uint32_t>(segments);
+    detail::require(outline.size() <= (std::size_t{1} << 28) / count, "outline.size()", outline.size(),
+                    "at most 2^28 vertices in all");
+
+    mesh out;
+    // The components of a vector along the axis and across it follow each other cyclically: a rotation, not a mirror.
+    const int along = static_cast<int>(around);
+    const auto turned = [&](double radius, double height, const numeric::sine_cosine& angle) {
+        glm::vec3 v;
+        v[along] = static_cast<float>(height);
+        v[(along + 1) % 3] = static_cast<float>(radius * angle.cosine);
+        v[(along + 2) % 3] = static_cast<float>(radius * angle.sine);
+        return v;
+    };
+    const auto add_vertex = [&](const outline_point& p, const numeric::sine_cosine& angle) {
+        out.positions.push_back(turned(p.radius, p.height, angle));
+        out.normals.push_back(turned(p.normal_radius, p.normal_height, angle));
+    };
+
+    std::vector<numeric::sine_cosine> angles(count), half_angles(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        angles[i] = numeric::sin_cos_turns(i / static_cast<double>(segments));
+        half_angles[i] = numeric::sin_cos_turns((i + 0.5) / segments);
+    }
+
+    struct ring {
+        std::uint32_t first;
+        std::uint32_t step;  // 0: all segments share one vertex
+        std::uint32_t operator()(std::uint32_t segment) const { return first + step * segment; }
+    };
+    ring below{};
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        const outline_point& p = outline[k];
+        detail::require(numeric::is_finite(p.radius) && p.radius >= 0, "outline_point.radius", p.radius,
+                        "finite and at least 0");
+        detail::require(numeric::is_finite(p.height), "outline_point.height", p.height, "finite");
+        const bool on_axis = p.radius == 0;
+        const ring here{static_cast<std::uint32_t>(out.positions.size()), on_axis && p.normal_radius == 0 ? 0u : 1u};
+
+        // A smooth pole is one vertex; the tip of a cone is one per segment, with the normal of that segment's middle.
+        if (here.step == 0) {
+            add_vertex(p, {0, 1});
+        } else {
+            for (const auto& angle : on_axis ? half_angles : angles) add_vertex(p, angle);
+        }
+
+        const bool joined = k > 0 && (outline[k - 1].radius != p.radius || outline[k - 1].height != p.height);
+        const bool below_on_axis = k > 0 && outline[k - 1].radius == 0;
+        for (std::uint32_t i = 0; joined && i < count; ++i) {
+            const std::uint32_t j = i + 1 == count ? 0 : i + 1;
+            if (!below_on_axis) out.triangles.emplace_back(below(i), below(j), here(on_axis ? i : j));
+            if (!on_axis) out.triangles.emplace_back(below(i), here(j), here(i));
+        }
+        below = here;
+    }
+    return out;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

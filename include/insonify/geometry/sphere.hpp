@@ -1,0 +1,67 @@
+// Spheres and hemispheres, and by their aspect ellipsoids: boulders, floats, half-buried balls.
+#pragma once
+
+#include <insonify/geometry/revolution.hpp>
+#include <insonify/geometry/transform.hpp>
+
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A sphere centred at the origin, stretched along x, y and z by `aspect`: the semi-axes are radius * aspect.
+/// An edge of its mesh deviates as an edge of the circle does (`segments_for`), the middle of a face up to twice that.
+struct sphere {
+    float radius = 0.5f;  ///< metres
+    glm::vec3 aspect{1};
+    int segments = 64;  ///< around z, 3 to 8192; half as many rings from pole to pole
+};
+
+/// The upper half of a sphere, standing on the plane z = 0 with a flat base: what a half-buried one shows.
+struct hemisphere {
+    float radius = 0.5f;  ///< metres
+    glm::vec3 aspect{1};
+    int segments = 64;  ///< around z, 3 to 8192; a quarter as many rings
+};
+
+namespace detail {
+
+/// Turns an outline about z and stretches the result; the normals follow.
+inline mesh stretched_round(const std::vector<outline_point>& outline, const glm::vec3& aspect, int segments) {
+    mesh out = revolve(outline, segments);
+    if (aspect == glm::vec3(1)) return out;
+    affine stretch;
+    for (int i = 0; i < 3; ++i) {
+        require(numeric::is_finite(aspect[i]) && aspect[i] > 0, "aspect", aspect[i], "finite and positive");
+        stretch.linear[i][i] = static_cast<double>(aspect[i]);
+    }
+    return transformed(std::move(out), stretch);
+}
+
+}  // namespace detail
+
+/// Closed by index: every vertex is shared, and the poles are one vertex each.
+/// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
+inline mesh to_mesh(const sphere& shape) {
+    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "sphere.radius", shape.radius,
+                    "finite and positive");
+    detail::require_round_segments("sphere.segments", shape.segments);
+    std::vector<outline_point> outline;
+    detail::append_arc(outline, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
+    return detail::stretched_round(outline, shape.aspect, shape.segments);
+}
+
+/// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
+inline mesh to_mesh(const hemisphere& shape) {
+    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "hemisphere.radius", shape.radius,
+                    "finite and positive");
+    detail::require_round_segments("hemisphere.segments", shape.segments);
+    const auto radius = static_cast<double>(shape.radius);
+    std::vector<outline_point> outline = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
+    detail::append_arc(outline, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
+    return detail::stretched_round(outline, shape.aspect, shape.segments);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

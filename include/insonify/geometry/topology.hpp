@@ -1,0 +1,96 @@
+// Is a mesh closed? The question to ask of an imported target before it casts a shadow.
+#pragma once
+
+#include <insonify/geometry/mesh.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// What a mesh is as a surface, with vertices in the same place taken as one (sharp edges split them for their
+/// normals).
+struct topology {
+    std::size_t vertices = 0;        ///< distinct positions that triangles use
+    std::size_t edges = 0;           ///< pairs of vertices that triangles join
+    std::size_t triangles = 0;       ///< without the degenerate ones
+    std::size_t degenerate = 0;      ///< triangles with two corners in the same place, left out of everything else
+    std::size_t boundary_edges = 0;  ///< edges with one triangle
+    std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that run along it the same way
+
+    /// Every edge joins two triangles of the same orientation.
+    bool closed() const { return triangles > 0 && boundary_edges == 0 && tangled_edges == 0; }
+    /// V - E + F: 2 for a closed surface of one piece without handles.
+    std::int64_t euler_characteristic() const {
+        return static_cast<std::int64_t>(vertices + triangles) - static_cast<std::int64_t>(edges);
+    }
+};
+
+/// For each position, the index of the first that equals it; NaN equals nothing.
+inline std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions) {
+    const auto key = [&](std::uint32_t i) {
+        const glm::vec3& p = positions[i];
+        return std::tuple(p.x, p.y, p.z);
+    };
+    const auto is_nan = [&](std::uint32_t i) { return !(key(i) == key(i)); };
+
+    std::vector<std::uint32_t> order(positions.size()), first(positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    first = order;
+    order.erase(std::remove_if(order.begin(), order.end(), is_nan), order.end());
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        if (key(order[i]) == key(order[i - 1])) first[order[i]] = first[order[i - 1]];
+    }
+    return first;
+}
+
+/// O(n log n) in the triangles.
+/// @throws invalid_input if an index has no position
+inline topology inspect(const mesh& m) {
+    validate(m);
+    topology out;
+    const std::vector<std::uint32_t> first = weld(m.positions);
+
+    // An edge is sorted under its lower vertex; the third element tells which way the triangle runs along it.
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, bool>> sides;
+    std::vector<bool> used(m.positions.size());
+    sides.reserve(3 * m.triangles.size());
+    for (const glm::uvec3& t : m.triangles) {
+        const std::uint32_t corners[3] = {first[t.x], first[t.y], first[t.z]};
+        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
+            ++out.degenerate;
+            continue;
+        }
+        ++out.triangles;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [a, b] = std::pair(corners[i], corners[(i + 1) % 3]);
+            sides.emplace_back((std::min)(a, b), (std::max)(a, b), a < b);
+            out.vertices += used[a] ? 0u : 1u;
+            used[a] = true;
+        }
+    }
+    std::sort(sides.begin(), sides.end());
+
+    for (std::size_t i = 0, end; i < sides.size(); i = end) {
+        const auto [a, b, backwards] = sides[i];
+        for (end = i + 1; end < sides.size() && std::get<0>(sides[end]) == a && std::get<1>(sides[end]) == b;) ++end;
+        ++out.edges;
+        if (end - i == 1) {
+            ++out.boundary_edges;
+        } else if (end - i > 2 || std::get<2>(sides[i + 1]) == backwards) {
+            ++out.tangled_edges;
+        }
+    }
+    return out;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,118 @@
+// Where a mesh stands in the world: poses for people, affine maps for the machine. Double precision throughout.
+//
+// A world position may be 10^7 m from the origin (UTM), where a float steps by 1 m. Compose the maps first, from object
+// to camera, and round to float last.
+#pragma once
+
+#include <insonify/core/numeric.hpp>
+#include <insonify/geometry/mesh.hpp>
+
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Where an object stands and how it is turned: scaled first, then rolled, pitched, yawed, and moved.
+///
+/// The frame is right-handed with z up, and a positive angle is counter-clockwise seen against its axis:
+///   yaw    about z, from x (starboard) towards y (forward)
+///   pitch  about y, from z towards x: the +x end goes down
+///   roll   about x, from y towards z: the +y side goes up
+struct pose {
+    glm::dvec3 position{0};  ///< of the object's origin, metres
+    float yaw = 0;           ///< radians
+    float pitch = 0;         ///< radians
+    float roll = 0;          ///< radians
+    float scale = 1;         ///< uniform, > 0
+    float burial = 0;        ///< metres of sinking below `position`, not scaled; negative raises
+};
+
+/// p -> linear p + offset.
+struct affine {
+    glm::dmat3 linear{1};
+    glm::dvec3 offset{0};
+};
+
+namespace detail {
+
+/// det(m) times the inverse transpose: the map of area vectors, of the cross product of two edges.
+inline glm::dmat3 cofactors(const glm::dmat3& m) {
+    return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
+}
+/// A vector without direction (zero, or not finite) stays as it is.
+inline glm::dvec3 unit(const glm::dvec3& n) {
+    const double square = glm::dot(n, n);
+    return square > 0 && numeric::is_finite(square) ? n / numeric::square_root(square) : n;
+}
+
+}  // namespace detail
+
+inline glm::dvec3 transform_point(const affine& map, const glm::dvec3& point) {
+    return map.linear * point + map.offset;
+}
+inline glm::dvec3 transform_direction(const affine& map, const glm::dvec3& direction) {
+    return map.linear * direction;
+}
+/// The unit normal of the transformed surface, on the same side of it as before; by the inverse transpose.
+inline glm::dvec3 transform_normal(const affine& map, const glm::dvec3& normal) {
+    const glm::dmat3 areas = detail::cofactors(map.linear);
+    const double determinant = glm::dot(map.linear[0], areas[0]);
+    return detail::unit(areas * (determinant < 0 ? -normal : normal));
+}
+
+/// First `inner`, then `outer`.
+inline affine compose(const affine& outer, const affine& inner) {
+    return {outer.linear * inner.linear, transform_point(outer, inner.offset)};
+}
+
+/// @throws invalid_input if the map flattens space, or is not finite
+inline affine inverse(const affine& map) {
+    const glm::dmat3 areas = detail::cofactors(map.linear);
+    const double determinant = glm::dot(map.linear[0], areas[0]);
+    detail::require(determinant != 0 && numeric::is_finite(determinant), "determinant of affine.linear", determinant,
+                    "finite and not 0");
+    const glm::dmat3 linear = glm::transpose(areas) / determinant;
+    return {linear, -(linear * map.offset)};
+}
+
+/// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
+/// @throws invalid_input for a value that is not finite, or a scale that is not positive (mirror with an `affine`)
+inline affine to_world(const pose& p) {
+    const auto require_finite = [](const char* name, auto value) {
+        detail::require(numeric::is_finite(value), name, value, "finite");
+    };
+    require_finite("pose.position.x", p.position.x);
+    require_finite("pose.position.y", p.position.y);
+    require_finite("pose.position.z", p.position.z);
+    require_finite("pose.yaw", p.yaw);
+    require_finite("pose.pitch", p.pitch);
+    require_finite("pose.roll", p.roll);
+    require_finite("pose.burial", p.burial);
+    detail::require(numeric::is_finite(p.scale) && p.scale > 0, "pose.scale", p.scale, "finite and positive");
+
+    const auto [sy, cy] = numeric::sin_cos(static_cast<double>(p.yaw));
+    const auto [sp, cp] = numeric::sin_cos(static_cast<double>(p.pitch));
+    const auto [sr, cr] = numeric::sin_cos(static_cast<double>(p.roll));
+    // The columns are where the object's axes go.
+    const glm::dmat3 rotation(glm::dvec3(cy * cp, sy * cp, -sp),                                    //
+                              glm::dvec3(cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr),  //
+                              glm::dvec3(cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr));
+    return {static_cast<double>(p.scale) * rotation, p.position - glm::dvec3(0.0, 0.0, static_cast<double>(p.burial))};
+}
+
+/// The mesh under the map, each coordinate rounded to float once. A mirroring map also swaps the winding, so that
+/// triangles keep facing outwards.
+inline mesh transformed(mesh m, const affine& map) {
+    for (glm::vec3& position : m.positions) position = glm::vec3(transform_point(map, position));
+    for (glm::vec3& normal : m.normals) normal = glm::vec3(transform_normal(map, normal));
+    if (glm::determinant(map.linear) < 0) {
+        for (glm::uvec3& triangle : m.triangles) std::swap(triangle.y, triangle.z);
+    }
+    return m;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,285 @@
+// OBJ import: what the format allows, what it must refuse, and how polygons are cut.
+#include <insonify/geometry/obj.hpp>
+#include <insonify/geometry/topology.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+
+namespace {
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+std::string refusal(std::string_view text) {
+    try {
+        in::read_obj(text, "a.obj");
+    } catch (const in::io_error& e) {
+        return e.what();
+    }
+    return "accepted";
+}
+
+glm::dvec3 area_of(const in::mesh& m) {
+    glm::dvec3 sum(0);
+    for (const glm::uvec3& t : m.triangles) {
+        const glm::dvec3 a = m.positions[t.x];
+        sum += 0.5 * glm::cross(glm::dvec3(m.positions[t.y]) - a, glm::dvec3(m.positions[t.z]) - a);
+    }
+    return sum;
+}
+double absolute_area_of(const in::mesh& m) {
+    double sum = 0;
+    for (const glm::uvec3& t : m.triangles) {
+        const glm::dvec3 a = m.positions[t.x];
+        sum += 0.5 * glm::length(glm::cross(glm::dvec3(m.positions[t.y]) - a, glm::dvec3(m.positions[t.z]) - a));
+    }
+    return sum;
+}
+
+// A polygon in the xy plane as OBJ text, tilted so that no coordinate plane is special.
+template <class Point>
+std::string polygon(int corners, Point point) {
+    std::string text, face = "f";
+    for (int i = 0; i < corners; ++i) {
+        const glm::dvec2 p = point(i);
+        text += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(0.5 * p.x - 0.25 * p.y) +
+                "\n";
+        face += " " + std::to_string(i + 1);
+    }
+    return text + face + "\n";
+}
+glm::dvec2 on_circle(int i, int count, double radius) {
+    const double angle = 2 * in::numeric::pi * i / count;
+    return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+double seconds_to_read(const std::string& text) {
+    const auto start = std::chrono::steady_clock::now();
+    in::read_obj(text);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string reference_directory() {
+    if (const char* from_environment = std::getenv("INSONIFY_REFERENCE_DIR")) return from_environment;
+#if defined(INSONIFY_REFERENCE_DIR)
+    return INSONIFY_REFERENCE_DIR;
+#else
+    return "../shared/reference";
+#endif
+}
+
+}  // namespace
+
+TEST_CASE("a face is read the same in every spelling of its indices and lines") {
+    const std::string face =
+        GENERATE("f 1 2 3", "f -4 -3 -2", "f 1/7 2/8 3/9", "f 1/ 2/ 3/", "f 1// 2// 3//", "f 1/1/ 2/1/ 3/1/",
+                 "f 1 2 3\r\n", "f\t1  2 \t3 \n", "f 1 2 3 # 4", "f 1 2 3#4", "f 1 \\\n2 3", "f 1 2\\\r\n 3",
+                 "f 1 2 3\n\n\n", "f 1 2 3\r", "  f 1 2 3\nusemtl C:\\steel\\new", "f 1 2 3\n\xC3\xA9t\xC3\xA9 1 2\n");
+    CAPTURE(face);
+    const in::mesh m = in::read_obj(square + face);
+    REQUIRE(m.triangles.size() == 1);
+    CHECK(m.triangles[0] == glm::uvec3(0, 1, 2));
+    CHECK(m.positions == std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+    CHECK(m.normals == std::vector<glm::vec3>(3, {0, 0, 1}));
+}
+
+TEST_CASE("numbers are read without the locale, in any length, and what follows the third is ignored") {
+    const in::mesh m = in::read_obj(
+        "\xEF\xBB\xBFv +1.5 -2e-3 .25 0.5 0.5 0.5\nv 0.123456789012345678901234567890123 1E2 1. nonsense\n"
+        "v 0 0 1e-60\nf 1 2 3");
+    CHECK(m.positions ==
+          std::vector<glm::vec3>{{1.5f, -2e-3f, 0.25f}, {0.12345678901234567f, 100.0f, 1.0f}, {0, 0, 0}});
+}
+
+TEST_CASE("lines of other kinds are passed over, and unused positions are dropped") {
+    // Facts of assimp PR 1654: a line element before the face.
+    const in::mesh m = in::read_obj("o 1\nv 0 0 0\nv 9 9 9\nv 1 1 1\nv 2 2 2\nl 1\np 1\ncurv2 1 2\nf 1 3 4");
+    CHECK(m.positions.size() == 3);
+    CHECK(m.triangles.size() == 1);
+    CHECK(in::read_obj("").triangles.empty());
+    CHECK(in::read_obj("# nothing").triangles.empty());
+    CHECK(in::read_obj("v 1 2 3").positions.empty());
+    CHECK(in::read_obj("\\").triangles.empty());
+    CHECK(in::read_obj("\\\n\\\r\n\\\r").triangles.empty());
+}
+
+TEST_CASE("each pair of position and normal is one vertex; missing and zero normals are computed") {
+    const std::string normals = "vn 0 0 2\nvn 1 0 0\nvn 0 0 0\n";
+    const in::mesh m = in::read_obj(square + normals + "f 1//1 2//1 3//1\nf 1//2 3//1 4//3\nf 1 3 4");
+    CHECK(m.positions.size() == 8);  // 1//1 1//2 1, 2//1, 3//1 3, 4//3 4
+    CHECK(m.normals[m.triangles[0].x] == glm::vec3(0, 0, 1));
+    CHECK(m.normals[m.triangles[1].x] == glm::vec3(1, 0, 0));
+    CHECK(m.normals[m.triangles[1].z] == glm::vec3(0, 0, 1));
+    CHECK(m.normals[m.triangles[2].x] == glm::vec3(0, 0, 1));
+    CHECK(m.triangles[0].z == m.triangles[1].y);
+    CHECK(m.triangles[0].x != m.triangles[1].x);
+    CHECK_NOTHROW(in::validate(m));
+    // Normals that take turns at one position are still two vertices.
+    CHECK(in::read_obj(square + normals + "f 1//1 2 3\nf 1//2 2 3\nf 1//1 3 4\nf 1//2 3 4").positions.size() == 5);
+}
+
+TEST_CASE("broken input is refused with the name of the text and the line") {
+    CHECK(refusal("v 0 0 0\nv 1 1\n") == "a.obj:2: a vertex or normal has fewer than 3 numbers");
+    CHECK(refusal("vn 0 0 x") == "a.obj:1: 'x' is not a number");
+    CHECK(refusal(square + "f 1 2\n") == "a.obj:5: a face has 2 corners, expected at least 3");
+    CHECK(refusal(square + "f 0 1 2").rfind("a.obj:5: position index '0' is none of 1 to 4", 0) == 0);
+    CHECK_THROWS_AS(in::read_obj("f 1 2 3"), in::io_error);
+
+    const std::string face = GENERATE(
+        "f", "f 1", "f 1 2 5", "f -5 1 2", "f 1 2 0", "f 1 2 -0", "f 1 2 x", "f 1 2 3x", "f 1 2 3.0", "f 1//1 2 3",
+        "f 1/1/1 2 3", "f 1//0 2 3", "f / 2 3", "f //1 2 3", "f 1 2 +3", "f 1/2/3/4 2 3", "f 1 2 99999999999999999999",
+        "f 1 2 -9223372036854775808", "f 1 2 4294967297", "f 5 6 7\nv 1 2 3\nv 4 5 6\nv 7 8 9", "f 1 2 \xFF");
+    CAPTURE(face);
+    CHECK_THROWS_WITH(in::read_obj(square + face, "b.obj"), ContainsSubstring("b.obj:5: "));
+}
+
+TEST_CASE("coordinates must be finite numbers that a float can hold") {
+    const std::string number = GENERATE("nan", "NaN", "inf", "-inf", "infinity", "1e999", "-1e999", "1e39", "1,5",
+                                        "0x10", "--1", "+-1", "1e", "e5", "+", "-", ".", "1.2.3");
+    CAPTURE(number);
+    CHECK_THROWS_AS(in::read_obj("v 0 0 " + number), in::io_error);
+    CHECK_THROWS_AS(in::read_obj("vn " + number + " 0 0\n"), in::io_error);
+}
+
+TEST_CASE("line numbers count continued lines and every line ending") {
+    CHECK(refusal("# \\\nv 0 \\\n0 0\r\n\r\nv x").rfind("a.obj:5:", 0) == 0);
+    CHECK(refusal("\r\r\nv x").rfind("a.obj:3:", 0) == 0);
+    CHECK(refusal("mtllib a\\\nb\nv x").rfind("a.obj:3:", 0) == 0);
+}
+
+TEST_CASE("a text cut off anywhere is read or refused, never worse") {
+    const std::string text = square + "vn 0 0 1\r\nf 1//1 \\\n 2//-1 3//1 4//1\n# end \\\nf -1 -2 -3\n";
+    for (std::size_t length = 0; length <= text.size(); ++length) {
+        try {
+            in::validate(in::read_obj(std::string(text, 0, length)));
+        } catch (const in::io_error&) {
+        }
+    }
+}
+
+TEST_CASE("polygons are covered exactly, convex or concave, whichever corner comes first") {
+    const double tilt = std::sqrt(1 + 0.25 + 0.0625);  // area of a plane z = x / 2 - y / 4 over its shadow
+    const auto area = [&](const std::string& text) {
+        const in::mesh m = in::read_obj(text);
+        // Triangles that overlap or face backwards would make the two differ.
+        CHECK(glm::length(area_of(m)) == Approx(absolute_area_of(m)));
+        CHECK(area_of(m).z > 0);
+        return absolute_area_of(m) / tilt;
+    };
+    SECTION("a regular polygon") {
+        CHECK(area(polygon(100, [](int i) { return on_circle(i, 100, 1.0); })) ==
+              Approx(50 * std::sin(2 * in::numeric::pi / 100)).epsilon(1e-4));
+    }
+    SECTION("an arrowhead, for which a fan is right from two of four corners only") {
+        const int shift = GENERATE(0, 1, 2, 3);
+        const glm::dvec2 corners[] = {{0, 0}, {2, -1}, {1, 0}, {2, 1}};
+        CHECK(area(polygon(4, [&](int i) { return corners[(i + shift) % 4]; })) == Approx(1));
+    }
+    SECTION("a comb, with collinear corners and deep gaps") {
+        const int shift = GENERATE(0, 1, 5, 11);
+        // Ten teeth: up, across, down, across; then back along the bottom.
+        const auto comb = [](int i) -> glm::dvec2 {
+            if (i >= 40) return i == 40 ? glm::dvec2(19, -1) : glm::dvec2(0, -1);
+            const double x = 2 * (i / 4) + (i % 4 >= 2 ? 1 : 0);
+            return {x, i % 4 == 1 || i % 4 == 2 ? 5 : 0};
+        };
+        // The comb runs clockwise; read it backwards.
+        CHECK(area(polygon(42, [&](int i) { return comb((41 - i + shift) % 42); })) == Approx(10 * 5 + 19));
+    }
+    SECTION("a star of 200 spikes") {
+        const auto star = [](int i) { return on_circle(i, 400, i % 2 == 0 ? 1.0 : 0.3); };
+        CHECK(area(polygon(400, star)) == Approx(400 * 0.5 * 0.3 * std::sin(2 * in::numeric::pi / 400)).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("a concave prism stays closed when its faces are cut") {
+    // An L: the two caps are concave.
+    std::string text;
+    const glm::ivec2 outline[] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+    for (const int z : {0, 1}) {
+        for (const glm::ivec2& p : outline) {
+            text += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(z) + "\n";
+        }
+    }
+    text += "f 6 5 4 3 2 1\nf 7 8 9 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n";
+    const in::mesh m = in::read_obj(text);
+    CHECK(in::inspect(m).closed());
+    CHECK(in::inspect(m).euler_characteristic() == 2);
+    CHECK(absolute_area_of(m) == Approx(2 * 3 + 8));
+}
+
+TEST_CASE("polygons that cross themselves or have no area give as many triangles as others") {
+    CHECK(in::read_obj("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4").triangles.size() == 2);
+    CHECK(in::read_obj("v 0 0 0\nf 1 1 1 1 1 1").triangles.size() == 4);
+    CHECK(in::read_obj("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 3 2 4 1").triangles.size() == 3);
+}
+
+TEST_CASE("hostile sizes cost linear time") {
+    // Bounds are wide: a quadratic reader would need minutes.
+    SECTION("a polygon with a million corners, convex or jagged") {
+        const bool jagged = GENERATE(false, true);
+        std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf";
+        for (int i = 0; i < 250000; ++i) text += jagged ? " 1 3 2 4" : " 1 2 3 4";
+        CHECK(seconds_to_read(text) < 10);
+    }
+    SECTION("many jagged polygons at the limit of ear clipping") {
+        std::string text = square;
+        for (int i = 0; i < 20; ++i) {
+            text += "\nf";
+            for (int k = 0; k < 128; ++k) text += " 1 3 2 4";
+        }
+        CHECK(seconds_to_read(text) < 10);
+    }
+    SECTION("one position with many normals") {
+        std::string text = square;
+        for (int i = 0; i < 100000; ++i) text += "vn 0 0 1\nf 1//-1 2//-1 3//-1\n";
+        CHECK(seconds_to_read(text) < 10);
+    }
+    SECTION("a megabyte of backslashes, continuations, or one word") {
+        CHECK(seconds_to_read(std::string(1000000, '\\')) < 10);
+        std::string continued;
+        for (int i = 0; i < 500000; ++i) continued += "\\\n";
+        CHECK(seconds_to_read(continued) < 10);
+        CHECK(refusal("v 0 0 " + std::string(1000000, 'x')).size() < 100);
+    }
+}
+
+TEST_CASE("a file is read like its text, and one that can't be read is refused by name and reason") {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("insonify_obj_" + std::to_string(now) + ".obj")).string();
+    std::FILE* file = std::fopen(path.c_str(), "wb");
+    REQUIRE(file != nullptr);
+    const std::string text = square + "# " + std::string(200000, '-') + "\r\nf 1 2 3 4\nf 1 2 5";
+    std::fwrite(text.data(), 1, text.size(), file);
+    std::fclose(file);
+    CHECK_THROWS_WITH(in::load_obj(path), ContainsSubstring(path + ":7: "));
+    std::remove(path.c_str());
+    CHECK_THROWS_WITH(in::load_obj(path), ContainsSubstring(path) && ContainsSubstring("No such file"));
+    CHECK_THROWS_AS(in::load_obj("."), in::io_error);
+}
+
+TEST_CASE("spot, a mesh of other people, is a closed surface of one piece") {
+    const std::string path = reference_directory() + "/meshes/spot.obj";
+    std::FILE* file = std::fopen(path.c_str(), "rb");
+    if (file == nullptr) {
+        WARN("skipped: no " << path);
+        return;
+    }
+    std::fclose(file);
+    const in::mesh spot = in::load_obj(path);
+    const in::topology t = in::inspect(spot);
+    CHECK(t.vertices == 2930);
+    CHECK(t.triangles == 5856);
+    CHECK(t.closed());
+    CHECK(t.euler_characteristic() == 2);
+}
