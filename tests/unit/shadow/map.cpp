@@ -1,0 +1,193 @@
+// Shadow maps against closed forms: lengths, contact, no false shadow, and rays marched one by one.
+#include <insonify/core/random.hpp>
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/geometry/cube.hpp>
+#include <insonify/seabed/sample.hpp>
+#include <insonify/seabed/tessellate.hpp>
+#include <insonify/shadow/lookup.hpp>
+
+#include <cmath>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+namespace shadow = insonify::shadow;
+
+namespace {
+
+double radians(double degrees) {
+    return in::numeric::to_radians(degrees);
+}
+
+shadow::height_map map_of(const in::mesh& m, const shadow::light_frame& light, double texel) {
+    shadow::height_map map(light, shadow::extent_of(m, {}, light), texel, 16384);
+    map.cast(m, {});
+    return map;
+}
+
+/// A cube of 1 m whose base lies on the datum around the origin.
+in::mesh standing_cube() {
+    return in::transformed(to_mesh(in::cube{}), {glm::dmat3(1), {0, 0, 0.5}});
+}
+
+float lit_on_ground(const shadow::height_map& map, double x, double y) {
+    return shadow::lit(map, {map.frame(), {x, y, 0}, {0, 0, 1}}, shadow::map{});
+}
+
+/// A rough seabed of crossing waves.
+struct waves {
+    static constexpr in::seabed::type kind = in::seabed::type::sand;
+    struct sampler {
+        void row(const in::seabed::scanline& line, std::span<float> heights) const {
+            for (std::size_t i = 0; i < heights.size(); ++i)
+                heights[i] = static_cast<float>(0.05 * std::sin(7 * line.x(i) + 2 * std::sin(3 * line.y)) +
+                                                0.02 * std::sin(23 * line.y + 9 * line.x(i)));
+        }
+    };
+    sampler prepare() const { return {}; }
+    float operator()(double x, double y) const { return in::seabed::height_at(prepare(), x, y); }
+};
+
+const double elevations[] = {1, 3, 6, 20, 45, 70, 89};
+
+}  // namespace
+
+TEST_CASE("All points of one ray share u and v, and the sun at the zenith leaves x and y alone") {
+    for (const double elevation : elevations) {
+        const shadow::light_frame light({radians(200), radians(elevation)});
+        const glm::dvec3 p(3, -2, 0.5), q = p + 4.0 * light.to_light();
+        const glm::dvec3 a = light(p), b = light(q);
+        CHECK(a.x == Approx(b.x));
+        CHECK(a.y == Approx(b.y));
+        CHECK(b.z > a.z);
+        CHECK(light.cot_elevation() == Approx(1 / std::tan(radians(elevation))));
+    }
+    const glm::dvec3 above = shadow::light_frame({0, radians(90)})({3, -2, 5});
+    CHECK(above.x == Approx(3));
+    CHECK(above.y == Approx(-2));
+}
+
+TEST_CASE("A cube's shadow on level ground is as long as its height over the tangent, to a texel") {
+    const double texel = 0.01;
+    for (const double elevation : elevations) {
+        const shadow::light_frame light({0, radians(elevation)});
+        const auto map = map_of(standing_cube(), light, texel);
+        const double length = 1 / std::tan(radians(elevation)), end = 0.5 + length;
+        CHECK(lit_on_ground(map, end + 1.1 * texel, 0) == 1);
+        if (length > 2 * texel) CHECK(lit_on_ground(map, end - 1.1 * texel, 0) == 0);
+        CHECK(lit_on_ground(map, -0.5 - 1.1 * texel, 0) == 1);
+        CHECK(lit_on_ground(map, 0.6 * end, 0.5 + 1.1 * texel) == 1);
+    }
+}
+
+TEST_CASE("A shadow begins where its object stands") {
+    const double texel = 0.01;
+    for (const double elevation : {1.0, 6.0, 20.0, 45.0, 70.0}) {
+        const shadow::light_frame light({0, radians(elevation)});
+        const auto map = map_of(standing_cube(), light, texel);
+        for (double x = 0.5 + texel; x < 0.5 + 0.9 / std::tan(radians(elevation)); x += 0.3 * texel)
+            CHECK(lit_on_ground(map, x, 0.013) == 0);
+    }
+}
+
+TEST_CASE("A plane that faces the light casts no shadow on itself, however it is tilted") {
+    for (const double elevation : elevations)
+        for (const double tilt : {-80.0, -30.0, -5.0, 0.0, 5.0, 30.0, 80.0})
+            for (const double azimuth : {0.0, 45.0, 23.7, 180.0}) {
+                const shadow::light_frame light({radians(azimuth), radians(elevation)});
+                const double rise = std::tan(radians(tilt));
+                const auto height = [=](double x, double y) { return rise * (0.8 * x + 0.6 * y); };
+                in::mesh plane;
+                for (const double y : {-1.0, 1.0})
+                    for (const double x : {-1.0, 1.0}) plane.positions.emplace_back(x, y, height(x, y));
+                plane.triangles = {{0, 1, 3}, {0, 3, 2}};
+                const auto map = map_of(plane, light, 0.02);
+                in::random_sequence random(3);
+                for (int n = 0; n < 50; ++n) {
+                    const double x = random.uniform(-0.9, 0.9), y = random.uniform(-0.9, 0.9);
+                    const shadow::receiver at(light, {x, y, height(x, y)}, {-0.8 * rise, -0.6 * rise, 1});
+                    if (!at.faces_light) continue;
+                    CHECK(shadow::lit(map, at, shadow::map{}) == 1);
+                    CHECK(shadow::lit(map, at, shadow::pcf{}) == 1);
+                }
+            }
+}
+
+TEST_CASE("On a rough seabed the map agrees with rays marched one by one") {
+    const auto field = in::seabed::sample(waves{}, {.origin = {0, 0}, .spacing = 0.03, .width = 200, .height = 200});
+    const in::mesh mesh = in::seabed::tessellate(field);
+    for (const double elevation : {6.0, 20.0, 60.0}) {
+        const shadow::light_frame light({radians(23.7), radians(elevation)});
+        const auto map = map_of(mesh, light, 0.008);
+        int both = 0, either = 0;
+        in::random_sequence random(4);
+        for (int n = 0; n < 4000; ++n) {
+            const double x = random.uniform(2.5, 5.5), y = random.uniform(2.5, 5.5);
+            const double z = static_cast<double>(field.height_at(x, y));
+            const glm::dvec3 facet(field.normal_at(x, y));
+            bool open = glm::dot(facet, light.to_light()) > 0;
+            for (double t = 0.004; open && t < 2; t += 0.004)
+                open = static_cast<double>(field.height_at(x - light.travel().x * t, y - light.travel().y * t)) <=
+                       z + t / light.cot_elevation() + 1e-6;
+            const shadow::receiver at(light, {x, y, z}, facet);
+            const bool lit = at.faces_light && shadow::lit(map, at, shadow::map{}) == 1;
+            both += open && lit;
+            either += open || lit;
+        }
+        INFO("elevation " << elevation);
+        CHECK(both > 0.95 * either);
+    }
+}
+
+TEST_CASE("PCF softens an edge and leaves the rest") {
+    const double texel = 0.02;
+    const shadow::light_frame light({0, radians(20)});
+    const auto map = map_of(standing_cube(), light, texel);
+    const auto soft = [&](double x) {
+        return shadow::lit(map, {light, {x, 0.01, 0}, {0, 0, 1}}, shadow::pcf{.radius = 1});
+    };
+    const double end = 0.5 + light.cot_elevation();
+    CHECK(soft(end - 0.5) == 0);
+    CHECK(soft(end + 0.5) == 1);
+    float before = 0;
+    bool halfway = false;
+    for (double x = end - 4 * texel; x < end + 4 * texel; x += 0.2 * texel) {
+        CHECK(soft(x) >= before);
+        before = soft(x);
+        halfway = halfway || (before > 0 && before < 1);
+    }
+    CHECK(halfway);
+}
+
+TEST_CASE("A map is the same for any executor, and an empty one leaves everything lit") {
+    const shadow::light_frame light({1, radians(10)});
+    const in::mesh m = standing_cube();
+    const auto extent = shadow::extent_of(m, {}, light);
+    shadow::height_map serial(light, extent, 0.02), parallel(light, extent, 0.02);
+    serial.cast(m, {});
+    in::thread_pool pool(3);
+    parallel.cast(m, {}, pool);
+    for (int j = 0; j < serial.rows(); ++j)
+        for (int i = 0; i < serial.columns(); ++i) REQUIRE(serial(i, j) == parallel(i, j));
+
+    CHECK(lit_on_ground(shadow::height_map{}, 0, 0) == 1);
+    CHECK(shadow::extent_of({}, {}, light).empty());
+    CHECK(shadow::height_map(light, {}, 0.1).empty());
+}
+
+TEST_CASE("More texels than allowed become coarser texels") {
+    const shadow::light_frame light({0, radians(1)});
+    const shadow::height_map map(light, shadow::extent_of(standing_cube(), {}, light), 1e-4, 512);
+    CHECK(map.columns() <= 512);
+    CHECK(map.rows() <= 512);
+    CHECK(map.texel() > 1e-4);
+}
+
+TEST_CASE("Lights and maps that can't be are refused") {
+    REQUIRE_THROWS_WITH(shadow::light_frame({0, 0}), ContainsSubstring("elevation is 0"));
+    REQUIRE_THROWS_AS(shadow::light_frame({0, 2}), in::invalid_input);
+    REQUIRE_THROWS_AS(shadow::light_frame({std::nan(""), 1}), in::invalid_input);
+    const shadow::light_frame light({0, 1});
+    REQUIRE_THROWS_WITH(shadow::height_map(light, {}, 0), ContainsSubstring("texel is 0"));
+    REQUIRE_THROWS_WITH(shadow::height_map(light, {}, 1, 0), ContainsSubstring("largest is 0"));
+}

@@ -1,0 +1,235 @@
+// Whole pictures against closed forms: where things appear, how long shadows are, what labels say.
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/geometry/cone.hpp>
+#include <insonify/geometry/cube.hpp>
+#include <insonify/geometry/cylinder.hpp>
+#include <insonify/geometry/sphere.hpp>
+#include <insonify/sonar/render.hpp>
+
+#include <cmath>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+using namespace in::literals;
+
+namespace {
+
+const in::seabed::flat plane{.surface = {.rms = 0}};
+
+in::scene cube_on_plane(double edge) {
+    in::scene s;
+    s.seabed = plane;
+    s.add(in::cube{.size = glm::vec3(static_cast<float>(edge))}, {.position = {-1, 0, edge / 2}}, "cube");
+    return s;
+}
+
+/// A row of the picture, by the target's instance and its shadow.
+struct extent {
+    int first = -1, last = -1;
+};
+template <class Fn>
+extent where(int width, Fn&& holds) {
+    extent e;
+    for (int x = 0; x < width; ++x)
+        if (holds(x)) {
+            if (e.first < 0) e.first = x;
+            e.last = x;
+        }
+    return e;
+}
+
+}  // namespace
+
+TEST_CASE("A cube's shadow is as long as its height over the tangent of the grazing angle, within a pixel") {
+    for (const float degrees : {4.0f, 6.0f, 12.0f, 30.0f, 60.0f}) {
+        const double edge = 0.2;
+        const in::overhead rig{.altitude = 3, .field_of_view = 90_deg, .size = {600, 600}, .grazing = degrees * 1_deg};
+        const in::overhead_geometry view(rig);
+        const auto picture = in::render(cube_on_plane(edge), rig);
+        // The row below the cube's middle; the shadow's tip is that of the cube's far top edge.
+        const auto shadow = where(600, [&](int x) { return picture.labels.shadow(x, 305) == 1; });
+        const double tip = -1 + edge / 2 + edge / std::tan(static_cast<double>(rig.grazing));
+        INFO("grazing " << degrees);
+        CHECK(std::abs(shadow.last + 1 - view.pixel({tip, 0, 0}).x) <= 1);
+        // It begins at the foot of the cube, which the camera at the origin sees: no gap.
+        const double foot = view.pixel({-1 + edge / 2, 0, 0}).x;
+        CHECK(shadow.first <= foot + 1);
+    }
+}
+
+TEST_CASE("A raised point appears away from the nadir, as a pinhole sees it") {
+    // research table: A = 3, x = 10, h = 0.3 -> 11.111.
+    const in::overhead_geometry view({.altitude = 3, .field_of_view = 150_deg, .size = {2000, 100}});
+    CHECK(view.pixel({10, 0, 0.3}).x == Approx(view.pixel({11.1111, 0, 0}).x).margin(0.01));
+    CHECK(view.pixel({0, 0, 0}).x == Approx(1000));
+    CHECK(view.pixel({0, 0, 0}).y == Approx(50));
+    // 120 degrees: a pixel of 2048 is 1.6914e-3 of the altitude.
+    CHECK(in::overhead_geometry({.altitude = 10}).ground_sampling() == Approx(1.6914e-2).epsilon(1e-4));
+}
+
+TEST_CASE("Level ground has one brightness: reflectivity x (intensity x sin(grazing) + sky)") {
+    in::scene s;
+    s.seabed = plane;
+    for (const float degrees : {0.5f, 6.0f, 45.0f, 90.0f}) {
+        const in::overhead rig{.size = {64, 48}, .grazing = degrees * 1_deg, .intensity = 0.8f, .sky = 0.1f};
+        const double sine = std::sin(static_cast<double>(rig.grazing));
+        const auto lambert = in::render(s, rig);
+        for (const float v : lambert.image.pixels()) CHECK(v == Approx(0.45 * (0.8 * sine + 0.1)).epsilon(1e-5));
+        const auto squared =
+            in::render(s, rig, in::render_options<in::shadow::pcf, in::labels, in::lambert_backscatter>{});
+        CHECK(squared.image(30, 20) == Approx(0.45 * (0.8 * sine * sine + 0.1)).epsilon(1e-5));
+        for (const std::uint16_t v : lambert.labels.shadow.pixels()) CHECK(v == in::labels::is_lit);
+    }
+}
+
+TEST_CASE("Labels say which target a pixel shows, who shades it, and what the bottom is") {
+    in::scene s;
+    s.seabed = plane;
+    s.add(in::sphere{.radius = 0.25f}, {.position = {-1, 0.6, 0.25}}, "sphere");
+    s.add(in::cylinder{.radius = 0.2f, .length = 1}, {.position = {-1, -0.6, 0.2}, .yaw = 90_deg}, "cylinder");
+    const auto picture = in::render(s, {.altitude = 3, .field_of_view = 90_deg, .size = {300, 300}, .grazing = 15_deg});
+    const in::labels& l = picture.labels;
+    REQUIRE(l.targets.size() == 2);
+    for (const in::target_label& t : l.targets) {
+        CHECK(t.area > 0);
+        CHECK(t.shadow_area > 0);
+        CHECK(t.shadow_box.x + t.shadow_box.width > t.box.x + t.box.width);  // shadows go right
+        std::int64_t area = 0, shadow_area = 0;
+        const auto target = in::target_mask(l, t.instance), shadow = in::shadow_mask(l, t.instance);
+        for (int y = 0; y < 300; ++y)
+            for (int x = 0; x < 300; ++x) {
+                const bool in_box =
+                    x >= t.box.x && x < t.box.x + t.box.width && y >= t.box.y && y < t.box.y + t.box.height;
+                area += target(x, y) == 255;
+                shadow_area += shadow(x, y) == 255;
+                if (target(x, y) == 255) CHECK(in_box);
+                if (target(x, y) == 255) CHECK(l.seabed(x, y) == in::labels::no_seabed);
+                if (shadow(x, y) == 255) CHECK(l.seabed(x, y) == static_cast<std::uint8_t>(in::seabed::type::sand));
+            }
+        CHECK(area == t.area);
+        CHECK(shadow_area == t.shadow_area);
+    }
+    CHECK(l.targets[0].class_name == "sphere");
+    CHECK(l.targets[0].box.y + l.targets[0].box.height <= l.targets[1].box.y);  // +y is up in the picture
+    // A pinhole sees the sphere as a disc of its own solid angle: area within a few per cent of the projection.
+    CHECK(l.targets[0].area == Approx(in::numeric::pi * std::pow(0.25 / 2.74 * 150, 2)).epsilon(0.12));
+}
+
+TEST_CASE("The picture is the same wherever in the world it is taken") {
+    const auto at = [](glm::dvec2 offset) {
+        in::scene s;
+        s.seabed = plane;
+        s.add(in::cone{.radius = 0.4f, .height = 0.8f}, {.position = glm::dvec3(offset, 0.4), .yaw = 20_deg}, "cone");
+        return in::render(s, {.position = offset, .altitude = 4, .size = {160, 120}});
+    };
+    const auto here = at({0, 0});
+    for (const glm::dvec2 offset : {glm::dvec2(1024, -4096), glm::dvec2(10000000, 5000000)}) {
+        const auto there = at(offset);
+        CHECK(there.image == here.image);
+        CHECK(there.labels.shadow == here.labels.shadow);
+    }
+}
+
+TEST_CASE("Camera, light and scene turned together give the same picture") {
+    const auto turned = [](float yaw) {
+        in::scene s;
+        s.seabed = plane;
+        const double c = std::cos(static_cast<double>(yaw)), d = std::sin(static_cast<double>(yaw));
+        s.add(in::cube{}, {.position = {-c, -d, 0.5}, .yaw = yaw + 0.3f}, "cube");
+        return in::render(s, {.altitude = 4, .yaw = yaw, .size = {200, 200}});
+    };
+    const auto a = turned(0), b = turned(1.1f);
+    int different = 0;
+    for (std::size_t i = 0; i < a.image.size(); ++i)
+        different += a.image.pixels()[i] != Approx(b.image.pixels()[i]).margin(1e-4);
+    CHECK(different < 300);  // pixels on edges, of 40000
+}
+
+TEST_CASE("The same bytes for any number of threads, tile size and instruction set") {
+    in::scene s;
+    s.seabed = in::seabed::rock{.relief = 0.2f};
+    s.add(in::cylinder{.segments = 24}, {.position = {0, 0, 0.6}, .yaw = 40_deg}, "cylinder");
+    const in::overhead rig{.altitude = 4, .yaw = 0.4f, .size = {230, 170}};
+    const auto expected = in::render(s, rig, in::render_options<>{.level = in::isa::scalar});
+    for (const int threads : {1, 2, 8}) {
+        in::thread_pool pool(threads);
+        for (const int tile : {16, 64}) {
+            const auto picture = in::render(s, rig, in::render_options<>{.tile = tile}, pool);
+            CHECK(picture.image == expected.image);
+            CHECK(picture.labels.shadow == expected.labels.shadow);
+            CHECK(picture.labels.instance == expected.labels.instance);
+            CHECK(picture.labels.seabed == expected.labels.seabed);
+        }
+    }
+}
+
+TEST_CASE("What is not asked for is not there") {
+    const in::scene s = cube_on_plane(0.3);
+    const in::overhead rig{.altitude = 3, .size = {100, 100}};
+    const auto bare = in::render(s, rig, in::render_options<in::shadow::none, in::no_labels>{});
+    static_assert(std::is_empty_v<decltype(bare.labels)>);
+    // Without shadows level ground is everywhere as bright as in the light.
+    CHECK(bare.image(90, 50) == bare.image(5, 5));
+    const auto shaded = in::render(s, rig, in::render_options<in::shadow::map, in::no_labels>{});
+    CHECK(shaded.image(5, 5) == bare.image(5, 5));
+    float darkest = 1;
+    for (const float v : shaded.image.pixels()) darkest = (std::min)(darkest, v);
+    CHECK(darkest == Approx(0.45f * 0.05f));
+}
+
+TEST_CASE("The picture is covered without gaps on every seabed") {
+    for (const in::seabed::any& seabed : {in::seabed::any(in::seabed::ripples{}), in::seabed::any(in::seabed::mud{}),
+                                          in::seabed::any(in::seabed::rock{.relief = 0.3f})}) {
+        in::scene s;
+        s.seabed = seabed;
+        for (const float yaw : {0.0f, 0.7f}) {
+            const auto picture = in::render(s, {.altitude = 5, .yaw = yaw, .size = {256, 200}});
+            CHECK(picture.stats.seabed.pixels == 256 * 200);
+            for (const std::uint8_t type : picture.labels.seabed.pixels()) CHECK(type < 4);
+        }
+    }
+}
+
+TEST_CASE("Resting on the seabed touches it, and burial goes on from there") {
+    const in::seabed::any seabed = in::seabed::ripples{};
+    const in::mesh shape = to_mesh(in::sphere{.radius = 0.3f, .segments = 24});
+    in::pose p = in::rest_on(seabed, shape, {.position = {3, 4, 77}, .burial = 0.1f});
+    const auto lowest = [&](const in::pose& at) {
+        const auto bottom = in::seabed::prepare(seabed);
+        double clearance = 1e9;
+        for (const glm::vec3& v : shape.positions) {
+            const glm::dvec3 w = in::transform_point(in::to_world(at), v);
+            clearance = (std::min)(clearance, w.z - static_cast<double>(in::seabed::at(bottom, w.x, w.y).height));
+        }
+        return clearance;
+    };
+    CHECK(lowest(p) == Approx(-0.1).margin(1e-6));
+    p.burial = 0;
+    CHECK(lowest(p) == Approx(0).margin(1e-6));
+    REQUIRE_THROWS_AS(in::rest_on(seabed, {}, {}), in::invalid_input);
+}
+
+TEST_CASE("Rigs that can't be are refused, by name and value") {
+    const in::scene s;
+    const auto refused = [&](const in::overhead& rig, const char* text) {
+        REQUIRE_THROWS_WITH(in::render(s, rig), ContainsSubstring(text));
+    };
+    refused({.altitude = 0}, "overhead.altitude is 0");
+    refused({.altitude = std::nanf("")}, "overhead.altitude is nan");
+    refused({.field_of_view = 180_deg}, "overhead.field_of_view");
+    refused({.size = {0, 5}}, "overhead.size.x is 0");
+    refused({.grazing = 0}, "overhead.grazing is 0");
+    refused({.intensity = -1}, "overhead.intensity is -1");
+    in::scene bad;
+    bad.add(in::cube{}, {.scale = 0}, "cube");
+    REQUIRE_THROWS_WITH(in::render(bad, {.size = {8, 8}}), ContainsSubstring("pose.scale is 0"));
+}
+
+TEST_CASE("Pictures of one pixel and of odd shapes are drawn") {
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(1, 40), glm::ivec2(301, 3)}) {
+        const auto picture = in::render(cube_on_plane(0.5), {.altitude = 3, .size = size});
+        CHECK(picture.stats.seabed.pixels == static_cast<std::uint64_t>(size.x * size.y));
+        for (const float v : picture.image.pixels()) CHECK((v >= 0 && v <= 1));
+    }
+}
