@@ -88,15 +88,15 @@ class overhead_painter {
         require(cells <= 32768, "cells", cells, "at most 32768");
         const double spacing = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y) / cells;
 
-        // A coarse look tells how high and deep the bottom goes; the margin makes up for what it misses.
-        const seabed::grid rough = footprint(0, 0, 0, 16 * spacing);
-        include_heights(seabed::sample(scene_.seabed, rough, ex), 0.25f);
-        const bool shadows = !std::is_same_v<Shadow, shadow::none>;
-        const double reach = static_cast<double>(highest_ - lowest_) * view_.light().cot_elevation();
+        // A coarse look, a picture's length up-light too, tells how high and deep the bottom goes; the margin makes up
+        // for what it misses.
         const double whole_picture = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
+        const double farthest = std::is_same_v<Shadow, shadow::none> ? 0 : whole_picture;
+        include_heights(seabed::sample(scene_.seabed, footprint(0, 0, farthest, 4 * spacing), ex), 0.25f);
+        const double reach = static_cast<double>(highest_ - lowest_) * view_.light().cot_elevation();
         field_ = seabed::sample(scene_.seabed,
                                 footprint(static_cast<double>(lowest_), static_cast<double>(highest_),
-                                          shadows ? (std::min)(reach, whole_picture) : 0, spacing),
+                                          (std::min)(reach, farthest), spacing),
                                 ex);
         include_heights(field_, 0);
         bottom_ = seabed::tessellate(field_, ex);

@@ -111,6 +111,32 @@ TEST_CASE("Varyings are interpolated as rays meet planes") {
     CHECK(worst_depth < 3e-4);
 }
 
+TEST_CASE("Depth stays between the depths of the corners, on slivers too") {
+    in::random_sequence random(8);
+    in::image<float> depth(64, 64);
+    int outside = 0;
+    for (int n = 0; n < 2000; ++n) {
+        in::mesh m{{}, {}, {{0, 1, 2}}};
+        const glm::dvec2 a(random.uniform(0, 64), random.uniform(0, 64)),
+            b(random.uniform(0, 64), random.uniform(0, 64));
+        const glm::dvec2 between = 0.5 * (a + b) + glm::dvec2(random.uniform(-0.02, 0.02));
+        for (const glm::dvec2& p : {a, b, between}) m.positions.emplace_back(p.x, p.y, random.uniform());
+        const auto [lowest, highest] = std::minmax({m.positions[0].z, m.positions[1].z, m.positions[2].z});
+        in::draw(m, pixel_space{64, 64},
+                 [&, lowest = lowest, highest = highest](const auto& f) {
+                     outside += f.depth < lowest || f.depth > highest;
+                 },
+                 in::framebuffer<void>{depth}, {.load = in::depth_load::clear});
+    }
+    CHECK(outside == 0);
+}
+
+TEST_CASE("Nothing is drawn in front of depth 0 or behind depth 1") {
+    const in::mesh ramp{{{0, 0, -1}, {64, 0, 3}, {0, 200, -1}, {64, 200, 3}}, {}, {{0, 1, 2}, {1, 3, 2}}};
+    const auto count = hits(ramp, 64, 64);
+    for (int x = 0; x < 64; ++x) CHECK(count(x, 30) == (x >= 16 && x < 32 ? 1 : 0));
+}
+
 TEST_CASE("What is nearer hides what is farther, whatever comes first; a tie stays with the first") {
     const auto sheet = [](float z) { return in::mesh{{{-9, -9, z}, {9, -9, z}, {0, 9, z}}, {}, {{0, 1, 2}}}; };
     const bool near_first = GENERATE(true, false);

@@ -191,6 +191,21 @@ TEST_CASE("The picture is covered without gaps on every seabed") {
     }
 }
 
+TEST_CASE("What stands beside the picture throws its shadow into it") {
+    // A wall 1 m high along y, 0.4 m beyond the left border; level ground elsewhere.
+    in::seabed::heightfield field{.heights = in::image<float>(401, 401), .origin = {-10, -10}, .spacing = 0.05};
+    const in::overhead rig{.altitude = 3, .field_of_view = 90_deg, .size = {200, 200}, .grazing = 20_deg};
+    for (int j = 0; j < 401; ++j)
+        for (int i = 124; i < 132; ++i) field.heights(i, j) = 1;  // x from -3.8 to -3.4
+    in::scene s;
+    s.seabed = field;
+    const auto picture = in::render(s, rig);
+    const double tip = in::overhead_geometry(rig).pixel({-3.4 + 1 / std::tan(20 * in::numeric::pi / 180), 0, 0}).x;
+    const auto dark = where(200, [&](int x) { return picture.labels.shadow(x, 100) == in::labels::by_seabed; });
+    CHECK(dark.first == 0);
+    CHECK(std::abs(dark.last + 1 - tip) <= 3);  // the wall's top edge is a cell wide
+}
+
 TEST_CASE("Resting on the seabed touches it, and burial goes on from there") {
     const in::seabed::any seabed = in::seabed::ripples{};
     const in::mesh shape = to_mesh(in::sphere{.radius = 0.3f, .segments = 24});
