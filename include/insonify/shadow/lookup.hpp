@@ -49,48 +49,54 @@ namespace detail {
 class map_receiver {
   public:
     map_receiver(const height_map& map, const receiver& r)
-        : at_(map.on_map(r.uvz)), slope_u_(map.on_map(r.slope_u)), slope_v_(map.on_map(r.slope_v)) {
+        : map_(map), at_(map.on_map(r.uvz)), slope_u_(map.on_map(r.slope_u)), slope_v_(map.on_map(r.slope_v)) {
         const auto size = [](float v) { return v < 0 ? -v : v; };
         bias_ = 1e-6f + size(slope_u_) + size(slope_v_);  // heights are rounded to 1e-7
-        // Points off the map stay within the range of int; every texel out there is open.
-        const auto whole = [](float v) {
-            return v > -1e6f && v < 1e6f ? static_cast<int>(v + 1e6f) - 1000000 : -1000000;
-        };
-        column_ = whole(at_.x);
-        row_ = whole(at_.y);
     }
 
-    /// Whether the ray through the texel that is (i, j) away from the nearest one gets past the map to this surface.
-    bool is_open(const height_map& map, int i, int j) const {
-        const int column = column_ + i, row = row_ + j;
-        if (column < 0 || row < 0 || column >= map.columns() || row >= map.rows()) return true;
-        const float plane = at_.z + slope_u_ * (static_cast<float>(column) + 0.5f - at_.x) +
-                            slope_v_ * (static_cast<float>(row) + 0.5f - at_.y);
-        return map(column, row) <= plane + bias_;
+    /// Whether no texel within `radius` of the nearest one is on the map: nothing can be in the way.
+    bool is_beyond(int radius) const {
+        const auto reach = static_cast<float>(radius);
+        return !(at_.x >= -reach && at_.y >= -reach && at_.x < static_cast<float>(map_.columns()) + reach &&
+                 at_.y < static_cast<float>(map_.rows()) + reach);
+    }
+
+    /// How many of the (2 radius + 1)^2 rays around the point get past the map to this surface. Expects !is_beyond.
+    int open_rays(int radius) const {
+        const int column = static_cast<int>(at_.x + 64) - 64, row = static_cast<int>(at_.y + 64) - 64;  // rounds down
+        int open = 0;
+        for (int j = row - radius; j <= row + radius; ++j)
+            for (int i = column - radius; i <= column + radius; ++i) open += is_open(i, j) ? 1 : 0;
+        return open;
     }
 
   private:
+    bool is_open(int column, int row) const {
+        if (column < 0 || row < 0 || column >= map_.columns() || row >= map_.rows()) return true;
+        const float plane = at_.z + slope_u_ * (static_cast<float>(column) + 0.5f - at_.x) +
+                            slope_v_ * (static_cast<float>(row) + 0.5f - at_.y);
+        return map_(column, row) <= plane + bias_;
+    }
+
+    const height_map& map_;
     glm::vec3 at_;
     float slope_u_, slope_v_, bias_;
-    int column_, row_;
 };
 
 }  // namespace detail
 
 /// Share of light that reaches a point: 0 or 1, from the nearest texel. Surfaces that face away count as level.
 inline float lit(const height_map& map, const receiver& r, const shadow::map&) {
-    return map.empty() || detail::map_receiver(map, r).is_open(map, 0, 0) ? 1.0f : 0.0f;
+    const detail::map_receiver at(map, r);
+    return at.is_beyond(0) || at.open_rays(0) == 1 ? 1.0f : 0.0f;
 }
 
-/// Share of light that reaches a point, averaged over (2 radius + 1)^2 texels.
+/// Share of light that reaches a point, averaged over (2 radius + 1)^2 texels; radius from 0 to 8.
 inline float lit(const height_map& map, const receiver& r, const pcf& how) {
-    if (map.empty()) return 1;
     const detail::map_receiver at(map, r);
-    int open = 0;
-    for (int j = -how.radius; j <= how.radius; ++j)
-        for (int i = -how.radius; i <= how.radius; ++i) open += at.is_open(map, i, j) ? 1 : 0;
-    const int taps = (2 * how.radius + 1) * (2 * how.radius + 1);
-    return static_cast<float>(open) / static_cast<float>(taps);
+    if (at.is_beyond(how.radius)) return 1;
+    const int rays = (2 * how.radius + 1) * (2 * how.radius + 1);
+    return static_cast<float>(at.open_rays(how.radius)) / static_cast<float>(rays);
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow

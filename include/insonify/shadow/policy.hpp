@@ -23,6 +23,18 @@ struct pcf {
     int radius = 1;  ///< texels, 0 to 8
 };
 
+/// @throws invalid_input for a value out of its range
+inline void validate(const none&) {}
+inline void validate(const map& m) {
+    detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel), "texels_per_pixel",
+                    m.texels_per_pixel, "above 0");
+    detail::require(m.largest >= 1 && m.largest <= 32768, "largest", m.largest, "1 to 32768");
+}
+inline void validate(const pcf& p) {
+    validate(map{p.texels_per_pixel, p.largest});
+    detail::require(p.radius >= 0 && p.radius <= 8, "radius", p.radius, "0 to 8 texels");
+}
+
 template <class P>
 concept policy = std::same_as<P, none> || std::same_as<P, map> || std::same_as<P, pcf>;
 

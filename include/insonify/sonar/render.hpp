@@ -58,6 +58,7 @@ class overhead_painter {
           depth_(rig.size.x, rig.size.y) {
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y);
+        validate(options.shadow);
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y);
         for (const target& t : s.targets) targets_.emplace_back(t.shape, view_.rig_from(to_world(t.placement)));
         sample_seabed(ex);
