@@ -1,0 +1,55 @@
+// From gray to colour by a table of 256 entries: `image | colormap::copper`.
+#pragma once
+
+#include <insonify/core/image.hpp>
+#include <insonify/core/quantize.hpp>
+
+#include <array>
+#include <concepts>
+#include <type_traits>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// The colour of each gray level. Floats in [0, 1] take the colour of the nearest level; NaN that of level 0.
+struct color_table {
+    std::array<rgb8, 256> colors;
+
+    using is_filter = std::true_type;
+
+    template <std::same_as<std::uint8_t> Level>
+    constexpr rgb8 operator()(Level level) const {
+        return colors[level];
+    }
+    template <std::same_as<float> Value>
+    constexpr rgb8 operator()(Value value) const {
+        return colors[quantize<std::uint8_t>(value)];
+    }
+};
+
+/// The table of `color(level)` for levels 0 to 255.
+template <class Fn>
+constexpr color_table tabulate_colors(Fn color) {
+    color_table table{};
+    for (int level = 0; level < 256; ++level) table.colors[static_cast<std::size_t>(level)] = color(level);
+    return table;
+}
+
+namespace colormap {
+
+/// MATLAB's copper(256): red min(1, 1.25 t), green 0.7812 t, blue 0.4975 t at t = level / 255, each to the nearest of
+/// 0 ... 255 in exact arithmetic, ties up.
+inline constexpr color_table copper = tabulate_colors([](int level) {
+    const int red = (5 * level + 2) / 4;
+    return rgb8{static_cast<std::uint8_t>(red < 255 ? red : 255),
+                static_cast<std::uint8_t>((7812 * level + 5000) / 10000),
+                static_cast<std::uint8_t>((4975 * level + 5000) / 10000)};
+});
+
+/// Gray as colour, for files that want three channels.
+inline constexpr color_table gray = tabulate_colors([](int level) {
+    const auto value = static_cast<std::uint8_t>(level);
+    return rgb8{value, value, value};
+});
+
+}  // namespace colormap
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,70 @@
+// What may stand to the right of an image in `image | filter`.
+//
+// A filter is a callable or a plain aggregate of one of three kinds:
+//
+//     image     f(image)                                                             -> image
+//     measured  f.pass(view), which looks at the whole image, returns a function as below
+//     pixel     f(pixel), f(pixel, x, y), or f.pass() that returns such a function   -> pixel
+//
+// What `pass` returns is a value and is copied for each run of rows, so it may remember what it drew for the last
+// pixel.
+#pragma once
+
+#include <insonify/core/image.hpp>
+
+#include <concepts>
+#include <type_traits>
+#include <utility>
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+/// What an image can hold: not void, not bool (whose vector has no pixels to point at).
+template <class T>
+concept storable = std::movable<T> && !std::same_as<T, bool>;
+
+/// Who asks for the position gets it.
+template <class Fn, class Pixel>
+    requires(std::invocable<Fn&, const Pixel&, int, int>)
+INSONIFY_INLINE auto call_pixel(Fn& fn, const Pixel& pixel, int x, int y) {
+    return fn(pixel, x, y);
+}
+template <class Fn, class Pixel>
+    requires(std::invocable<Fn&, const Pixel&> && !std::invocable<Fn&, const Pixel&, int, int>)
+INSONIFY_INLINE auto call_pixel(Fn& fn, const Pixel& pixel, int, int) {
+    return fn(pixel);
+}
+
+}  // namespace detail
+
+/// A function of a pixel, or of a pixel with its column and row, that returns a pixel.
+template <class Fn, class Pixel>
+concept pixel_function = requires(Fn& fn, const Pixel& pixel) {
+    { detail::call_pixel(fn, pixel, 0, 0) } -> detail::storable;
+};
+
+/// Takes an image and returns an image. Asked first: a generic lambda (`[](const auto& picture)`) is one of these.
+template <class F, class Pixel>
+concept image_filter = requires(const F& f, image<Pixel> in) {
+    requires std::same_as<std::remove_cvref_t<decltype(f(std::move(in)))>,
+                          image<typename std::remove_cvref_t<decltype(f(std::move(in)))>::value_type>>;
+};
+
+/// Looks at the whole image to know what to do with a pixel.
+template <class F, class Pixel>
+concept measured_filter = requires(const F& f, image_view<const Pixel> in) {
+    { f.pass(in) } -> pixel_function<Pixel>;
+};
+
+/// Works pixel by pixel.
+template <class F, class Pixel>
+concept pixel_filter = pixel_function<const F, Pixel> || requires(const F& f) {
+    { f.pass() } -> pixel_function<Pixel>;
+};
+
+/// Whatever may stand to the right of an image of such pixels.
+template <class F, class Pixel>
+concept filter_for = image_filter<F, Pixel> || measured_filter<F, Pixel> || pixel_filter<F, Pixel>;
+
+}  // namespace insonify::inline INSONIFY_ABI

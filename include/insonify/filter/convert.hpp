@@ -1,0 +1,48 @@
+// Filters between floats in [0, 1] and codes of 8 or 16 bits.
+#pragma once
+
+#include <insonify/core/image.hpp>
+#include <insonify/core/quantize.hpp>
+
+#include <type_traits>
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+/// Gray or colour, the same conversion per channel.
+template <pixel_code Code>
+struct to_code {
+    using is_filter = std::true_type;
+    template <std::same_as<float> Channel>
+    constexpr Code operator()(Channel value) const {
+        return quantize<Code>(value);
+    }
+    template <std::same_as<float> Channel>
+    constexpr rgb<Code> operator()(const rgb<Channel>& value) const {
+        return {quantize<Code>(value.r), quantize<Code>(value.g), quantize<Code>(value.b)};
+    }
+};
+
+struct to_unit {
+    using is_filter = std::true_type;
+    template <pixel_code Code>
+    constexpr float operator()(Code value) const {
+        return dequantize(value);
+    }
+    template <pixel_code Code>
+    constexpr rgb<float> operator()(const rgb<Code>& value) const {
+        return {dequantize(value.r), dequantize(value.g), dequantize(value.b)};
+    }
+};
+
+}  // namespace detail
+
+/// [0, 1] -> 0 ... 255 or 65535, to the nearest; values outside go to the nearer end, NaN to 0.
+inline constexpr detail::to_code<std::uint8_t> to_uint8{};
+inline constexpr detail::to_code<std::uint16_t> to_uint16{};
+
+/// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` takes it back exactly.
+inline constexpr detail::to_unit to_float{};
+
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,55 @@
+// From colour to gray by weights.
+#pragma once
+
+#include <insonify/core/image.hpp>
+#include <insonify/core/numeric.hpp>
+
+#include <concepts>
+#include <type_traits>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// What red, green and blue contribute to gray.
+struct gray_weights {
+    double r, g, b;
+};
+
+/// MATLAB's rgb2gray: the luma row of the inverse of its YIQ matrix.
+inline constexpr gray_weights matlab_weights{0.298936021293775, 0.587043074451121, 0.114020904255103};
+/// ITU-R BT.601, three digits: OpenCV's weights.
+inline constexpr gray_weights rec601_weights{0.299, 0.587, 0.114};
+/// ITU-R BT.709 as scikit-image rounds it; not a drop-in for the others.
+inline constexpr gray_weights rec709_weights{0.2125, 0.7154, 0.0721};
+
+/// rgb8 -> uint8 to the nearest, ties up; rgb<float> -> float.
+struct to_gray {
+    gray_weights weights = matlab_weights;
+
+    using is_filter = std::true_type;
+
+    struct weighted_sum {
+        gray_weights weights;
+        template <std::same_as<std::uint8_t> Channel>
+        Channel operator()(const rgb<Channel>& color) const {
+            return static_cast<Channel>(weights.r * color.r + weights.g * color.g + weights.b * color.b + 0.5);
+        }
+        template <std::same_as<float> Channel>
+        Channel operator()(const rgb<Channel>& color) const {
+            const double r = static_cast<double>(color.r), g = static_cast<double>(color.g),
+                         b = static_cast<double>(color.b);
+            return static_cast<Channel>(weights.r * r + weights.g * g + weights.b * b);
+        }
+    };
+
+    /// @throws invalid_input for a weight that is not in [0, 1], or a sum above 1 (by more than rounding)
+    weighted_sum pass() const {
+        for (const double weight : {weights.r, weights.g, weights.b}) {
+            detail::require(weight >= 0 && weight <= 1, "to_gray.weights", weight, "in [0, 1]");
+        }
+        const double sum = weights.r + weights.g + weights.b;
+        detail::require(sum <= 1 + 1e-9, "the sum of to_gray.weights", sum, "at most 1");
+        return {weights};
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,199 @@
+// Gives an image the distribution of a reference by exact ranks: no bins, every distinct value counts.
+//
+// Based on: Rafael C. Gonzalez, Richard E. Woods. Digital Image Processing, section 3.3 (histogram specification), with
+// the rule of scikit-image's match_histograms: the share of pixels up to a value, looked up in the reference's shares
+// with linear interpolation between values that are present.
+#pragma once
+
+#include <insonify/core/image.hpp>
+#include <insonify/core/numeric.hpp>
+#include <insonify/core/quantize.hpp>
+#include <insonify/filter/histogram.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// The distinct values of an image in rising order, and how many pixels have at most that value.
+struct distribution {
+    std::vector<float> values;
+    std::vector<std::uint64_t> cumulative;
+
+    std::uint64_t total() const { return cumulative.empty() ? 0 : cumulative.back(); }
+};
+
+namespace detail {
+
+/// Bits that compare as unsigned integers the way floats compare, and back.
+constexpr std::uint32_t ordered_bits(float value) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    return bits ^ ((bits >> 31) != 0 ? 0xFFFFFFFFu : 0x80000000u);
+}
+constexpr float from_ordered_bits(std::uint32_t bits) {
+    return std::bit_cast<float>(bits ^ ((bits >> 31) != 0 ? 0x80000000u : 0xFFFFFFFFu));
+}
+
+/// Radix sort by three digits of 11 bits: five to six times as fast as std::sort on millions of values.
+inline void sort_keys(std::vector<std::uint32_t>& keys) {
+    constexpr std::uint32_t mask = 2047;
+    std::array<std::array<std::size_t, mask + 1>, 3> starts{};
+    for (const std::uint32_t key : keys) {
+        for (std::size_t digit = 0; digit < 3; ++digit) ++starts[digit][(key >> (11 * digit)) & mask];
+    }
+    std::vector<std::uint32_t> sorted(keys.size());
+    for (std::size_t digit = 0; digit < 3; ++digit) {
+        std::size_t start = 0;
+        for (std::size_t& entry : starts[digit]) start += std::exchange(entry, start);
+        for (const std::uint32_t key : keys) sorted[starts[digit][(key >> (11 * digit)) & mask]++] = key;
+        keys.swap(sorted);
+    }
+}
+
+}  // namespace detail
+
+/// Counts the finite pixels; others are passed over.
+inline distribution distribution_of(image_view<const float> source) {
+    std::vector<std::uint32_t> keys;
+    keys.reserve(source.size());
+    for (int y = 0; y < source.height(); ++y) {
+        for (const float pixel : source.row(y)) {
+            // Adding 0 makes one value of both zeros.
+            if (numeric::is_finite(pixel)) keys.push_back(detail::ordered_bits(pixel + 0.0f));
+        }
+    }
+    detail::sort_keys(keys);
+    distribution result;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (i + 1 < keys.size() && keys[i + 1] == keys[i]) continue;
+        result.values.push_back(detail::from_ordered_bits(keys[i]));
+        result.cumulative.push_back(i + 1);
+    }
+    return result;
+}
+
+/// Counts codes of 8 bits; the values are code / 255.
+inline distribution distribution_of(image_view<const std::uint8_t> source) {
+    const histogram codes = histogram_of(source);
+    distribution result;
+    std::uint64_t up_to = 0;
+    for (std::size_t code = 0; code < 256; ++code) {
+        if (codes.counts[code] == 0) continue;
+        result.values.push_back(dequantize(static_cast<std::uint8_t>(code)));
+        result.cumulative.push_back(up_to += codes.counts[code]);
+    }
+    return result;
+}
+
+namespace detail {
+
+/// The value of `reference` at the rank of each value of `source`.
+inline std::vector<float> values_at_ranks(const distribution& source, const distribution& reference) {
+    const auto total = static_cast<double>(source.total());
+    const auto reference_total = static_cast<double>(reference.total());
+    const auto share = [&](std::size_t i) { return static_cast<double>(reference.cumulative[i]) / reference_total; };
+    std::vector<float> result(source.values.size());
+    std::size_t above = 0;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const double rank = static_cast<double>(source.cumulative[i]) / total;
+        while (share(above) < rank) ++above;  // ends: the last share is 1
+        const auto high = static_cast<double>(reference.values[above]);
+        if (above == 0 || share(above) == rank) {
+            result[i] = static_cast<float>(high);
+        } else {
+            const auto low = static_cast<double>(reference.values[above - 1]);
+            const double slope = (high - low) / (share(above) - share(above - 1));
+            result[i] = static_cast<float>((std::min)(low + slope * (rank - share(above - 1)), high));
+        }
+    }
+    return result;
+}
+
+/// Sends each value that was measured to the value of its rank; a table of buckets finds it in a step or two.
+class rank_pass {
+  public:
+    rank_pass(distribution source, const distribution& reference) {
+        auto made = std::make_shared<table>();
+        if (!source.values.empty()) made->ranked = values_at_ranks(source, reference);
+        made->values = std::move(source.values);
+        if (made->values.size() > 1) {
+            const auto first = static_cast<double>(made->values.front());
+            made->scale = static_cast<double>(made->values.size()) / (static_cast<double>(made->values.back()) - first);
+            made->starts.assign(made->values.size() + 1, 0);
+            for (const float value : made->values) ++made->starts[made->bucket(value) + 1];
+            for (std::size_t i = 1; i < made->starts.size(); ++i) made->starts[i] += made->starts[i - 1];
+        }
+        table_ = std::move(made);
+    }
+
+    template <std::same_as<float> Pixel>
+    Pixel operator()(Pixel pixel) const {
+        const table& t = *table_;
+        if (!(pixel == pixel) || t.values.empty()) return pixel;
+        if (pixel <= t.values.front()) return t.ranked.front();
+        if (pixel >= t.values.back()) return t.ranked.back();
+        const std::size_t bucket = t.bucket(pixel);
+        const auto found =
+            std::lower_bound(t.values.data() + t.starts[bucket], t.values.data() + t.starts[bucket + 1], pixel);
+        return t.ranked[static_cast<std::size_t>(found - t.values.data())];
+    }
+
+  private:
+    struct table {
+        std::vector<float> values;          // of the source, rising
+        std::vector<float> ranked;          // what they become
+        std::vector<std::uint32_t> starts;  // where each bucket of values begins
+        double scale = 0;
+
+        std::size_t bucket(float value) const {
+            const double position = (static_cast<double>(value) - static_cast<double>(values.front())) * scale;
+            return (std::min)(static_cast<std::size_t>(position), values.size() - 1);
+        }
+    };
+    std::shared_ptr<const table> table_;  // passes are copied; the table isn't
+};
+
+}  // namespace detail
+
+/// Gives an image the distribution of a reference, by exact ranks. What the reference was is counted once and shared by
+/// copies of the filter. Floats become floats, NaN stays NaN; codes of 8 bits become codes, to the nearest.
+///
+/// A constant image becomes the reference's largest value, as in scikit-image: all its pixels have the highest rank.
+class match_histogram {
+  public:
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a reference without a finite pixel
+    explicit match_histogram(image_view<const float> reference) : match_histogram(distribution_of(reference)) {}
+    explicit match_histogram(image_view<const std::uint8_t> reference) : match_histogram(distribution_of(reference)) {}
+
+    /// @throws invalid_input for an empty distribution, or values and cumulative of different sizes
+    explicit match_histogram(distribution reference) {
+        detail::require(reference.total() > 0, "finite pixels in the reference", reference.total(), "at least 1");
+        detail::require(reference.values.size() == reference.cumulative.size(), "reference.values.size()",
+                        reference.values.size(), "that of cumulative");
+        reference_ = std::make_shared<const distribution>(std::move(reference));
+    }
+
+    detail::rank_pass pass(image_view<const float> source) const { return {distribution_of(source), *reference_}; }
+    detail::level_map<std::uint8_t> pass(image_view<const std::uint8_t> source) const {
+        const distribution codes = distribution_of(source);
+        const std::vector<float> ranked =
+            codes.values.empty() ? std::vector<float>{} : detail::values_at_ranks(codes, *reference_);
+        detail::level_map<std::uint8_t> map{};
+        for (std::size_t i = 0; i < ranked.size(); ++i) {
+            map.values[quantize<std::uint8_t>(codes.values[i])] = quantize<std::uint8_t>(ranked[i]);
+        }
+        return map;
+    }
+
+  private:
+    std::shared_ptr<const distribution> reference_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,153 @@
+// Whole files: read at once, and written so that a reader finds the old file or the new one, never half of one.
+#pragma once
+
+#include <insonify/core/error.hpp>
+
+#include <cerrno>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
+#if defined(_WIN32)
+// std::rename does not replace a file there; this does.
+extern "C" __declspec(dllimport) int __stdcall MoveFileExA(const char* from, const char* to, unsigned long flags);
+#endif
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+[[noreturn]] inline void raise_io(std::string_view path, std::string_view reason) {
+    raise(io_error(std::string(path) + ": " + std::string(reason)));
+}
+[[noreturn]] inline void raise_io(std::string_view path, std::string_view reason, int error) {
+    raise_io(path, std::string(reason) + ": " + std::error_code(error, std::generic_category()).message());
+}
+
+/// Closes what it opened.
+class file_handle {
+  public:
+    file_handle() = default;
+    file_handle(const std::string& path, const char* mode) : stream_(std::fopen(path.c_str(), mode)) {}
+    file_handle(file_handle&& other) noexcept : stream_(std::exchange(other.stream_, nullptr)) {}
+    file_handle& operator=(file_handle&& other) noexcept {
+        std::swap(stream_, other.stream_);
+        return *this;
+    }
+    ~file_handle() { close(); }
+
+    std::FILE* get() const { return stream_; }
+    bool close() {
+        std::FILE* const open = std::exchange(stream_, nullptr);
+        return open == nullptr || std::fclose(open) == 0;
+    }
+
+  private:
+    std::FILE* stream_ = nullptr;
+};
+
+inline bool sync_to_disk(std::FILE* stream) {
+    if (std::fflush(stream) != 0) return false;
+#if defined(__unix__) || defined(__APPLE__)
+    return ::fsync(::fileno(stream)) == 0;
+#else
+    return true;
+#endif
+}
+
+inline bool rename_over(const std::string& from, const std::string& to) {
+#if defined(_WIN32)
+    constexpr unsigned long replace_and_write_through = 1 | 8;
+    if (MoveFileExA(from.c_str(), to.c_str(), replace_and_write_through) != 0) return true;
+    errno = EACCES;  // nearly always: somebody has it open
+    return false;
+#else
+    return std::rename(from.c_str(), to.c_str()) == 0;
+#endif
+}
+
+}  // namespace detail
+
+/// The bytes of a file.
+/// @throws io_error if it can't be opened or read
+inline std::string read_file(const std::string& path) {
+    errno = 0;
+    const detail::file_handle file(path, "rb");
+    if (file.get() == nullptr) detail::raise_io(path, "can't open for reading", errno);
+    // Ask for more until there is no more: pipes can't tell their size.
+    std::string bytes;
+    std::size_t filled = 0;
+    do {
+        bytes.resize(filled == 0 ? 65536 : 2 * filled);
+        filled += std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get());
+    } while (filled == bytes.size());
+    if (std::ferror(file.get()) != 0) detail::raise_io(path, "can't read", errno);
+    bytes.resize(filled);
+    return bytes;
+}
+
+/// A file in the making, beside the one it will replace. `commit` brings it to disk and into place in one step; without
+/// that, nothing of it remains and the old file is as it was. A symbolic link is replaced, not followed.
+///
+/// The temporary name is the path with .tmp0, .tmp1, ...: the first that nobody holds, so threads and processes that
+/// write one path don't meet, and the last to commit wins.
+class replacement_file {
+  public:
+    /// @throws io_error if the folder of `path` takes no new file
+    explicit replacement_file(std::string path) : path_(std::move(path)) {
+        for (int number = 0; file_.get() == nullptr; ++number) {
+            temporary_ = path_ + ".tmp" + detail::to_text(number);
+            errno = 0;
+            file_ = detail::file_handle(temporary_, "wbx");  // x: only if there is no such file
+            if (file_.get() == nullptr && (errno != EEXIST || number == 9999)) {
+                detail::raise_io(path_, "can't open for writing", errno);
+            }
+        }
+    }
+    replacement_file(const replacement_file&) = delete;
+    replacement_file& operator=(const replacement_file&) = delete;
+    ~replacement_file() {
+        if (temporary_.empty()) return;
+        file_.close();
+        std::remove(temporary_.c_str());
+    }
+
+    /// Appends. Doesn't throw, so C libraries may call back into it; `commit` tells of what went wrong.
+    void write(const void* data, std::size_t size) noexcept {
+        errno = 0;
+        if (error_ == 0 && std::fwrite(data, 1, size, file_.get()) != size) error_ = errno != 0 ? errno : EIO;
+    }
+
+    /// To be called once, at the end.
+    /// @throws io_error if a write failed, or the file can't be brought to disk or into place
+    void commit() {
+        errno = 0;
+        const bool written = error_ == 0 && detail::sync_to_disk(file_.get());
+        if (!(file_.close() && written)) detail::raise_io(path_, "can't write", error_ != 0 ? error_ : errno);
+        if (!detail::rename_over(temporary_, path_)) detail::raise_io(path_, "can't replace", errno);
+        temporary_.clear();
+    }
+
+  private:
+    std::string path_;
+    std::string temporary_;
+    detail::file_handle file_;
+    int error_ = 0;
+};
+
+/// Puts `bytes` at `path`, all or nothing.
+/// @throws io_error if it can't be written; what was there before then still is
+inline void write_file(const std::string& path, std::string_view bytes) {
+    replacement_file file(path);
+    file.write(bytes.data(), bytes.size());
+    file.commit();
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

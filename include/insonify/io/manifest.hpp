@@ -1,0 +1,84 @@
+// Tables of what is in which image: comma-separated values as of RFC 4180, written all or nothing.
+//
+// Based on: Yakov Shafranovich. Common Format and MIME Type for Comma-Separated Values (CSV) Files. RFC 4180, 2005.
+#pragma once
+
+#include <insonify/io/file.hpp>
+
+#include <concepts>
+#include <cstddef>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+template <class T>
+concept csv_text = std::convertible_to<const T&, std::string_view>;
+template <class T>
+concept csv_number = std::is_arithmetic_v<T> && !std::same_as<T, char>;
+}  // namespace detail
+
+/// What a cell may hold: text, true or false, or a number, which is written so that it reads back as the same one.
+template <class T>
+concept csv_cell = detail::csv_text<T> || detail::csv_number<T>;
+
+/// A table with named columns, kept as text. Cells with commas, quotes or line breaks are quoted; lines end with CR LF.
+class csv_table {
+  public:
+    /// @throws invalid_input for a table without columns
+    explicit csv_table(std::initializer_list<std::string_view> columns) : columns_(columns.size()) {
+        detail::require(columns_ > 0, "columns", columns_, "at least 1");
+        std::size_t index = 0;
+        for (const std::string_view name : columns) append(name, index++);
+        text_ += "\r\n";
+    }
+
+    /// Adds a line: `table.add("image_0001.png", 12, 0.25f)`.
+    /// @throws invalid_input if there isn't one cell for each column
+    template <csv_cell... Cells>
+    void add(const Cells&... cells) {
+        detail::require(sizeof...(cells) == columns_, "cells in a row", sizeof...(cells),
+                        detail::to_text(columns_) + ", one for each column");
+        std::size_t index = 0;
+        (append(cells, index++), ...);
+        text_ += "\r\n";
+    }
+
+    const std::string& text() const { return text_; }
+
+    /// @throws io_error, naming the file, if it can't be written
+    void write(const std::string& path) const { write_file(path, text_); }
+
+  private:
+    template <csv_cell Cell>
+    void append(const Cell& cell, std::size_t index) {
+        if (index > 0) text_ += ',';
+        if constexpr (detail::csv_text<Cell>) {
+            append_text(cell);
+        } else {
+            text_ += detail::to_text(cell);
+        }
+    }
+    void append_text(std::string_view cell) {
+        // An empty cell alone would make an empty line, which readers skip.
+        const bool quote = cell.find_first_of(",\"\r\n") != std::string_view::npos || (cell.empty() && columns_ == 1);
+        if (!quote) {
+            text_ += cell;
+            return;
+        }
+        text_ += '"';
+        for (const char c : cell) {
+            if (c == '"') text_ += '"';
+            text_ += c;
+        }
+        text_ += '"';
+    }
+
+    std::size_t columns_;
+    std::string text_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,279 @@
+// PGM, PPM and PFM: images as plain files, read whatever they claim to be and written all or nothing.
+//
+//     pixel                     written as            read from
+//     std::uint8_t              P5, maxval 255        P2, P5 up to maxval 255: the samples as they are
+//     std::uint16_t             P5, maxval 65535      P2, P5: the samples as they are (instance maps)
+//     rgb8, rgb<std::uint16_t>  P6                    P3, P6, as above
+//     float                     Pf, little endian     Pf of either endianness; P2, P5 as sample / maxval
+//     rgb<float>                PF, little endian     PF of either endianness; P3, P6 as sample / maxval
+//
+// Based on: Jef Poskanzer and others. Netpbm, pgm(5) and ppm(5). Paul Debevec. PFM Portable FloatMap.
+#pragma once
+
+#include <insonify/core/image.hpp>
+#include <insonify/io/file.hpp>
+
+#include <bit>
+#include <charconv>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+template <class Pixel>
+struct netpbm_pixel {
+    using sample = Pixel;
+    static constexpr int channels = 1;
+};
+template <class Sample>
+struct netpbm_pixel<rgb<Sample>> {
+    using sample = Sample;
+    static constexpr int channels = 3;
+};
+
+template <class T>
+concept netpbm_sample = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> || std::same_as<T, float>;
+
+}  // namespace detail
+
+/// Pixels that have a netpbm file format.
+template <class T>
+concept storable_pixel = detail::netpbm_sample<typename detail::netpbm_pixel<T>::sample>;
+
+namespace detail {
+
+/// Reads a header, then samples, from bytes that nobody vouches for.
+class netpbm_reader {
+  public:
+    netpbm_reader(std::string_view bytes, std::string_view name) : rest_(bytes), name_(name) {
+        if (rest_.size() < 3 || rest_[0] != 'P') fail("not a netpbm file");
+        kind_ = rest_[1];
+        if (std::string_view("2356Ff").find(kind_) == std::string_view::npos) {
+            fail("netpbm format P" + std::string(1, kind_) + " is not one of P2 P3 P5 P6 PF Pf");
+        }
+        rest_.remove_prefix(2);
+        width_ = integer("width", 1, 1 << 30);
+        height_ = integer("height", 1, 1 << 30);
+        if (is_float()) {
+            const std::string_view text = token("scale");
+            float scale = 0;
+            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), scale);
+            if (status != std::errc() || end != text.data() + text.size() || !(scale < 0 || scale > 0)) {
+                fail("scale is " + quoted(text) + ", expected a number other than 0");
+            }
+            little_endian_ = scale < 0;
+        } else {
+            maxval_ = integer("maxval", 1, 65535);
+        }
+        if (!is_plain()) {
+            if (rest_.empty() || !is_space(rest_.front())) fail("no white space after the header");
+            rest_.remove_prefix(1);
+        }
+        check_size();
+    }
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    int maxval() const { return maxval_; }
+    int channels() const { return kind_ == '3' || kind_ == '6' || kind_ == 'F' ? 3 : 1; }
+    bool is_float() const { return kind_ == 'F' || kind_ == 'f'; }
+
+    int next_code() {
+        if (is_plain()) return integer("sample", 0, maxval_);
+        int code = byte(0);
+        if (maxval_ > 255) code = code * 256 + byte(1);
+        rest_.remove_prefix(sample_size());
+        if (code > maxval_) fail("sample is " + to_text(code) + ", expected 0 to " + to_text(maxval_));
+        return code;
+    }
+    float next_float() {
+        std::uint32_t bits = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            bits = bits << 8 | static_cast<std::uint32_t>(byte(little_endian_ ? 3 - i : i));
+        rest_.remove_prefix(4);
+        return std::bit_cast<float>(bits);
+    }
+
+    [[noreturn]] void fail(const std::string& reason) const { raise_io(name_, reason); }
+
+  private:
+    static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+    static std::string quoted(std::string_view text) { return '"' + std::string(text.substr(0, 32)) + '"'; }
+
+    bool is_plain() const { return kind_ == '2' || kind_ == '3'; }
+    std::size_t sample_size() const { return is_float() ? 4 : maxval_ > 255 ? 2 : 1; }
+    int byte(std::size_t i) const { return static_cast<unsigned char>(rest_[i]); }
+
+    /// The next word; comments run from # to the end of the line.
+    std::string_view token(const char* what) {
+        bool comment = false;
+        std::size_t first = 0;
+        for (; first < rest_.size(); ++first) {
+            const char c = rest_[first];
+            if (comment) {
+                comment = c != '\n' && c != '\r';
+            } else if (c == '#') {
+                comment = true;
+            } else if (!is_space(c)) {
+                break;
+            }
+        }
+        std::size_t last = first;
+        while (last < rest_.size() && !is_space(rest_[last]) && rest_[last] != '#') ++last;
+        if (first == last) fail("the file ends before the " + std::string(what));
+        const std::string_view word = rest_.substr(first, last - first);
+        rest_.remove_prefix(last);
+        return word;
+    }
+    int integer(const char* what, int lowest, int largest) {
+        const std::string_view text = token(what);
+        int value = 0;
+        const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (status != std::errc() || end != text.data() + text.size() || value < lowest || value > largest) {
+            fail(std::string(what) + " is " + quoted(text) + ", expected " + to_text(lowest) + " to " +
+                 to_text(largest));
+        }
+        return value;
+    }
+    /// Before anything is allocated: a file of n bytes never makes an image of more than a few n.
+    void check_size() const {
+        const std::uint64_t samples = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_) *
+                                      static_cast<std::uint64_t>(channels());
+        // A plain sample takes a space and a digit at least.
+        const bool fits = is_plain() ? samples <= rest_.size() / 2 : samples <= rest_.size() / sample_size();
+        if (!fits) {
+            fail("a raster of " + to_text(width_) + " x " + to_text(height_) + " pixels is longer than the file");
+        }
+    }
+
+    std::string_view rest_;
+    std::string_view name_;
+    char kind_ = 0;
+    int width_ = 0;
+    int height_ = 0;
+    int maxval_ = 0;
+    bool little_endian_ = false;
+};
+
+template <class Sample>
+Sample next_sample(netpbm_reader& reader) {
+    if constexpr (std::same_as<Sample, float>) {
+        if (reader.is_float()) return reader.next_float();
+        return static_cast<float>(reader.next_code()) / static_cast<float>(reader.maxval());
+    } else {
+        return static_cast<Sample>(reader.next_code());
+    }
+}
+
+inline void append_sample(std::string& bytes, std::uint8_t sample) {
+    bytes.push_back(static_cast<char>(sample));
+}
+inline void append_sample(std::string& bytes, std::uint16_t sample) {
+    bytes.push_back(static_cast<char>(sample >> 8));
+    bytes.push_back(static_cast<char>(sample & 0xFF));
+}
+inline void append_sample(std::string& bytes, float sample) {
+    const auto bits = std::bit_cast<std::uint32_t>(sample);
+    for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(bits >> shift & 0xFF));
+}
+template <class Sample>
+void append_sample(std::string& bytes, const rgb<Sample>& pixel) {
+    append_sample(bytes, pixel.r);
+    append_sample(bytes, pixel.g);
+    append_sample(bytes, pixel.b);
+}
+
+}  // namespace detail
+
+/// The image in the bytes of a netpbm file; the table at the top says which formats a pixel type takes. Bytes behind
+/// the image are ignored, as is the size of a PFM's scale.
+/// @param name  what error messages call the bytes
+/// @throws io_error for bytes that are no such file, or one that doesn't fit the pixel type
+template <storable_pixel Pixel>
+image<Pixel> parse_netpbm(std::string_view bytes, std::string_view name = "netpbm data") {
+    using sample = typename detail::netpbm_pixel<Pixel>::sample;
+    constexpr int channels = detail::netpbm_pixel<Pixel>::channels;
+    detail::netpbm_reader reader(bytes, name);
+    if (reader.channels() != channels) {
+        reader.fail(channels == 1 ? "a colour image, expected gray" : "a gray image, expected colour");
+    }
+    if constexpr (!std::same_as<sample, float>) {
+        constexpr int largest = (std::numeric_limits<sample>::max)();
+        if (reader.is_float()) reader.fail("an image of floats, expected integer samples");
+        if (reader.maxval() > largest) {
+            reader.fail("maxval is " + detail::to_text(reader.maxval()) + ", expected at most " +
+                        detail::to_text(largest));
+        }
+    }
+    image<Pixel> out(reader.width(), reader.height());
+    for (int row = 0; row < out.height(); ++row) {
+        // PFM goes from the bottom up.
+        for (Pixel& pixel : out.row(reader.is_float() ? out.height() - 1 - row : row)) {
+            if constexpr (channels == 1) {
+                pixel = detail::next_sample<sample>(reader);
+            } else {
+                pixel.r = detail::next_sample<sample>(reader);
+                pixel.g = detail::next_sample<sample>(reader);
+                pixel.b = detail::next_sample<sample>(reader);
+            }
+        }
+    }
+    return out;
+}
+
+/// The image in a netpbm file: `read_netpbm<float>("reference.pgm")`.
+/// @throws io_error, naming the file, if it can't be read or parsed
+template <storable_pixel Pixel>
+image<Pixel> read_netpbm(const std::string& path) {
+    return parse_netpbm<Pixel>(read_file(path), path);
+}
+
+/// The bytes of a binary netpbm file with this image: PGM, PPM or PFM by the pixel type.
+/// @throws invalid_input for an image without pixels, which the formats don't know
+template <class Pixel>
+    requires storable_pixel<std::remove_const_t<Pixel>> std::string format_netpbm(image_view<Pixel> source) {
+        using stored = detail::netpbm_pixel<std::remove_const_t<Pixel>>;
+        using sample = typename stored::sample;
+        constexpr bool gray = stored::channels == 1;
+        constexpr bool floats = std::same_as<sample, float>;
+        detail::require(!source.empty(), "pixels of the image", source.size(), "at least 1");
+        std::string bytes = floats ? (gray ? "Pf" : "PF") : (gray ? "P5" : "P6");
+        bytes += '\n' + detail::to_text(source.width()) + ' ' + detail::to_text(source.height()) + '\n';
+        if constexpr (floats) {
+            bytes += "-1.0\n";
+        } else {
+            bytes += detail::to_text((std::numeric_limits<sample>::max)()) + '\n';
+        }
+        bytes.reserve(bytes.size() + source.size() * sizeof(Pixel));
+        for (int row = 0; row < source.height(); ++row) {
+            for (const Pixel& pixel : source.row(floats ? source.height() - 1 - row : row)) {
+                detail::append_sample(bytes, pixel);
+            }
+        }
+        return bytes;
+    }
+
+template <storable_pixel Pixel>
+std::string format_netpbm(const image<Pixel>& source) {
+    return format_netpbm(source.view());
+}
+
+/// Writes PGM, PPM or PFM by the pixel type, all or nothing.
+/// @throws invalid_input for an image without pixels; io_error, naming the file, if it can't be written
+template <class Pixel>
+    requires storable_pixel<std::remove_const_t<Pixel>>
+void write_netpbm(const std::string& path, image_view<Pixel> source) {
+    write_file(path, format_netpbm(source));
+}
+template <storable_pixel Pixel>
+void write_netpbm(const std::string& path, const image<Pixel>& source) {
+    write_netpbm(path, source.view());
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

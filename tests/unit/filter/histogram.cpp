@@ -1,0 +1,256 @@
+// Histograms, equalization and matching: closed cases, laws, and the published rules computed another way.
+#include <insonify/core/random.hpp>
+#include <insonify/filter/convert.hpp>
+#include <insonify/filter/histogram.hpp>
+#include <insonify/filter/match.hpp>
+#include <insonify/filter/pipe.hpp>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+
+namespace {
+
+const float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+/// Values with ties: u^power on a grid of `steps`.
+in::image<float> random_image(int width, int height, std::uint64_t seed, int power, int steps) {
+    in::random_sequence draws(seed);
+    in::image<float> out(width, height);
+    for (float& pixel : out.pixels()) {
+        double value = draws.uniform();
+        for (int i = 1; i < power; ++i) value *= draws.uniform();
+        pixel = static_cast<float>(std::floor(value * steps) / steps);
+    }
+    return out;
+}
+
+/// np.interp(source quantiles, reference quantiles, reference values), value by value.
+std::map<float, double> scikit_rule(const in::image<float>& source, const in::image<float>& reference) {
+    const auto quantiles = [](const in::image<float>& image) {
+        std::map<float, double> shares;
+        for (const float pixel : image.pixels()) shares[pixel] += 1;
+        double sum = 0;
+        for (auto& [value, share] : shares) share = (sum += share) / static_cast<double>(image.size());
+        return shares;
+    };
+    const auto wanted = quantiles(reference);
+    std::map<float, double> result;
+    for (const auto& [value, share] : quantiles(source)) {
+        auto above = wanted.begin();
+        while (above->second < share) ++above;
+        result[value] = static_cast<double>(above->first);
+        if (above == wanted.begin()) continue;
+        const auto below = std::prev(above);
+        const double t = (share - below->second) / (above->second - below->second);
+        result[value] = static_cast<double>(below->first) * (1 - t) + static_cast<double>(above->first) * t;
+    }
+    return result;
+}
+
+/// The matrix form of histeq(I, hgram): err = cumd - cum + tol, the least that isn't negative.
+std::vector<double> histeq_rule(const std::vector<std::uint64_t>& nn, const std::vector<std::uint64_t>& hgram) {
+    double pixels = 0, wanted = 0;
+    for (const auto n : nn) pixels += static_cast<double>(n);
+    for (const auto n : hgram) wanted += static_cast<double>(n);
+    std::vector<double> map;
+    double cum = 0;
+    for (std::size_t k = 0; k < nn.size(); ++k) {
+        cum += static_cast<double>(nn[k]);
+        const double tol = k == 0 || k + 1 == nn.size() ? 0 : static_cast<double>(nn[k]) / 2;
+        double best = 2 * pixels, cumd = 0;
+        std::size_t at = 0;
+        for (std::size_t j = 0; j < hgram.size(); ++j) {
+            cumd += static_cast<double>(hgram[j]) * pixels / wanted;
+            double err = cumd - cum + tol;
+            if (err < -pixels * std::sqrt(2.220446049250313e-16)) err = pixels;
+            if (err < best - 1e-9 * pixels) {
+                best = err;
+                at = j;
+            }
+        }
+        map.push_back(static_cast<double>(at) / static_cast<double>(hgram.size() - 1));
+    }
+    return map;
+}
+
+bool is_monotone(const in::image<float>& from, const in::image<float>& to) {
+    std::map<float, std::set<float>> map;
+    for (std::size_t i = 0; i < from.size(); ++i) map[from.pixels()[i]].insert(to.pixels()[i]);
+    float last = -1e30f;
+    for (const auto& [value, results] : map) {
+        if (results.size() != 1 || *results.begin() < last) return false;
+        last = *results.begin();
+    }
+    return true;
+}
+
+/// Largest difference between the cumulative distributions of two images.
+double kolmogorov(const in::image<float>& a, const in::image<float>& b) {
+    std::map<float, std::pair<double, double>> steps;
+    for (const float v : a.pixels()) steps[v].first += 1.0 / static_cast<double>(a.size());
+    for (const float v : b.pixels()) steps[v].second += 1.0 / static_cast<double>(b.size());
+    double first = 0, second = 0, largest = 0;
+    for (const auto& [value, step] : steps) {
+        first += step.first;
+        second += step.second;
+        largest = std::fmax(largest, std::abs(first - second));
+    }
+    return largest;
+}
+
+}  // namespace
+
+TEST_CASE("a histogram counts each pixel at the nearest level") {
+    const in::image<float> values{{0, 0.124f, 0.125f, 0.5f, 0.874f, 0.876f, 1, -2, 9, not_a_number}};
+    CHECK(in::histogram_of(values, 5).counts == std::vector<std::uint64_t>{3, 1, 1, 1, 3});
+    CHECK(in::histogram_of(values, 5).total() == 9);
+    // imhist(uint8, 4): bins of 85 centred at 0, 85, 170, 255.
+    const in::image<std::uint8_t> codes{{0, 42, 43, 127, 128, 212, 213, 255}};
+    CHECK(in::histogram_of(codes, 4).counts == std::vector<std::uint64_t>{2, 2, 2, 2});
+    CHECK(in::histogram_of(codes).counts[43] == 1);
+    CHECK(in::histogram_of(codes | in::to_float, 64).counts == in::histogram_of(codes, 64).counts);
+    CHECK(in::histogram_of(in::image<float>()).total() == 0);
+    for (const int bins : {-1, 0, 1, 65537}) CHECK_THROWS_AS(in::histogram_of(values, bins), in::invalid_input);
+}
+
+TEST_CASE("a distribution lists the distinct finite values in order") {
+    const float inf = std::numeric_limits<float>::infinity();
+    const auto d =
+        in::distribution_of(in::image<float>{{3, -1, 0.5f, -0.0f, 0.0f, not_a_number}, {inf, 3, -inf, -1e-42f, 3, -1}});
+    CHECK(d.values == std::vector<float>{-1, -1e-42f, 0, 0.5f, 3});
+    CHECK(d.cumulative == std::vector<std::uint64_t>{2, 3, 5, 6, 9});
+    CHECK(in::distribution_of(in::image<float>()).total() == 0);
+
+    const auto random = random_image(200, 100, 5, 1, 1 << 23);
+    std::map<float, std::uint64_t> counts;
+    for (const float v : random.pixels()) ++counts[v];
+    const auto sorted = in::distribution_of(random);
+    REQUIRE(sorted.values.size() == counts.size());
+    std::size_t i = 0;
+    std::uint64_t sum = 0;
+    for (const auto& [value, count] : counts) {
+        CHECK(sorted.values[i] == value);
+        CHECK(sorted.cumulative[i++] == (sum += count));
+    }
+}
+
+TEST_CASE("exact matching follows scikit-image's rule") {
+    const int power = GENERATE(1, 3), steps = GENERATE(7, 300, 1 << 23);
+    const auto source = random_image(61, 47, 1, power, steps);
+    const auto reference = random_image(53, 71, 2, 2, 100);
+    const auto matched = source | in::match_histogram(reference);
+    const auto expected = scikit_rule(source, reference);
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        REQUIRE(static_cast<double>(matched.pixels()[i]) == Approx(expected.at(source.pixels()[i])).margin(1e-7));
+    }
+}
+
+TEST_CASE("exact matching is monotone, idempotent, and the identity on its own reference") {
+    const auto source = random_image(90, 80, 3, 2, GENERATE(5, 1000, 1 << 23));
+    const auto reference = random_image(70, 60, 4, 1, GENERATE(3, 200, 1 << 23));
+    const in::match_histogram match(reference);
+    const auto once = source | match;
+    CHECK(is_monotone(source, once));
+    CHECK((once | match) == once);
+    CHECK((reference | match) == reference);
+    CHECK((source | in::match_histogram(source)) == source);
+
+    // No further off than the largest share that a single source value has.
+    const auto values = in::distribution_of(source);
+    double largest_share = 0;
+    for (std::size_t i = 0; i < values.values.size(); ++i) {
+        const auto count = values.cumulative[i] - (i > 0 ? values.cumulative[i - 1] : 0);
+        largest_share = std::fmax(largest_share, static_cast<double>(count) / static_cast<double>(source.size()));
+    }
+    const auto wanted = in::distribution_of(reference);
+    double largest_step = 0;
+    for (std::size_t i = 0; i < wanted.values.size(); ++i) {
+        const auto count = wanted.cumulative[i] - (i > 0 ? wanted.cumulative[i - 1] : 0);
+        largest_step = std::fmax(largest_step, static_cast<double>(count) / static_cast<double>(reference.size()));
+    }
+    CHECK(kolmogorov(once, reference) <= largest_share + largest_step + 1e-9);
+}
+
+TEST_CASE("matching depends on the reference's distribution alone") {
+    const auto source = random_image(40, 40, 6, 1, 500);
+    const auto reference = random_image(30, 20, 7, 2, 90);
+    in::image<float> shuffled(20, 60);  // every pixel twice, backwards, another shape
+    for (std::size_t i = 0; i < shuffled.size(); ++i) shuffled.pixels()[i] = reference.pixels()[(1199 - i) / 2];
+    CHECK((source | in::match_histogram(reference)) == (source | in::match_histogram(shuffled)));
+    CHECK((source | in::match_histogram(in::distribution_of(reference))) == (source | in::match_histogram(reference)));
+    CHECK((source | in::match_binned(reference)) == (source | in::match_binned(shuffled)));
+    CHECK((source | in::match_binned(in::histogram_of(reference, 64))) == (source | in::match_binned(reference)));
+}
+
+TEST_CASE("a constant image takes the reference's largest value, and a constant reference gives its only one") {
+    const in::image<float> flat(9, 9, 0.3f);
+    const auto reference = random_image(30, 30, 8, 1, 50);
+    const float largest = in::distribution_of(reference).values.back();
+    CHECK((flat | in::match_histogram(reference)) == in::image<float>(9, 9, largest));
+    CHECK((reference | in::match_histogram(flat)) == in::image<float>(30, 30, 0.3f));
+    const in::image<std::uint8_t> codes(3, 3, 17);
+    CHECK((codes | in::match_histogram(flat)) == in::image<std::uint8_t>(3, 3, in::quantize<std::uint8_t>(0.3f)));
+}
+
+TEST_CASE("codes of 8 bits are matched as floats are, and rounded") {
+    const auto source = random_image(50, 40, 9, 1, 200) | in::to_uint8;
+    const auto reference = random_image(50, 40, 10, 2, 200);
+    CHECK((source | in::match_histogram(reference)) ==
+          (source | in::to_float | in::match_histogram(reference) | in::to_uint8));
+    CHECK((source | in::match_histogram(source)) == source);
+    CHECK((source | in::match_histogram(source | in::to_float)) == source);
+    CHECK((source | in::match_binned(reference)) ==
+          (source | in::to_float | in::match_binned(reference) | in::to_uint8));
+}
+
+TEST_CASE("what is not a number stays, is not counted, and changes nothing else") {
+    const float inf = std::numeric_limits<float>::infinity();
+    const in::image<float> reference{{0.25f, 0.5f, 0.75f}};
+    const auto out = in::image<float>{{0, not_a_number, 1, 2, inf, -inf}} | in::match_histogram(reference);
+    CHECK(out(0, 0) == 0.25f);
+    CHECK(std::isnan(out(1, 0)));
+    CHECK(out(2, 0) == 0.5f);
+    CHECK(out(3, 0) == 0.75f);
+    CHECK(out(4, 0) == 0.75f);
+    CHECK(out(5, 0) == 0.25f);
+    const auto none = in::image<float>{{not_a_number, not_a_number}} | in::match_histogram(reference);
+    CHECK(std::isnan(none(0, 0)));
+    CHECK(std::isnan((in::image<float>{{not_a_number, 1}} | in::match_binned(reference))(0, 0)));
+    CHECK_THROWS_AS(in::match_histogram(in::image<float>{{not_a_number, inf}}), in::invalid_input);
+    CHECK_THROWS_AS(in::match_histogram(in::image<float>()), in::invalid_input);
+    CHECK_THROWS_AS(in::match_binned(in::image<float>{{not_a_number}}), in::invalid_input);
+    CHECK_THROWS_AS(in::match_binned(in::image<std::uint8_t>()), in::invalid_input);
+    CHECK_THROWS_AS(in::match_binned(reference, 1), in::invalid_input);
+}
+
+TEST_CASE("binned matching follows histeq's rule") {
+    const int bins = GENERATE(2, 10, 64, 256, 1000);
+    const auto source = random_image(100, 90, 11, GENERATE(1, 3), 255);
+    const auto reference = random_image(64, 64, 12, 2, 255);
+    const auto map = histeq_rule(in::histogram_of(source).counts, in::histogram_of(reference, bins).counts);
+    const auto matched = source | in::match_binned(reference, bins);
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        REQUIRE(matched.pixels()[i] == static_cast<float>(map[in::quantize<std::uint8_t>(source.pixels()[i])]));
+    }
+    CHECK(is_monotone(source, matched));
+    std::set<float> levels(matched.pixels().begin(), matched.pixels().end());
+    CHECK(levels.size() <= static_cast<std::size_t>(bins));
+}
+
+TEST_CASE("equalization is histeq: a flat histogram of 64 levels") {
+    const auto source = random_image(128, 128, 13, 3, 255);
+    const in::histogram flat{std::vector<std::uint64_t>(64, 1)};
+    const auto map = histeq_rule(in::histogram_of(source).counts, flat.counts);
+    const auto out = source | in::equalize{};
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        REQUIRE(out.pixels()[i] == static_cast<float>(map[in::quantize<std::uint8_t>(source.pixels()[i])]));
+    }
+    CHECK((source | in::equalize{.levels = 2}) == (source | in::match_binned(in::histogram{{5, 5}})));
+    CHECK((source | in::to_uint8 | in::equalize{}) == (source | in::equalize{} | in::to_uint8));
+    CHECK_THROWS_AS((source | in::equalize{.levels = 1}), in::invalid_input);
+}

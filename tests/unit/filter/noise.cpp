@@ -1,0 +1,222 @@
+// Moments after clipping, distributions, and independence of what noise must not depend on.
+#include <insonify/filter/noise.hpp>
+#include <insonify/filter/pipe.hpp>
+#include <insonify/filter/poisson.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+
+namespace {
+
+constexpr int side = 1024;  // 2^20 samples
+
+struct moments {
+    double mean, variance, fourth;
+};
+moments moments_of(const in::image<float>& image) {
+    const auto n = static_cast<double>(image.size());
+    double mean = 0, second = 0, fourth = 0;
+    for (const float v : image.pixels()) mean += static_cast<double>(v) / n;
+    for (const float v : image.pixels()) {
+        const double square = (static_cast<double>(v) - mean) * (static_cast<double>(v) - mean);
+        second += square / n;
+        fourth += square * square / n;
+    }
+    return {mean, second, fourth};
+}
+
+/// Within four standard errors, and the rounding of a published number.
+void check_moments(const in::image<float>& image, double mean, double variance, double mean_digit,
+                   double variance_digit) {
+    const auto m = moments_of(image);
+    const auto n = static_cast<double>(image.size());
+    CHECK(std::abs(m.mean - mean) <= 4 * std::sqrt(m.variance / n) + 0.5 * mean_digit);
+    CHECK(std::abs(m.variance - variance) <=
+          4 * std::sqrt((m.fourth - m.variance * m.variance) / n) + 0.5 * variance_digit);
+}
+
+/// Kolmogorov and Smirnov's statistic against a continuous law; 1.95 / sqrt(n) is passed once in a thousand.
+template <class Cdf>
+double ks_distance(const in::image<float>& image, Cdf cdf) {
+    std::vector<float> sorted(image.pixels().begin(), image.pixels().end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto n = static_cast<double>(sorted.size());
+    double distance = 0;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const double p = cdf(static_cast<double>(sorted[i]));
+        distance = std::fmax(distance, std::fmax(std::abs(p - static_cast<double>(i) / n),
+                                                 std::abs(static_cast<double>(i + 1) / n - p)));
+    }
+    return distance;
+}
+
+double normal_cdf(double z) {
+    return 0.5 * std::erfc(-z / std::sqrt(2.0));
+}
+
+in::image<float> flat(float value) {
+    return in::image<float>(side, side, value);
+}
+
+double correlation(const in::image<float>& a, const in::image<float>& b, int dx, int dy) {
+    const auto ma = moments_of(a), mb = moments_of(b);
+    double sum = 0;
+    for (int y = 0; y + dy < a.height(); ++y) {
+        for (int x = 0; x + dx < a.width(); ++x) {
+            sum += (static_cast<double>(a(x, y)) - ma.mean) * (static_cast<double>(b(x + dx, y + dy)) - mb.mean);
+        }
+    }
+    return sum / (static_cast<double>(a.size()) * std::sqrt(ma.variance * mb.variance));
+}
+
+}  // namespace
+
+TEST_CASE("clipped noise has the moments that integrals of the laws give") {
+    const std::uint64_t seed = 11;
+    check_moments(flat(0.5f) | in::gaussian{.variance = 0.05f, .seed = seed}, 0.50000, 0.04775, 1e-5, 1e-5);
+    check_moments(flat(0.25f) | in::gaussian{.variance = 0.05f, .seed = seed}, 0.26478, 0.03945, 1e-5, 1e-5);
+    check_moments(flat(0) | in::gaussian{.variance = 0.05f, .seed = seed}, 0.08921, 0.01704, 1e-5, 1e-5);
+    check_moments(flat(1) | in::gaussian{.variance = 0.05f, .seed = seed}, 0.91079, 0.01704, 1e-5, 1e-5);
+    check_moments(flat(0.5f) | in::speckle{.variance = 0.1f, .seed = seed}, 0.50000, 0.02500, 1e-5, 1e-5);
+    check_moments(flat(0.8f) | in::speckle{.variance = 0.1f, .seed = seed}, 0.76763, 0.04487, 1e-5, 1e-5);
+    check_moments(flat(1) | in::speckle{.variance = 0.1f, .seed = seed}, 0.86307, 0.03125, 1e-5, 1e-5);
+    check_moments(flat(1) | in::speckle{.variance = 0.05f, .seed = seed}, 0.90318, 0.01563, 1e-5, 1e-5);
+    check_moments(flat(0.25f) | in::gaussian_speckle{.variance = 0.04f, .seed = seed}, 0.25, 0.0025, 0, 0);
+    check_moments(flat(0.1f) | in::rayleigh{.seed = seed}, 0.1, 0.01 * (4 / in::numeric::pi - 1), 0, 0);
+}
+
+TEST_CASE("clipped poisson noise has the moments of MATLAB's uint8 rule") {
+    const auto counts = [](float code) {
+        return flat(code / 255) | in::poisson{.seed = 12} | [](float v) { return 255 * v; };
+    };
+    check_moments(counts(10), 10, 10, 0, 0);
+    check_moments(counts(128), 128, 128, 0, 0);
+    check_moments(counts(250), 245.861, 116.11, 1e-3, 1e-2);
+    check_moments(counts(255), 248.631, 84.82, 1e-3, 1e-2);
+}
+
+TEST_CASE("noise follows its law") {
+    const double limit = 1.95 / side;
+    CHECK(ks_distance(flat(0.5f) | in::gaussian{.mean = 0.02f, .variance = 0.0025f, .seed = 21},
+                      [](double v) { return normal_cdf((v - 0.52) / 0.05); }) < limit);
+    CHECK(ks_distance(flat(0.5f) | in::speckle{.variance = 0.1f, .seed = 22},
+                      [](double v) { return (v - 0.5) / (2 * 0.5 * std::sqrt(0.3)) + 0.5; }) < limit);
+    CHECK(ks_distance(flat(0.5f) | in::gaussian_speckle{.variance = 0.01f, .seed = 23},
+                      [](double v) { return normal_cdf((v - 0.5) / 0.05); }) < limit);
+    CHECK(ks_distance(flat(0.125f) | in::rayleigh{.seed = 24},
+                      [](double v) { return 1 - std::exp(-(v / 0.125) * (v / 0.125) * in::numeric::pi / 4); }) < limit);
+}
+
+TEST_CASE("poisson counts follow the Poisson law on both sides of the change of method") {
+    const float mean = GENERATE(0.05f, 1.0f, 9.99f, 10.0f, 30.0f, 400.0f);
+    const float photons = 4096;
+    const auto image = flat(mean / photons) | in::poisson{.photons = photons, .seed = 31};
+    const auto exact_mean = static_cast<double>(mean / photons * photons);
+    std::vector<double> observed(1024);
+    for (const float v : image.pixels()) observed[static_cast<std::size_t>(std::lround(v * photons))] += 1;
+    // Pearson's chi-square over counts that are expected at least 20 times, tails lumped.
+    double statistic = 0, cells = 0, rest_expected = 0, rest_observed = 0, sum = 0;
+    const auto n = static_cast<double>(image.size());
+    for (std::size_t k = 0; k < observed.size(); ++k) {
+        const auto count = static_cast<double>(k);
+        const double p = std::exp(count * std::log(exact_mean) - exact_mean - std::lgamma(count + 1));
+        sum += p;
+        if (n * p >= 20) {
+            statistic += (observed[k] - n * p) * (observed[k] - n * p) / (n * p);
+            ++cells;
+        } else {
+            rest_expected += n * p;
+            rest_observed += observed[k];
+        }
+    }
+    CHECK(sum == Approx(1).epsilon(1e-9));
+    CHECK(std::abs(rest_observed - rest_expected) <= 4 * std::sqrt(rest_expected) + 3);
+    // Wilson and Hilferty: the cube root of chi-square / cells is normal.
+    const double dof = cells - 1;
+    const double z = (std::cbrt(statistic / dof) - (1 - 2 / (9 * dof))) / std::sqrt(2 / (9 * dof));
+    CHECK(std::abs(z) < 4);
+}
+
+TEST_CASE("poisson noise is right at the extremes of its scale") {
+    CHECK((in::image<float>{{0, -1}} | in::poisson{}) == in::image<float>{{0, 0}});
+    check_moments(flat(0.5f) | in::poisson{.photons = 1e9f, .seed = 1}, 0.5, 0.5e-9, 0, 0);
+    const auto rare = flat(1) | in::poisson{.photons = 0.01f, .seed = 1};
+    const auto hits = static_cast<double>(std::count(rare.pixels().begin(), rare.pixels().end(), 1.0f));
+    const double expected = static_cast<double>(rare.size()) * (1 - std::exp(-0.01));
+    CHECK(std::abs(hits - expected) < 4 * std::sqrt(expected));
+    CHECK(in::detail::log_factorial(9) == Approx(std::lgamma(10.0)).epsilon(1e-14));
+    for (const double k : {10.0, 11.0, 100.0, 1e6, 1e9}) {
+        CHECK(in::detail::log_factorial(k) == Approx(std::lgamma(k + 1)).epsilon(1e-14).margin(1e-10));
+    }
+}
+
+TEMPLATE_TEST_CASE("pixels of noise are independent of their neighbours, of other frames and of other seeds", "",
+                   in::gaussian, in::speckle, in::gaussian_speckle, in::rayleigh, in::poisson) {
+    const auto base = flat(0.25f) | TestType{.seed = 1};
+    const double limit = 4.5 / side;
+    CHECK(std::abs(correlation(base, base, 1, 0)) < limit);
+    CHECK(std::abs(correlation(base, base, 2, 0)) < limit);
+    CHECK(std::abs(correlation(base, base, 4, 0)) < limit);
+    CHECK(std::abs(correlation(base, base, 0, 1)) < limit);
+    CHECK(std::abs(correlation(base, flat(0.25f) | TestType{.seed = 2}, 0, 0)) < limit);
+    CHECK(std::abs(correlation(base, flat(0.25f) | TestType{.seed = 1, .frame = 1}, 0, 0)) < limit);
+    CHECK((flat(0.25f) | TestType{.seed = 1}) == base);
+}
+
+TEST_CASE("kinds of noise under one seed are independent") {
+    const std::vector<in::image<float>> kinds = {
+        flat(0.25f) | in::gaussian{.seed = 5}, flat(0.25f) | in::speckle{.seed = 5},
+        flat(0.25f) | in::gaussian_speckle{.seed = 5}, flat(0.25f) | in::rayleigh{.seed = 5},
+        flat(0.25f) | in::poisson{.seed = 5}};
+    for (std::size_t a = 0; a < kinds.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) CHECK(std::abs(correlation(kinds[a], kinds[b], 0, 0)) < 4.5 / side);
+    }
+}
+
+TEMPLATE_TEST_CASE("the noise of a pixel depends on its place alone, not on the size of the image or other pixels", "",
+                   in::gaussian, in::speckle, in::gaussian_speckle, in::rayleigh, in::poisson) {
+    const TestType noise{.seed = 9, .frame = 3};
+    const auto large = in::image<float>(37, 29, 0.4f) | noise;
+    in::image<float> other(11, 7, 0.4f);
+    other(3, 3) = std::nanf("");
+    other(4, 3) = -5;
+    const auto cut = other | noise;
+    CHECK(std::isnan(cut(3, 3)));
+    CHECK(cut(4, 3) >= 0);
+    for (int y = 0; y < 7; ++y) {
+        for (int x = 0; x < 11; ++x) {
+            if (y != 3 || (x != 3 && x != 4)) CHECK(cut(x, y) == large(x, y));
+        }
+    }
+}
+
+TEST_CASE("noise without variance clips and does no more") {
+    const in::image<float> source{{-1, 0, 0.3f, 1, 2}};
+    const in::image<float> clipped{{0, 0, 0.3f, 1, 1}};
+    CHECK((source | in::gaussian{.variance = 0}) == clipped);
+    CHECK((source | in::speckle{.variance = 0}) == clipped);
+    CHECK((source | in::gaussian_speckle{.variance = 0}) == clipped);
+    // The input is clipped first, as imnoise does: all of 2 is 1, never more.
+    const auto noisy = in::image<float>(64, 64, 2.0f) | in::speckle{.variance = 0.01f, .seed = 4};
+    CHECK(std::any_of(noisy.pixels().begin(), noisy.pixels().end(), [](float v) { return v < 0.9f; }));
+}
+
+TEST_CASE("parameters that can't be are refused before a pixel changes") {
+    const in::image<float> source(2, 2, 0.5f);
+    const float inf = std::numeric_limits<float>::infinity();
+    for (const float bad : {-0.1f, std::nanf(""), inf}) {
+        CHECK_THROWS_AS((source | in::gaussian{.variance = bad}), in::invalid_input);
+        CHECK_THROWS_AS((source | in::speckle{.variance = bad}), in::invalid_input);
+        CHECK_THROWS_AS((source | in::gaussian_speckle{.variance = bad}), in::invalid_input);
+        CHECK_THROWS_AS((source | in::poisson{.photons = bad}), in::invalid_input);
+    }
+    CHECK_THROWS_AS((source | in::gaussian{.mean = inf}), in::invalid_input);
+    CHECK_THROWS_AS((source | in::poisson{.photons = 0}), in::invalid_input);
+    CHECK_THROWS_WITH((source | in::speckle{.variance = -1}),
+                      ContainsSubstring("speckle.variance is -1") && ContainsSubstring("at least 0"));
+}

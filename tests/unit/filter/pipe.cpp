@@ -1,0 +1,212 @@
+// Composition, conversion, gray and colour.
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/filter/colormap.hpp>
+#include <insonify/filter/convert.hpp>
+#include <insonify/filter/gray.hpp>
+#include <insonify/filter/match.hpp>
+#include <insonify/filter/noise.hpp>
+#include <insonify/filter/pipe.hpp>
+#include <insonify/filter/poisson.hpp>
+
+#include <cmath>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+
+namespace {
+
+in::image<float> ramp(int width, int height) {
+    in::image<float> out(width, height);
+    float value = 0;
+    for (float& pixel : out.pixels()) pixel = (value += 1) / static_cast<float>(out.size());
+    return out;
+}
+
+/// Counts how often it is asked, to see what a chain does and when.
+struct counting {
+    int* calls;
+    float operator()(float pixel) const {
+        ++*calls;
+        return pixel;
+    }
+};
+
+struct backwards {
+    template <class Fn>
+    void bulk(std::size_t count, Fn&& fn) const {
+        while (count > 0) fn(--count);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a chain touches no pixel until it is applied, and then each pixel once per stage") {
+    int calls = 0;
+    const auto chain = in::filter_chain<>{} | counting{&calls} | counting{&calls};
+    CHECK(calls == 0);
+    const auto out = ramp(5, 4) | chain;
+    CHECK(calls == 40);
+    CHECK(out == ramp(5, 4));
+}
+
+TEST_CASE("a chain gives what its stages give one after the other") {
+    const in::image<float> source = ramp(300, 250);
+    const in::image<float> reference = ramp(17, 3);
+    const in::match_histogram match(reference);
+    const in::speckle grain{.variance = 0.1f, .seed = 7};
+    const auto invert = [](float v) { return 1 - v; };
+
+    const auto look = match | grain | invert | in::colormap::copper;
+    const in::image<in::rgb8> step_by_step = (((source | match) | grain) | invert) | in::colormap::copper;
+    CHECK((source | look) == step_by_step);
+    CHECK((source | (match | (grain | (invert | in::colormap::copper)))) == step_by_step);
+    CHECK((source.view() | look) == step_by_step);
+    CHECK((in::image<float>(source) | look) == step_by_step);
+
+    SECTION("a measured stage behind others sees what they made") {
+        const auto late = invert | match;
+        CHECK((source | late) == ((source | invert) | match));
+    }
+    SECTION("a function of the image stands anywhere in a chain") {
+        const auto mirror = [](in::image_view<const float> from) {
+            in::image<float> to(from.width(), from.height());
+            for (int y = 0; y < from.height(); ++y) {
+                for (int x = 0; x < from.width(); ++x) to(x, y) = from(from.width() - 1 - x, y);
+            }
+            return to;
+        };
+        CHECK((source | mirror)(0, 0) == source(299, 0));
+        CHECK((source | (grain | mirror | invert)) == (((source | grain) | mirror) | invert));
+        CHECK((source | (mirror | grain)) == ((source | mirror) | grain));
+    }
+}
+
+TEST_CASE("an image may be filtered by a function of a pixel, of a pixel and its place, or of the image") {
+    const in::image<float> source{{0, 0.25f}, {0.5f, 1}};
+    CHECK((source | [](float v) { return v * 0.5f; }) == in::image<float>{{0, 0.125f}, {0.25f, 0.5f}});
+    CHECK((source | [](float v, int x, int y) { return v + static_cast<float>(10 * x + 100 * y); }) ==
+          in::image<float>{{0, 10.25f}, {100.5f, 111}});
+    CHECK((source | [](const in::image<float>& i) { return in::image<int>(i.width() + 1, i.height()); }).width() == 3);
+    CHECK((source | [](const auto& i) { return in::image<int>(1, i.height()); }).height() == 2);
+    CHECK((source | [](float v) -> std::uint8_t { return v > 0.4f; }) == in::image<std::uint8_t>{{0, 0}, {1, 1}});
+    CHECK((source | in::filter_chain<>{}) == source);
+}
+
+TEST_CASE("an image that is moved in lends its memory") {
+    in::image<float> source = ramp(64, 64);
+    const float* const memory = source.pixels().data();
+    const in::image<float> out = std::move(source) | (in::speckle{.seed = 1} | in::gaussian{.seed = 2});
+    CHECK(out.pixels().data() == memory);
+    CHECK(out == (ramp(64, 64) | in::speckle{.seed = 1} | in::gaussian{.seed = 2}));
+}
+
+TEST_CASE("a filtered part of a larger image is packed and leaves the rest alone") {
+    const in::image<float> source = ramp(10, 10);
+    const in::image<float> before = source;
+    const auto part = source.view().part(3, 4, 5, 2);
+    const auto out = part | [](float v) { return -v; };
+    CHECK(out.width() == 5);
+    CHECK(out(4, 1) == -source(7, 5));
+    CHECK(source == before);
+}
+
+TEST_CASE("results don't depend on the executor") {
+    in::thread_pool pool(3);
+    const in::image<float> source = ramp(1031, 517);
+    const auto look = in::match_histogram(ramp(50, 50)) | in::speckle{.seed = 3} | in::gaussian{.seed = 3} |
+                      in::rayleigh{.seed = 3} | in::gaussian_speckle{.seed = 3} | in::poisson{.seed = 3};
+    const in::image<float> serial = source | look;
+    CHECK(apply(source, look, pool) == serial);
+    CHECK(apply(source.view(), look, backwards{}) == serial);
+    CHECK(apply(in::image<float>(source), look, pool) == serial);
+    CHECK(apply(source, look) == serial);
+}
+
+TEST_CASE("empty and thin images pass through every filter") {
+    const auto look = in::match_histogram(ramp(5, 5)) | in::speckle{} | in::colormap::copper | in::to_gray{};
+    CHECK((in::image<float>() | look).empty());
+    CHECK((in::image<float>(0, 7) | look).height() == 7);
+    CHECK((in::image<float>(1, 1) | look).size() == 1);
+    CHECK((in::image<float>(70000, 1, 0.5f) | look).width() == 70000);
+    CHECK((in::image<float>(1, 70000, 0.5f) | look).height() == 70000);
+}
+
+TEST_CASE("only filters of the library compose with whatever is callable, and only with pixels they know") {
+    const auto lambda = [](float v) { return v; };
+    STATIC_REQUIRE(in::detail::library_filter<in::speckle>);
+    STATIC_REQUIRE_FALSE(in::detail::library_filter<decltype(lambda)>);
+    STATIC_REQUIRE_FALSE(in::detail::stage<in::image<float>>);
+    STATIC_REQUIRE_FALSE(in::detail::stage<int>);
+    STATIC_REQUIRE(in::filter_for<in::speckle, float>);
+    STATIC_REQUIRE_FALSE(in::filter_for<in::speckle, std::uint8_t>);
+    STATIC_REQUIRE_FALSE(in::filter_for<in::speckle, double>);
+    STATIC_REQUIRE_FALSE(in::filter_for<decltype([](float v) { return v > 0; }), float>);
+    STATIC_REQUIRE_FALSE(in::filter_for<in::to_gray, float>);
+    STATIC_REQUIRE_FALSE(in::filter_for<in::match_histogram, in::rgb8>);
+}
+
+TEST_CASE("quantization rounds to the nearest, ties up, and comes back") {
+    CHECK(in::quantize<std::uint8_t>(0.5f) == 128);  // 127.5
+    CHECK(in::quantize<std::uint8_t>(std::nextafter(0.5f, 0.0f)) == 127);
+    CHECK(in::quantize<std::uint8_t>(-1.0f) == 0);
+    CHECK(in::quantize<std::uint8_t>(1e30f) == 255);
+    CHECK(in::quantize<std::uint8_t>(std::numeric_limits<float>::infinity()) == 255);
+    CHECK(in::quantize<std::uint8_t>(std::nanf("")) == 0);
+    CHECK(in::quantize<std::uint16_t>(0.5f) == 32768);  // 32767.5
+    CHECK(in::quantize<std::uint16_t>(std::nextafter(1.0f, 0.0f)) == 65535);
+
+    bool same = true;
+    for (int code = 0; code < 65536; ++code) {
+        const auto wide = static_cast<std::uint16_t>(code);
+        same = same && in::quantize<std::uint16_t>(in::dequantize(wide)) == wide;
+        const auto narrow = static_cast<std::uint8_t>(code & 255);
+        same = same && in::quantize<std::uint8_t>(in::dequantize(narrow)) == narrow;
+    }
+    CHECK(same);
+
+    const in::image<std::uint8_t> codes{{0, 1, 128, 255}};
+    CHECK((codes | in::to_float | in::to_uint8) == codes);
+    CHECK((in::image<float>{{0.25f}} | in::to_uint16) == in::image<std::uint16_t>{{16384}});
+    CHECK((in::image<in::rgb8>{{{255, 0, 51}}} | in::to_float) == in::image<in::rgb<float>>{{{1, 0, 0.2f}}});
+    CHECK((in::image<in::rgb<float>>{{{1, 0, 0.2f}}} | in::to_uint8) == in::image<in::rgb8>{{{255, 0, 51}}});
+}
+
+TEST_CASE("gray has MATLAB's weights unless told otherwise") {
+    // rgb2gray of the pure colours and of white, as documented by MathWorks: 76, 150, 29 and 255.
+    const in::image<in::rgb8> colors{{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}, {0, 0, 0}}};
+    CHECK((colors | in::to_gray{}) == in::image<std::uint8_t>{{76, 150, 29, 255, 0}});
+    CHECK((colors | in::to_gray{.weights = in::rec709_weights}) == in::image<std::uint8_t>{{54, 182, 18, 255, 0}});
+    const auto light = in::image<in::rgb<float>>{{{0.5f, 0.25f, 1}}} | in::to_gray{};
+    CHECK(static_cast<double>(light(0, 0)) ==
+          Approx(0.5 * 0.298936021293775 + 0.25 * 0.587043074451121 + 0.114020904255103).epsilon(1e-7));
+    CHECK_THROWS_AS((colors | in::to_gray{{0.5, 0.6, 0.1}}), in::invalid_input);
+    CHECK_THROWS_AS((colors | in::to_gray{{-0.1, 0.6, 0.1}}), in::invalid_input);
+    CHECK_THROWS_AS((colors | in::to_gray{{std::nan(""), 0.6, 0.1}}), in::invalid_input);
+}
+
+TEST_CASE("copper is MATLAB's copper(256)") {
+    const auto& colors = in::colormap::copper.colors;
+    CHECK(colors[0] == in::rgb8{0, 0, 0});
+    CHECK(colors[255] == in::rgb8{255, 199, 127});
+    CHECK(colors[203].r == 254);
+    CHECK(colors[204].r == 255);
+    // min(1, gray(256) * diag([1.25 0.7812 0.4975])), in doubles as MATLAB has it: within half a level everywhere.
+    for (std::size_t level = 0; level < 256; ++level) {
+        const double t = static_cast<double>(level) / 255;
+        CHECK(std::abs(colors[level].r - 255 * std::fmin(1, 1.25 * t)) <= 0.5 + 1e-9);
+        CHECK(std::abs(colors[level].g - 255 * 0.7812 * t) <= 0.5 + 1e-9);
+        CHECK(std::abs(colors[level].b - 255 * 0.4975 * t) <= 0.5 + 1e-9);
+    }
+}
+
+TEST_CASE("a colour map takes floats and codes alike, and users' tables too") {
+    const in::image<float> values{{0, 0.5f, 1, -3, 7, std::nanf("")}};
+    CHECK((values | in::colormap::copper) == (values | in::to_uint8 | in::colormap::copper));
+    CHECK((values | in::colormap::gray) ==
+          in::image<in::rgb8>{{{0, 0, 0}, {128, 128, 128}, {255, 255, 255}, {0, 0, 0}, {255, 255, 255}, {0, 0, 0}}});
+    const in::color_table red = in::tabulate_colors([](int level) {
+        return in::rgb8{static_cast<std::uint8_t>(level), 0, 0};
+    });
+    CHECK((values | red)(1, 0) == in::rgb8{128, 0, 0});
+}
