@@ -38,14 +38,31 @@ struct map_extent {
     }
 };
 
+/// The smallest extent that holds both.
+inline map_extent merge(const map_extent& a, const map_extent& b) {
+    map_extent both = a;
+    both.include({b.lowest.x, b.lowest.y, b.floor});
+    both.include({b.highest.x, b.highest.y, b.ceiling});
+    return both;
+}
+
 /// The extent of a mesh under a light; positions that aren't finite are passed over.
-inline map_extent extent_of(const mesh& m, const affine& to_world, const light_frame& frame) {
-    map_extent extent;
-    for (const glm::vec3& p : m.positions) {
-        const glm::dvec3 world = transform_point(to_world, p);
-        if (numeric::is_finite(world.x + world.y + world.z)) extent.include(frame(world));
-    }
-    return extent;
+template <executor_argument E = serial_executor>
+map_extent extent_of(const mesh& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
+    constexpr std::size_t grain = 16384;
+    std::vector<map_extent> parts((m.positions.size() + grain - 1) / grain);
+    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
+        map_extent part;
+        for (std::size_t i = first; i < last; ++i) {
+            const glm::dvec3 world = transform_point(to_world, m.positions[i]);
+            if (numeric::is_finite(world.x + world.y + world.z)) part.include(frame(world));
+        }
+        parts[first / grain] = part;
+    });
+    map_extent whole;
+    for (const map_extent& part : parts)
+        if (!part.empty()) whole = merge(whole, part);
+    return whole;
 }
 
 /// Heights of casters over a grid of rays.
@@ -73,8 +90,7 @@ class height_map {
         const double room = 1e-3 * relief + 1e-6;
         floor_ -= room;
         relief_ = relief + 2 * room;
-        heights_ = image<float>(texels(size.x), texels(size.y));
-        std::fill(heights_.pixels().begin(), heights_.pixels().end(), empty_depth(keep_depth::larger));
+        heights_ = image<float>(texels(size.x), texels(size.y), empty_depth(keep_depth::larger));
     }
 
     /// Lets a mesh cast; several may share a map.

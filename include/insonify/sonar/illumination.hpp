@@ -71,7 +71,7 @@ class shadow_maps {
 
     template <executor E>
     shadow::height_map cast(const placed_mesh& caster, const shadow::map_extent& receivers, double texel, E& ex) const {
-        const shadow::map_extent own = shadow::extent_of(*caster.shape, caster.to_rig, light_);
+        const shadow::map_extent own = shadow::extent_of(*caster.shape, caster.to_rig, light_, ex);
         shadow::height_map map(light_, own.clipped_to(receivers), texel, policy_.largest);
         map.cast(*caster.shape, caster.to_rig, ex);
         return map;
