@@ -8,13 +8,14 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 namespace insonify::inline INSONIFY_ABI {
 
 /// A fixed number of threads that share the calls of one `bulk` at a time; the calling thread is one of them.
-/// A `bulk` from inside a running call, on this pool, runs on the calling thread: nesting can't deadlock.
-/// Several threads may call `bulk`; they take turns.
+/// A `bulk` that finds the pool at work, called from inside a running call or from another thread, runs on its calling
+/// thread instead of waiting: nesting can't deadlock, however pools are mixed.
 class thread_pool {
   public:
     /// @param threads  how many threads share the work, the caller included; 0 means one per hardware thread
@@ -44,9 +45,8 @@ class thread_pool {
     template <std::invocable<std::size_t> Fn>
     void bulk(std::size_t count, Fn&& fn) {
         if (count == 0) return;
-        if (workers_.empty() || count == 1 || inside() == this) return serial_executor{}.bulk(count, fn);
+        if (workers_.empty() || count == 1 || busy_.exchange(true)) return serial_executor{}.bulk(count, fn);
 
-        const std::lock_guard turn(turn_);
         job work{[](void* callable, std::size_t i) { (*static_cast<std::remove_reference_t<Fn>*>(callable))(i); },
                  const_cast<void*>(static_cast<const void*>(&fn)), count};
         {
@@ -61,6 +61,7 @@ class thread_pool {
             job_ = nullptr;  // a worker that wakes up late finds nothing to do
             work_left_.wait(lock, [&] { return work.helpers == 0; });
         }
+        busy_ = false;
         if (work.error) std::rethrow_exception(work.error);
     }
 
@@ -75,22 +76,19 @@ class thread_pool {
         std::exception_ptr error{};
     };
 
-    static const thread_pool*& inside() {
-        thread_local const thread_pool* pool = nullptr;
-        return pool;
-    }
-
-    void run(job& work) {
-        const thread_pool* const outer = std::exchange(inside(), this);
+    static void run(job& work) {
         for (std::size_t i; (i = work.next.fetch_add(1, std::memory_order_relaxed)) < work.count;) {
+#if defined(__cpp_exceptions)
             try {
                 work.call(work.callable, i);
             } catch (...) {
                 const std::lock_guard lock(work.error_mutex);
                 if (!work.error) work.error = std::current_exception();
             }
+#else
+            work.call(work.callable, i);
+#endif
         }
-        inside() = outer;
     }
 
     void serve() {
@@ -110,7 +108,7 @@ class thread_pool {
     }
 
     std::vector<std::thread> workers_;
-    std::mutex turn_;
+    std::atomic<bool> busy_{false};
     std::mutex mutex_;
     std::condition_variable work_arrived_;
     std::condition_variable work_left_;

@@ -87,7 +87,7 @@ struct level_map {
 /// source, less half of the level's own share (which levels 0 and 255 don't get).
 template <class Pixel>
 level_map<Pixel> map_levels(const histogram& source, const histogram& wanted) {
-    const auto source_total = static_cast<double>((std::max<std::uint64_t>)(source.total(), 1));
+    const auto source_total = static_cast<double>((std::max)(source.total(), std::uint64_t{1}));
     const auto wanted_total = static_cast<double>(wanted.total());
     constexpr double tolerance = 0x1p-26;
     level_map<Pixel> map;

@@ -1,7 +1,7 @@
 // Which shadows a picture has, as types: what is not asked for is not compiled.
 #pragma once
 
-#include <insonify/config.hpp>
+#include <insonify/core/numeric.hpp>
 
 #include <concepts>
 

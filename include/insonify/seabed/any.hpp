@@ -1,0 +1,13 @@
+// Every kind of seabed a scene can be given.
+#pragma once
+
+#include <insonify/seabed/blend.hpp>
+#include <insonify/seabed/heightfield.hpp>
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// One of the library's seabeds, by value: `any bottom = ripples{.wavelength = 0.6f};`. `prepare` and `sample` take it
+/// as they take a recipe. Other recipes join as the heightfield that `sample` makes of them.
+using any = std::variant<flat, ripples, mud, rock, blend, heightfield>;
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed

@@ -1,0 +1,43 @@
+// Flat sand: nothing but the roughness that the sea left.
+#pragma once
+
+#include <insonify/seabed/noise.hpp>
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+class flat_sampler;
+
+/// Level sand with power-law roughness; `{.surface = {.rms = 0}}` is a plane.
+struct flat {
+    static constexpr type kind = type::sand;
+
+    roughness surface{.rms = 0.004f, .longest = 1.5f};
+    std::uint64_t seed = 1;
+
+    /// @throws invalid_input for parameters out of the ranges of `roughness`
+    flat_sampler prepare() const;
+    float operator()(double x, double y) const;
+};
+
+/// Evaluates `flat`.
+class flat_sampler {
+  public:
+    explicit flat_sampler(const flat& f) : surface_(f.surface, f.seed, detail::stream::sand) {}
+
+    void row(const scanline& line, std::span<float> heights) const {
+        std::fill(heights.begin(), heights.end(), 0.0f);
+        surface_.add_row(line, heights);
+    }
+
+  private:
+    power_law_noise surface_;
+};
+
+inline flat_sampler flat::prepare() const {
+    return flat_sampler(*this);
+}
+inline float flat::operator()(double x, double y) const {
+    return height_at(prepare(), x, y);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed

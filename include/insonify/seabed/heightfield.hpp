@@ -1,0 +1,141 @@
+// A grid of sampled or measured heights: the form in which a seabed is stored, drawn, and rested upon.
+#pragma once
+
+#include <insonify/core/image.hpp>
+#include <insonify/core/numeric.hpp>
+#include <insonify/seabed/recipe.hpp>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+namespace detail {
+
+/// A coordinate in cells, held inside a grid: which of its cells, and how far across, in [0, 1]. NaN counts as 0.
+struct grid_coordinate {
+    int cell;
+    double across;
+    grid_coordinate(double c, int cells) {
+        const double held = c > 0 ? (std::min)(c, static_cast<double>(cells)) : 0.0;
+        cell = (std::min)(static_cast<int>(held), cells - 1);
+        across = held - cell;
+    }
+};
+
+/// The plane over one point: its height there and how much it rises over a cell in x and in y, metres.
+struct facet {
+    double height, rise_x, rise_y;
+};
+
+/// The triangle of a heightfield over (u, v), in cells from vertex (0, 0).
+inline facet facet_at(image_view<const float> heights, double u, double v) {
+    const grid_coordinate x(u, heights.width() - 1), y(v, heights.height() - 1);
+    const double corner = static_cast<double>(heights(x.cell, y.cell));
+    const double opposite = static_cast<double>(heights(x.cell + 1, y.cell + 1));
+    // The diagonal runs from this corner to the opposite one: below it the right vertex counts, above it the upper.
+    const bool lower = x.across >= y.across;
+    const double side = static_cast<double>(lower ? heights(x.cell + 1, y.cell) : heights(x.cell, y.cell + 1));
+    const double rise_x = lower ? side - corner : opposite - side;
+    const double rise_y = lower ? opposite - side : side - corner;
+    const double height = corner + x.across * rise_x + y.across * rise_y;
+    return {numeric::is_finite(height) ? height : (std::numeric_limits<double>::quiet_NaN)(), rise_x, rise_y};
+}
+
+}  // namespace detail
+
+class heightfield_sampler;
+
+/// Heights at the vertices of a square grid; vertex (i, j) stands at origin + spacing * (i, j), so that y, along track,
+/// grows with the row: the array looked at as a picture has forward at the bottom (`from_image` turns it).
+///
+/// Between vertices the surface is the one that is drawn: each cell is cut from vertex (i, j) to (i + 1, j + 1) into two
+/// plane triangles. Outside, it goes on as at the nearest edge. A vertex that is NaN or infinite is no data: queries on
+/// its triangles answer NaN, and they are left out of the drawn mesh.
+struct heightfield {
+    image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
+    image<type> types{};          ///< one per vertex, or none: then everything is `fallback`
+    glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
+    double spacing = 1;           ///< metres between vertices, > 0
+    type fallback = type::sand;
+
+    /// Height of the drawn surface at a world position, metres; it and the next two expect a valid heightfield.
+    float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
+
+    /// Unit normal of the triangle at a world position; outside, that of the nearest one. NaN where there is no data.
+    glm::vec3 normal_at(double x, double y) const {
+        const detail::facet f = facet_at(x, y);
+        return glm::vec3(glm::normalize(glm::dvec3(-f.rise_x, -f.rise_y, spacing)));
+    }
+
+    /// Type at the nearest vertex.
+    type type_at(double x, double y) const {
+        if (types.empty()) return fallback;
+        return types(detail::grid_coordinate((x - origin.x) / spacing + 0.5, types.width()).cell,
+                     detail::grid_coordinate((y - origin.y) / spacing + 0.5, types.height()).cell);
+    }
+
+    float operator()(double x, double y) const { return height_at(x, y); }
+
+    /// The heightfield as a recipe, by reference: it has to outlive the sampler.
+    /// @throws invalid_input as `validate`
+    heightfield_sampler prepare() const;
+
+    detail::facet facet_at(double x, double y) const {
+        return detail::facet_at(heights, (x - origin.x) / spacing, (y - origin.y) / spacing);
+    }
+};
+
+/// @throws invalid_input for fewer than 2 x 2 vertices, types of another size, an origin beyond 1e9 m or a spacing not
+/// above 0
+inline void validate(const heightfield& h) {
+    detail::require(h.heights.width() >= 2, "heightfield.heights.width()", h.heights.width(), "at least 2");
+    detail::require(h.heights.height() >= 2, "heightfield.heights.height()", h.heights.height(), "at least 2");
+    detail::require(h.types.empty() || h.types.width() == h.heights.width(), "heightfield.types.width()",
+                    h.types.width(), "that of the heights, or no types at all");
+    detail::require(h.types.empty() || h.types.height() == h.heights.height(), "heightfield.types.height()",
+                    h.types.height(), "that of the heights, or no types at all");
+    detail::require(h.origin.x >= -1e9 && h.origin.x <= 1e9, "heightfield.origin.x", h.origin.x, "within 1e9 metres");
+    detail::require(h.origin.y >= -1e9 && h.origin.y <= 1e9, "heightfield.origin.y", h.origin.y, "within 1e9 metres");
+    detail::require(h.spacing > 0 && h.spacing < 1e6, "heightfield.spacing", h.spacing, "metres above 0");
+}
+
+/// Evaluates a `heightfield` between its vertices.
+class heightfield_sampler {
+  public:
+    explicit heightfield_sampler(const heightfield& h) : field_(&h) { validate(h); }
+
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = field_->height_at(line.x(i), line.y);
+        for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
+    }
+
+  private:
+    const heightfield* field_;
+};
+
+inline heightfield_sampler heightfield::prepare() const {
+    return heightfield_sampler(*this);
+}
+
+/// A heightfield from a picture of heights: one vertex per pixel, height = scale * pixel, the top row foremost (the
+/// largest y), vertex (0, 0) at the world's origin.
+///
+/// A picture of 8 bits has 256 heights: over 1 m of relief its steps are 4 mm high, and under a grazing light each
+/// draws a contour line. Take 16 bits or more, or smooth the pixels first.
+/// @param spacing  metres between pixels, > 0
+/// @param scale    metres per unit of a pixel
+/// @throws invalid_input for a picture smaller than 2 x 2, a spacing not above 0 or a scale that is not finite
+inline heightfield from_image(image_view<const float> picture, double spacing, float scale = 1) {
+    detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
+    heightfield result{.heights = image<float>(picture.width(), picture.height()), .spacing = spacing};
+    validate(result);
+    for (int j = 0; j < picture.height(); ++j) {
+        const auto from = picture.row(picture.height() - 1 - j);
+        std::transform(from.begin(), from.end(), result.heights.row(j).begin(), [=](float p) { return scale * p; });
+    }
+    return result;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed

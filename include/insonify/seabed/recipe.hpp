@@ -1,0 +1,137 @@
+// What a seabed recipe is: a height and a type at every point of the world, by itself or a row at a time.
+//
+// A recipe is a plain aggregate of parameters. `prepare` turns it into a sampler, which holds what is worth computing
+// once (wave vectors, octaves) and evaluates rows; a row is the primitive, a single point is a row of one sample.
+#pragma once
+
+#include <insonify/core/error.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// What the bottom is made of, as a label and for the backscatter law.
+enum class type : std::uint8_t { sand, ripples, mud, rock };
+
+/// Equally spaced samples along x: sample i lies at (x(i), y), metres in the world. Each position is computed from i
+/// alone, never accumulated, and parts of a row keep their origin: cutting a row changes no bit of it.
+struct scanline {
+    double y = 0;
+    double origin = 0;      ///< x of sample 0 of the whole row
+    double spacing = 1;     ///< >= 0
+    std::size_t first = 0;  ///< which sample of the whole row is sample 0 here
+
+    double x(std::size_t i) const { return origin + spacing * static_cast<double>(first + i); }
+    scanline from(std::size_t i) const { return {y, origin, spacing, first + i}; }
+};
+
+/// Writes the heights of a row, in metres above the datum z = 0. Heights depend on seed and position alone; positions
+/// are good to 1e9 m from the origin. Its type is either one, `kind`, or one per sample (see `typed_sampler`).
+template <class S>
+concept sampler = requires(const S& s, const scanline& row, std::span<float> heights) { s.row(row, heights); };
+
+/// Also writes the type of each sample; `types` is as long as `heights`, or empty where nobody asks.
+template <class S>
+concept typed_sampler = requires(const S& s, const scanline& row, std::span<float> heights, std::span<type> types) {
+    s.row(row, heights, types);
+};
+
+/// Recipes of a single type say so.
+template <class R>
+concept single_typed = requires {
+    { std::remove_cvref_t<R>::kind } -> std::convertible_to<type>;
+};
+
+/// Anything that `prepare`s a sampler and answers for a single point.
+/// It has one type, `static constexpr type kind`, or one per point, `type type_at(x, y)` and a typed sampler.
+template <class R>
+concept recipe = requires(const R& r, double x, double y) {
+    { r(x, y) } -> std::convertible_to<float>;
+    r.prepare();
+} && (single_typed<R> || (requires(const R& r) {
+    { r.type_at(0.0, 0.0) } -> std::convertible_to<type>;
+} && typed_sampler<decltype(std::declval<const R&>().prepare())>));
+
+namespace detail {
+
+using insonify::detail::refuse;
+using insonify::detail::require;
+
+/// How many samples are worked on at a time where scratch space is needed.
+inline constexpr std::size_t chunk = 128;
+
+/// Gives the sampler of a single-typed recipe the interface of a typed one.
+template <sampler S>
+struct with_kind {
+    S heights_only;
+    type kind;
+
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+        heights_only.row(line, heights);
+        std::fill(types.begin(), types.end(), kind);
+    }
+};
+
+}  // namespace detail
+
+/// The typed sampler of a recipe: what the rest of the library evaluates.
+/// @throws invalid_input for parameters out of their range
+template <recipe R>
+auto prepare(const R& r) {
+    if constexpr (single_typed<R>) {
+        return detail::with_kind<decltype(r.prepare())>{r.prepare(), R::kind};
+    } else {
+        return r.prepare();
+    }
+}
+
+/// One of several samplers.
+template <typed_sampler... Samplers>
+struct variant_sampler {
+    std::variant<Samplers...> alternatives;
+
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+        std::visit([&](const auto& s) { s.row(line, heights, types); }, alternatives);
+    }
+};
+
+/// A variant of recipes prepares whichever it holds.
+template <recipe... Recipes>
+auto prepare(const std::variant<Recipes...>& r) {
+    using result = variant_sampler<decltype(prepare(std::declval<const Recipes&>()))...>;
+    return std::visit([](const auto& held) { return result{prepare(held)}; }, r);
+}
+
+/// A recipe, or a variant of recipes.
+template <class R>
+concept preparable = requires(const R& r) {
+    { seabed::prepare(r) } -> typed_sampler;
+};
+
+/// Height and type at one point.
+struct ground {
+    float height;
+    type kind;
+};
+template <typed_sampler S>
+ground at(const S& prepared, double x, double y) {
+    ground result{};
+    prepared.row({.y = y, .origin = x}, {&result.height, 1}, {&result.kind, 1});
+    return result;
+}
+
+/// Height at one point, for the call operators of recipes.
+template <sampler S>
+float height_at(const S& prepared, double x, double y) {
+    float height = 0;
+    prepared.row({.y = y, .origin = x}, {&height, 1});
+    return height;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed

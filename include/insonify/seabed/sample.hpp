@@ -1,0 +1,61 @@
+// From recipe to heightfield: evaluates a recipe at the vertices of a grid, a row per task.
+#pragma once
+
+#include <insonify/core/executor.hpp>
+#include <insonify/seabed/heightfield.hpp>
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// Where to sample: vertex (i, j) at origin + spacing * (i, j), metres in the world.
+struct grid {
+    glm::dvec2 origin{0.0, 0.0};
+    double spacing = 0.02;
+    int width = 2, height = 2;  ///< vertices, at least 2
+};
+
+/// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
+/// vertices where they overlap: to the last bit if the spacing is a sum of few powers of two, as 1/64 m is.
+/// @throws invalid_input for a spacing not above 0, or corners beyond 1e9 metres or in the wrong order
+inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
+    detail::require(spacing > 0 && spacing < 1e6, "spacing", spacing, "metres above 0");
+    const auto axis = [&](double from, double to, const char* name) {
+        detail::require(from >= -1e9 && to <= 1e9 && from <= to, name, to, "not below low, both within 1e9 metres");
+        const std::int64_t first = numeric::floor_to_int(from / spacing);
+        const std::int64_t last = (std::max)(-numeric::floor_to_int(-to / spacing), first + 1);
+        detail::require(last - first < (1 << 30), name, to, "at most 2^30 vertices from low");
+        return std::pair{static_cast<double>(first) * spacing, static_cast<int>(last - first + 1)};
+    };
+    const auto [x, width] = axis(low.x, high.x, "high.x");
+    const auto [y, height] = axis(low.y, high.y, "high.y");
+    return {.origin = {x, y}, .spacing = spacing, .width = width, .height = height};
+}
+
+/// The recipe's heights, and its types where it has more than one, at the vertices of a grid.
+///
+/// The bits depend on the recipe and the positions of the vertices alone, not on the executor or on what else is in
+/// the grid.
+/// @param source  a recipe, a variant of recipes, or anything else that `prepare`s
+/// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing not above 0, and for
+/// parameters of the recipe out of their range
+template <preparable Recipe, executor_argument Executor = serial_executor>
+heightfield sample(const Recipe& source, const grid& where, Executor&& ex = serial_executor{}) {
+    heightfield result{.heights = image<float>(where.width, where.height), .origin = where.origin,
+                       .spacing = where.spacing};
+    if constexpr (single_typed<Recipe>) {
+        result.fallback = Recipe::kind;
+    } else {
+        result.types = image<type>(where.width, where.height);
+    }
+    validate(result);
+
+    const auto prepared = prepare(source);
+    ex.bulk(static_cast<std::size_t>(where.height), [&](std::size_t row) {
+        const int j = static_cast<int>(row);
+        const scanline line{.y = where.origin.y + where.spacing * j, .origin = where.origin.x,
+                            .spacing = where.spacing};
+        prepared.row(line, result.heights.row(j), result.types.empty() ? std::span<type>{} : result.types.row(j));
+    });
+    return result;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed

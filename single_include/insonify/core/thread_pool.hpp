@@ -1,0 +1,120 @@
+// A small pool that the caller builds, owns and destroys. The only header that includes <thread>; not in the umbrella.
+#pragma once
+
+#include <insonify/insonify.hpp>
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A fixed number of threads that share the calls of one `bulk` at a time; the calling thread is one of them.
+/// A `bulk` that finds the pool at work, called from inside a running call or from another thread, runs on its calling
+/// thread instead of waiting: nesting can't deadlock, however pools are mixed.
+class thread_pool {
+  public:
+    /// @param threads  how many threads share the work, the caller included; 0 means one per hardware thread
+    /// @throws invalid_input above 4096
+    explicit thread_pool(int threads = 0) {
+        detail::require(threads >= 0 && threads <= 4096, "threads", threads, "0 to 4096");
+        const unsigned hardware = std::thread::hardware_concurrency();
+        const int total = threads > 0 ? threads : hardware > 0 ? static_cast<int>(hardware) : 1;
+        workers_.reserve(static_cast<std::size_t>(total - 1));
+        for (int i = 1; i < total; ++i) workers_.emplace_back([this] { serve(); });
+    }
+
+    ~thread_pool() {
+        {
+            const std::lock_guard lock(mutex_);
+            stopping_ = true;
+        }
+        work_arrived_.notify_all();
+        for (std::thread& worker : workers_) worker.join();
+    }
+
+    thread_pool(const thread_pool&) = delete;
+    thread_pool& operator=(const thread_pool&) = delete;
+
+    int threads() const { return static_cast<int>(workers_.size()) + 1; }
+
+    template <std::invocable<std::size_t> Fn>
+    void bulk(std::size_t count, Fn&& fn) {
+        if (count == 0) return;
+        if (workers_.empty() || count == 1 || busy_.exchange(true)) return serial_executor{}.bulk(count, fn);
+
+        job work{[](void* callable, std::size_t i) { (*static_cast<std::remove_reference_t<Fn>*>(callable))(i); },
+                 const_cast<void*>(static_cast<const void*>(&fn)), count};
+        {
+            const std::lock_guard lock(mutex_);
+            job_ = &work;
+            ++generation_;
+        }
+        work_arrived_.notify_all();
+        run(work);
+        {
+            std::unique_lock lock(mutex_);
+            job_ = nullptr;  // a worker that wakes up late finds nothing to do
+            work_left_.wait(lock, [&] { return work.helpers == 0; });
+        }
+        busy_ = false;
+        if (work.error) std::rethrow_exception(work.error);
+    }
+
+  private:
+    struct job {
+        void (*call)(void*, std::size_t);
+        void* callable;
+        std::size_t count;
+        std::atomic<std::size_t> next{0};
+        int helpers = 0;  // workers inside run(); guarded by mutex_
+        std::mutex error_mutex{};
+        std::exception_ptr error{};
+    };
+
+    static void run(job& work) {
+        for (std::size_t i; (i = work.next.fetch_add(1, std::memory_order_relaxed)) < work.count;) {
+#if defined(__cpp_exceptions)
+            try {
+                work.call(work.callable, i);
+            } catch (...) {
+                const std::lock_guard lock(work.error_mutex);
+                if (!work.error) work.error = std::current_exception();
+            }
+#else
+            work.call(work.callable, i);
+#endif
+        }
+    }
+
+    void serve() {
+        std::size_t seen = 0;
+        std::unique_lock lock(mutex_);
+        for (;;) {
+            work_arrived_.wait(lock, [&] { return stopping_ || (job_ != nullptr && generation_ != seen); });
+            if (stopping_) return;
+            seen = generation_;
+            job& work = *job_;
+            ++work.helpers;
+            lock.unlock();
+            run(work);
+            lock.lock();
+            if (--work.helpers == 0) work_left_.notify_all();
+        }
+    }
+
+    std::vector<std::thread> workers_;
+    std::atomic<bool> busy_{false};
+    std::mutex mutex_;
+    std::condition_variable work_arrived_;
+    std::condition_variable work_left_;
+    job* job_ = nullptr;
+    std::size_t generation_ = 0;
+    bool stopping_ = false;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI

@@ -1,0 +1,17 @@
+// A chain of which a stage can't take what the stage before it makes doesn't apply to the image.
+// expect: filter_for
+#include <insonify/filter/colormap.hpp>
+#include <insonify/filter/noise.hpp>
+#include <insonify/filter/pipe.hpp>
+
+namespace in = insonify;
+
+int main() {
+    const in::image<float> frame(4, 4);
+#if defined(INSONIFY_COMPILE_FAIL)
+    const auto look = in::colormap::copper | in::speckle{};
+#else
+    const auto look = in::speckle{} | in::colormap::copper;
+#endif
+    return (frame | look).empty();
+}

@@ -1,0 +1,17 @@
+// A view of an image that ends with the statement would show pixels that are gone.
+// expect: deleted
+#include <insonify/core/image.hpp>
+
+insonify::image<float> made() {
+    return {4, 4};
+}
+
+int main() {
+#if defined(INSONIFY_COMPILE_FAIL)
+    const auto view = made().view();
+#else
+    const auto pixels = made();
+    const auto view = pixels.view();
+#endif
+    return view.width() - 4;
+}

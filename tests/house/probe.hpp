@@ -1,0 +1,19 @@
+// What one translation unit of the flags test tells of itself.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+struct probe_result {
+    std::string abi;        // the tag that keeps its symbols apart
+    std::uint64_t bytes;    // a checksum over what it drew
+    std::uint64_t refused;  // pixels it did not draw
+};
+
+probe_result probe_scalar();
+probe_result probe_simd();
+probe_result probe_checked();
+probe_result probe_bare();
+#if defined(__x86_64__)
+probe_result probe_avx2();
+#endif

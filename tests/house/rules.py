@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""Reads every header as text and reports each line that breaks a rule of the house: rules.py <include folder>."""
+
+import pathlib
+import re
+import sys
+
+# Which folder may include which, directly; what those may include is allowed too. "" holds config and version.
+MAY_INCLUDE = {
+    "": [],
+    "core": [""],
+    "geometry": ["core"],
+    "seabed": ["geometry"],
+    "raster": ["geometry"],
+    "shadow": ["raster"],
+    "filter": ["core"],
+    "io": ["core"],
+    "sonar": ["seabed", "shadow", "filter"],
+    "accuracy": ["sonar"],
+}
+
+UMBRELLA = "insonify.hpp"
+NOT_IN_UMBRELLA = {UMBRELLA, "io/png.hpp", "core/thread_pool.hpp"}
+
+BANNED_HEADERS = {
+    "iostream", "regex", "filesystem", "random", "ranges", "functional", "thread", "glm/glm.hpp", "glm/ext.hpp",
+}
+BANNED_UNLESS = {"thread": "core/thread_pool.hpp"}
+
+# Macros of other people's headers, and functions whose last bit (or meaning) depends on the machine (or on a macro).
+BANNED_NAMES = {
+    r"\b(near|far|small|interface|IN|OUT|ERROR|DOMAIN|OVERFLOW)\b": "is a macro in somebody's headers",
+    r"\b(min|max)\b(?!\))": "is a macro in somebody's headers: write (std::min)(a, b)",
+    r"\b(?:std|glm)::(?:a?(?:sin|cos|tan)h?|atan2|exp2?|expm1|log(?:2|10|1p)?|pow|hypot|cbrt|erfc?|[tl]gamma)\b":
+        "differs between C libraries: use insonify::numeric",
+    r"\bglm::(?:perspective|ortho|frustum|lookAt)\w*\b": "changes its meaning with the user's macros",
+}
+
+MOST_LINES = 400
+
+
+def allowed_from(folder):
+    """The folders that `folder` may include: itself, and all that lies beneath it."""
+    return {folder}.union(*map(allowed_from, MAY_INCLUDE[folder]))
+
+
+def folder_of(header):
+    return header.rpartition("/")[0]
+
+
+def code_of(text):
+    """The text without comments and string literals; the lines stay where they are."""
+    pattern = r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"'
+    return re.sub(pattern, lambda m: "\n" * m[0].count("\n"), text, flags=re.S)
+
+
+def include_faults(header, included):
+    if included.startswith("insonify/"):
+        target = included.removeprefix("insonify/")
+        if header != UMBRELLA and folder_of(target) not in allowed_from(folder_of(header)):
+            yield f"{folder_of(header)} may not include {folder_of(target) or target}"
+    elif included in BANNED_HEADERS and BANNED_UNLESS.get(included) != header or included.startswith("glm/gtx/"):
+        yield f"<{included}> is banned in library headers"
+
+
+def line_faults(header, line):
+    include = re.match(r"\s*#\s*include\s*(\S+)", line)
+    if include:
+        if not include[1].startswith("<"):
+            yield f"include as <insonify/...>, not {include[1]}"
+        yield from include_faults(header, include[1].strip("<>"))
+        return
+    for pattern, reason in BANNED_NAMES.items():
+        for name in re.finditer(pattern, line):
+            yield f"{name[0]} {reason}"
+    if re.search(r"\bnamespace insonify\b(?!::inline INSONIFY_ABI\b)", line):
+        yield "open the namespace as insonify::inline INSONIFY_ABI"
+
+
+def faults(header, path):
+    data = path.read_bytes()
+    if folder_of(header) not in MAY_INCLUDE:
+        yield 1, f"the house has no folder {folder_of(header)}"
+        return
+    for number, line in enumerate(data.split(b"\n"), 1):
+        if not line.isascii():
+            yield number, "not ASCII"
+    text = data.decode("ascii", "replace")
+    lines = text.splitlines()
+    if not re.match(r"// \S", lines[0]):
+        yield 1, "the first line says what the file is for"
+    if "#pragma once" not in lines:
+        yield 1, "no #pragma once"
+    if len(lines) > MOST_LINES:
+        yield len(lines), f"{len(lines)} lines, at most {MOST_LINES}: one concept per file"
+    for number, (line, code) in enumerate(zip(lines, code_of(text).splitlines()), 1):
+        yield from ((number, fault) for fault in line_faults(header, line if "#include" in line else code))
+
+
+def umbrella_faults(root, headers):
+    listed = set(re.findall(r"^#include <insonify/(.+)>", (root / UMBRELLA).read_text(), flags=re.M))
+    for header in sorted(headers.keys() - NOT_IN_UMBRELLA - listed):
+        yield f"{UMBRELLA}: {header} is missing"
+    for header in sorted(listed & NOT_IN_UMBRELLA):
+        yield f"{UMBRELLA}: {header} does not belong there"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]) / "insonify"
+    headers = {path.relative_to(root).as_posix(): path for path in sorted(root.rglob("*.hpp"))}
+    found = [f"{header}:{number}: {fault}" for header, path in headers.items() for number, fault in faults(header, path)]
+    found += umbrella_faults(root, headers)
+    print("\n".join(found + [f"{len(headers)} headers, {len(found)} faults"]))
+    sys.exit(1 if found else 0)
+
+
+main()

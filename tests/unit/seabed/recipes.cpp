@@ -1,0 +1,430 @@
+#include "../../catch.hpp"
+
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/sample.hpp>
+
+#include <cmath>
+
+namespace in = insonify;
+namespace sb = insonify::seabed;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr sb::roughness smooth{.rms = 0};
+
+struct moments {
+    double mean = 0, variance = 0, kurtosis = 0, low = 1e30, high = -1e30;
+};
+moments moments_of(const in::image<float>& heights) {
+    moments m;
+    const auto n = static_cast<double>(heights.size());
+    for (const float h : heights.pixels()) {
+        m.mean += static_cast<double>(h) / n;
+        m.low = std::min(m.low, static_cast<double>(h));
+        m.high = std::max(m.high, static_cast<double>(h));
+    }
+    double fourth = 0;
+    for (const float h : heights.pixels()) {
+        const double square = (static_cast<double>(h) - m.mean) * (static_cast<double>(h) - m.mean);
+        m.variance += square / n;
+        fourth += square * square / n;
+    }
+    m.kurtosis = m.variance > 0 ? fourth / (m.variance * m.variance) : 0;
+    return m;
+}
+
+/// Power of a row at a frequency in cycles per sample, through a Hann window.
+double power_at(std::span<const float> row, double frequency) {
+    double re = 0, im = 0;
+    const auto n = static_cast<double>(row.size());
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        const auto t = static_cast<double>(i);
+        const double value = static_cast<double>(row[i]) * (1 - std::cos(2 * pi * t / n));
+        re += value * std::cos(2 * pi * frequency * t);
+        im += value * std::sin(2 * pi * frequency * t);
+    }
+    return re * re + im * im;
+}
+
+/// Share of vertices in the shadow of a parallel light from -x at a grazing angle.
+double shadowed(const sb::heightfield& field, double degrees) {
+    const double rise = std::tan(degrees * pi / 180) * field.spacing;
+    std::size_t dark = 0;
+    for (int j = 0; j < field.heights.height(); ++j) {
+        double horizon = -1e30;
+        for (int i = 0; i < field.heights.width(); ++i) {
+            const double level = static_cast<double>(field.heights(i, j)) + rise * i;
+            dark += level < horizon ? 1u : 0u;
+            horizon = std::max(horizon, level);
+        }
+    }
+    return static_cast<double>(dark) / static_cast<double>(field.heights.size());
+}
+
+/// Zeros of psi in a square: plaquettes around which its phase winds.
+int forks(const sb::ripples& recipe, double side) {
+    const auto sampler = recipe.prepare();
+    const double step = static_cast<double>(recipe.wavelength) / 8;
+    const int n = static_cast<int>(side / step);
+    const auto turns = [](double from, double to) { return (to - from) / (2 * pi) - std::round((to - from) / (2 * pi)); };
+    std::vector<double> above, here;
+    int count = 0;
+    for (int j = 0; j < n; ++j) {
+        here.clear();
+        for (int i = 0; i < n; ++i) {
+            const auto psi = sampler.psi(i * step, j * step);
+            here.push_back(std::atan2(psi.im, psi.re));
+        }
+        for (std::size_t i = 1; j > 0 && i < here.size(); ++i) {
+            const double winding = turns(above[i - 1], above[i]) + turns(above[i], here[i]) +
+                                   turns(here[i], here[i - 1]) + turns(here[i - 1], above[i - 1]);
+            count += std::abs(winding) > 0.5 ? 1 : 0;
+        }
+        above = here;
+    }
+    return count;
+}
+
+struct backwards {
+    template <class Fn>
+    void bulk(std::size_t count, Fn&& fn) const {
+        while (count > 0) fn(--count);
+    }
+};
+
+const std::vector<sb::any>& kinds() {
+    static const std::vector<sb::any> all{sb::flat{.seed = 5}, sb::ripples{.seed = 5}, sb::mud{.seed = 5},
+                                          sb::rock{.seed = 5}, sb::blend{.first = sb::rock{}, .patch = 4, .seed = 5}};
+    return all;
+}
+
+static_assert(sb::recipe<sb::flat> && sb::recipe<sb::ripples> && sb::recipe<sb::mud> && sb::recipe<sb::rock>);
+static_assert(sb::recipe<sb::blend> && sb::recipe<sb::heightfield>);
+static_assert(sb::preparable<sb::simple> && sb::preparable<sb::any> && !sb::preparable<int>);
+
+}  // namespace
+
+TEST_CASE("heights and types are a function of position alone, whatever patch, cut, order or thread asks") {
+    const double far_away = GENERATE(0.0, -10000000.0);
+    for (const sb::any& kind : kinds()) {
+        const double spacing = 1.0 / 32;
+        const sb::grid whole{.origin = {far_away, 3}, .spacing = spacing, .width = 300, .height = 40};
+        const auto reference = sb::sample(kind, whole);
+        in::thread_pool pool(3);
+        CHECK(sb::sample(kind, whole, pool).heights == reference.heights);
+        CHECK(sb::sample(kind, whole, backwards{}).types == reference.types);
+
+        const sb::grid patch{.origin = {far_away + 97 * spacing, 3 + 11 * spacing}, .spacing = spacing, .width = 150,
+                             .height = 9};
+        const auto part = sb::sample(kind, patch);
+        const auto prepared = sb::prepare(kind);
+        std::size_t differing = 0;
+        for (int j = 0; j < patch.height; ++j) {
+            for (int i = 0; i < patch.width; ++i) {
+                differing += part.heights(i, j) != reference.heights(i + 97, j + 11) ? 1u : 0u;
+                differing += part.types(i, j) != reference.types(i + 97, j + 11) ? 1u : 0u;
+                const auto point = sb::at(prepared, patch.origin.x + i * spacing, patch.origin.y + j * spacing);
+                differing += point.height != part.heights(i, j) || point.kind != part.types(i, j) ? 1u : 0u;
+            }
+        }
+        CHECK(differing == 0);
+    }
+}
+
+TEST_CASE("the call operator of a recipe agrees with its sampler, and seeds differ") {
+    std::visit(
+        [](const auto&... recipe) {
+            const auto check = [](const auto& r) {
+                auto other = r;
+                other.seed = 77;
+                CHECK(r(12.25, -3.5) == sb::at(sb::prepare(r), 12.25, -3.5).height);
+                CHECK(r(12.25, -3.5) != other(12.25, -3.5));
+            };
+            (check(recipe), ...);
+        },
+        std::variant<sb::flat>(), std::variant<sb::ripples>(), std::variant<sb::mud>(), std::variant<sb::rock>());
+    CHECK(sb::blend{}.type_at(2.0, 1.0) == sb::at(sb::blend{}.prepare(), 2.0, 1.0).kind);
+}
+
+TEST_CASE("relief is as continuous ten thousand kilometres away as at home") {
+    const double origin = GENERATE(0.0, 10000000.0);
+    for (const sb::any& kind : kinds()) {
+        const auto field = sb::sample(kind, {.origin = {origin, origin}, .spacing = 1.0 / 1024, .width = 400, .height = 8});
+        float steepest = 0;
+        for (int j = 0; j < 8; ++j) {
+            for (int i = 1; i < 400; ++i) {
+                steepest = std::max(steepest, std::abs(field.heights(i, j) - field.heights(i - 1, j)) * 1024);
+            }
+        }
+        CHECK(steepest < 9.0f);
+    }
+}
+
+TEST_CASE("gradient noise has mean 0, variance 1 and the slope that its integrals give") {
+    const sb::gradient_noise noise(1.0, {3, sb::detail::stream::sand});
+    double mean = 0, square = 0, slope = 0;
+    const int rows = 700, columns = 700;
+    std::vector<float> here(columns + 1), next(columns + 1);
+    for (int j = 0; j < rows; ++j) {
+        const double y = 0.37 * j;
+        noise.row({.y = y, .spacing = 0.37}, columns, [&](std::size_t i, float n) { here[i] = n; });
+        noise.row({.y = y, .origin = 1e-3, .spacing = 0.37}, columns, [&](std::size_t i, float n) { next[i] = n; });
+        for (std::size_t i = 0; i < columns; ++i) {
+            const double n = static_cast<double>(here[i]), rise = static_cast<double>(next[i] - here[i]) / 1e-3;
+            mean += n / (rows * columns);
+            square += n * n / (rows * columns);
+            slope += rise * rise / (rows * columns);
+        }
+    }
+    CHECK(mean == Approx(0).margin(0.02));
+    CHECK(square == Approx(1).epsilon(0.02));
+    CHECK(2 * slope == Approx(static_cast<double>(sb::gradient_noise::mean_square_slope)).epsilon(0.02));
+}
+
+TEST_CASE("the spectrum of a roughness falls with its exponent, and its rms is the one asked for") {
+    const float exponent = GENERATE(2.6f, 3.25f, 3.8f);
+    const sb::flat sand{.surface{.rms = 0.02f, .longest = 64, .shortest = 0.1f, .exponent = exponent}, .seed = 11};
+    // Rows far apart are independent. A cut through an isotropic K^-g spectrum has a spectrum k^-(g - 1).
+    const int n = 1024, rows = 160;
+    const auto prepared = sand.prepare();
+    std::vector<float> row(n);
+    std::vector<double> power(13, 0.0), frequency;
+    for (std::size_t f = 0; f < power.size(); ++f) frequency.push_back(4 * std::pow(2.0, 0.5 * static_cast<double>(f)));
+    for (int j = 0; j < rows; ++j) {
+        prepared.row({.y = 71.3 * j, .origin = 13.7 * j, .spacing = 1.0 / 16}, row);
+        for (std::size_t f = 0; f < power.size(); ++f) power[f] += power_at(row, frequency[f] / n);
+    }
+    double sx = 0, sy = 0, sxx = 0, sxy = 0;
+    const auto count = static_cast<double>(power.size());
+    for (std::size_t f = 0; f < power.size(); ++f) {
+        const double x = std::log(frequency[f]), y = std::log(power[f]);
+        sx += x, sy += y, sxx += x * x, sxy += x * y;
+    }
+    const double slope = (count * sxy - sx * sy) / (count * sxx - sx * sx);
+    INFO("exponent measured: " << 1 - slope);
+    CHECK(1 - slope == Approx(static_cast<double>(exponent)).margin(0.2));
+
+    const sb::flat small{.surface{.rms = 0.02f, .longest = 1, .shortest = 0.1f, .exponent = exponent}};
+    const auto m = moments_of(sb::sample(small, {.spacing = 0.2, .width = 600, .height = 600}).heights);
+    CHECK(std::sqrt(m.variance) == Approx(0.02).epsilon(0.03));
+}
+
+TEST_CASE("flat sand without roughness is a plane at the datum") {
+    const auto m = moments_of(sb::sample(sb::flat{.surface = smooth}, {.width = 20, .height = 20}).heights);
+    CHECK(m.low == 0);
+    CHECK(m.high == 0);
+}
+
+TEST_CASE("ripples have one amplitude everywhere, not that of a Gaussian field") {
+    sb::ripples recipe{.wavelength = 0.8f, .height = 0.1f, .sharpness = 0, .surface = smooth, .seed = 4};
+    const sb::grid area{.spacing = 0.0625, .width = 800, .height = 800};
+    const auto plain = moments_of(sb::sample(recipe, area).heights);
+    CHECK(plain.kurtosis == Approx(1.5).margin(0.06));  // 3 for a Gaussian field, 1.5 for a sinusoid
+    CHECK(plain.mean == Approx(0).margin(1e-3));
+    CHECK(plain.low >= -0.05);
+    CHECK(plain.high <= 0.05);
+    CHECK(plain.high - plain.low > 0.0985);
+
+    SECTION("sharper crests are narrower and keep the height") {
+        recipe.sharpness = 0.5f;
+        const auto sharp = moments_of(sb::sample(recipe, area).heights);
+        // The mean of (c - s) / (1 - s c) over a period is (sqrt(1 - s^2) - 1) / s.
+        CHECK(sharp.mean == Approx(0.05 * (std::sqrt(0.75) - 1) / 0.5).margin(1.5e-3));
+        CHECK(sharp.low >= -0.05);
+        CHECK(sharp.high <= 0.05);
+        CHECK(sharp.high - sharp.low > 0.0985);
+    }
+}
+
+TEST_CASE("the spectrum of ripples peaks at their wavelength, along their direction") {
+    const bool along_y = GENERATE(false, true);
+    const float wavelength = GENERATE(0.3f, 1.2f);
+    const sb::ripples recipe{.wavelength = wavelength, .direction = along_y ? static_cast<float>(pi / 2) : 0.0f,
+                             .surface = smooth, .seed = 8};
+    const int n = 512;
+    const double spacing = static_cast<double>(wavelength) / 16;
+    auto heights = sb::sample(recipe, {.spacing = spacing, .width = n, .height = n}).heights;
+    if (along_y) {
+        for (int j = 0; j < n; ++j) {
+            for (int i = 0; i < j; ++i) std::swap(heights(i, j), heights(j, i));
+        }
+    }
+    double best = 0;
+    int peak = 0;
+    for (int cycles = 4; cycles < 96; ++cycles) {
+        double power = 0;
+        for (int j = 0; j < n; j += 8) power += power_at(heights.row(j), static_cast<double>(cycles) / n);
+        if (power > best) best = power, peak = cycles;
+    }
+    CHECK(peak == Approx(n / 16.0).epsilon(0.1));
+}
+
+TEST_CASE("crests fork, the more the wider the waves spread") {
+    const auto count = [](float spread) { return forks({.wavelength = 1, .spread = spread, .seed = 2}, 20); };
+    const int few = count(0.03f), some = count(0.09f), many = count(0.25f);
+    INFO(few << " " << some << " " << many);
+    CHECK(few > 0);
+    CHECK(some > few + few / 2);
+    CHECK(many > some + some / 2);
+    CHECK(forks({.wavelength = 1, .spread = 0, .bandwidth = 0, .seed = 2}, 10) == 0);
+}
+
+TEST_CASE("interpolating the envelope of ripples costs less than a hundredth of their height") {
+    const double origin = GENERATE(0.0, 10000000.0);
+    const float spread = GENERATE(0.0f, 0.09f, 0.4f);
+    const sb::ripples recipe{.wavelength = 0.8f, .height = 1, .spread = spread, .surface = smooth, .seed = 9};
+    const double s = static_cast<double>(recipe.sharpness), soft = static_cast<double>(sb::ripples_sampler::softening);
+    const auto prepared = recipe.prepare();
+    const sb::grid area{.origin = {origin, -origin}, .spacing = 0.137, .width = 150, .height = 150};
+    const auto field = sb::sample(recipe, area);
+    double worst = 0, square = 0;
+    for (int j = 0; j < area.height; ++j) {
+        for (int i = 0; i < area.width; ++i) {
+            const auto psi = prepared.psi(origin + area.spacing * i, -origin + area.spacing * j);
+            const double magnitude = std::sqrt(psi.re * psi.re + psi.im * psi.im + soft * soft);
+            const double exact = 0.5 * (psi.re - s * magnitude) / (magnitude - s * psi.re);
+            const double error = std::abs(exact - static_cast<double>(field.heights(i, j)));
+            worst = std::max(worst, error);
+            square += error * error / (area.width * area.height);
+        }
+    }
+    INFO("worst " << worst << ", rms " << std::sqrt(square));
+    CHECK(worst < 0.01);
+    CHECK(std::sqrt(square) < 0.001);
+}
+
+TEST_CASE("slopes of ripples stay bounded, at forks as elsewhere") {
+    const sb::ripples recipe{.wavelength = 1, .height = 0.1f, .sharpness = 0, .surface = smooth, .seed = 3};
+    const double spacing = 1.0 / 64;
+    const auto field = sb::sample(recipe, {.spacing = spacing, .width = 1500, .height = 300});
+    double steepest = 0;
+    for (int j = 0; j < 300; ++j) {
+        for (int i = 1; i < 1500; ++i) {
+            const auto rise = static_cast<double>(field.heights(i, j) - field.heights(i - 1, j));
+            steepest = std::max(steepest, std::abs(rise) / spacing);
+        }
+    }
+    // A sinusoid of this height and length has slopes up to pi height / wavelength.
+    CHECK(steepest > 0.9 * pi * 0.1);
+    CHECK(steepest < 3 * pi * 0.1);
+}
+
+TEST_CASE("mounds and pock marks of mud have the density, height and volume asked for") {
+    const float share = GENERATE(0.0f, 1.0f);
+    const sb::mud recipe{.surface = smooth, .density = 0.3f, .size = 0.4f, .mound_height = 0.05f, .pock_depth = 0.1f,
+                         .pock_share = share, .seed = 6};
+    const auto m = moments_of(sb::sample(recipe, {.spacing = 0.09, .width = 1500, .height = 1500}).heights);
+    const double height = share > 0 ? -0.1 : 0.05;
+    CHECK((share > 0 ? m.low : m.high) == Approx(height).epsilon(0.05));
+    CHECK((share > 0 ? m.high : m.low) == 0);
+    // The bump h (1 - (r / R)^2)^2 holds pi R^2 h / 3, with R = size q, h = height q, q uniform in [0.4, 1]: <q^3> is
+    // 0.406.
+    CHECK(m.mean == Approx(0.3 * pi / 3 * 0.16 * height * 0.406).epsilon(0.05));
+}
+
+TEST_CASE("under a light at six degrees rock is full of shadows, ripples striped, sand and mud all but free of them") {
+    const sb::grid area{.spacing = 0.025, .width = 800, .height = 200};
+    const auto share = [&](const sb::any& kind) { return shadowed(sb::sample(kind, area), 6); };
+    const double sand = share(sb::flat{}), ripples = share(sb::ripples{}), mud = share(sb::mud{}),
+                 rock = share(sb::rock{});
+    INFO(sand << " " << ripples << " " << mud << " " << rock);
+    CHECK(sand < 0.02);
+    CHECK(mud < 0.05);
+    CHECK(ripples > 0.3);
+    CHECK(rock > 0.3);
+}
+
+TEST_CASE("rock stands on the datum, about as high as its relief, with faces as steep as asked") {
+    const sb::rock recipe{.relief = 0.8f, .steepness = 2.5f, .surface = smooth};
+    const double spacing = 0.01;
+    const auto field = sb::sample(recipe, {.spacing = spacing, .width = 2000, .height = 200});
+    const auto m = moments_of(field.heights);
+    CHECK(m.low >= 0);
+    CHECK(m.high > 0.6 * 0.8);
+    CHECK(m.high < 2 * 0.8);
+    std::size_t steep = 0;
+    for (int j = 0; j < 200; ++j) {
+        for (int i = 1; i < 2000; ++i) {
+            steep += std::abs(field.heights(i, j) - field.heights(i - 1, j)) > 0.01f ? 1u : 0u;
+        }
+    }
+    CHECK(static_cast<double>(steep) / 400000 > 0.05);
+    CHECK(moments_of(sb::sample(sb::rock{.relief = 0, .surface = smooth}, {}).heights).high == 0);
+}
+
+TEST_CASE("a blend covers the share asked for and is the pure recipe where it covers all or nothing") {
+    const float coverage = GENERATE(0.1f, 0.35f, 0.5f, 0.8f);
+    const sb::blend recipe{.first = sb::mud{}, .second = sb::flat{}, .coverage = coverage, .patch = 3, .border = 0.5f};
+    const auto field = sb::sample(recipe, {.spacing = 0.73, .width = 500, .height = 500});
+    std::size_t first = 0;
+    for (const sb::type t : field.types.pixels()) first += t == sb::type::mud ? 1u : 0u;
+    CHECK(static_cast<double>(first) / 250000 == Approx(static_cast<double>(coverage)).margin(0.03));
+
+    const sb::grid area{.spacing = 0.1, .width = 200, .height = 50};
+    CHECK(sb::sample(sb::blend{.first = sb::mud{}, .coverage = 1}, area).heights == sb::sample(sb::mud{}, area).heights);
+    CHECK(sb::sample(sb::blend{.second = sb::mud{}, .coverage = 0}, area).heights == sb::sample(sb::mud{}, area).heights);
+}
+
+TEST_CASE("the heights of a blend are those of its recipes but for borders of the width asked for") {
+    const float border = GENERATE(0.4f, 1.6f);
+    const sb::blend recipe{.patch = 8, .border = border};
+    const sb::grid area{.spacing = 0.1, .width = 600, .height = 600};
+    const auto field = sb::sample(recipe, area), first = sb::sample(recipe.first, area),
+               second = sb::sample(recipe.second, area);
+    std::size_t mixed = 0, wrong = 0, crossings = 0;
+    for (int j = 0; j < area.height; ++j) {
+        for (int i = 0; i < area.width; ++i) {
+            const bool is_first = field.types(i, j) == sb::type::ripples;
+            const float pure = (is_first ? first : second).heights(i, j);
+            const float other = (is_first ? second : first).heights(i, j);
+            mixed += field.heights(i, j) != pure ? 1u : 0u;
+            // A mixture lies between the two, on the side of its type.
+            wrong += std::abs(field.heights(i, j) - pure) > 0.5001f * std::abs(other - pure) + 1e-6f ? 1u : 0u;
+            crossings += i > 0 && field.types(i, j) != field.types(i - 1, j) ? 1u : 0u;
+            crossings += j > 0 && field.types(i, j) != field.types(i, j - 1) ? 1u : 0u;
+        }
+    }
+    CHECK(wrong == 0);
+    // Crofton: a curve is pi / 4 times as long as the grid lines it cuts are apart, summed.
+    const double length = pi / 4 * 0.1 * static_cast<double>(crossings);
+    const double width = static_cast<double>(mixed) * 0.01 / length;
+    INFO("mean width of borders " << width);
+    CHECK(width > 0.5 * static_cast<double>(border));
+    CHECK(width < 2 * static_cast<double>(border));
+}
+
+TEST_CASE("blends take recipes of the user's own") {
+    struct ramp {
+        static constexpr sb::type kind = sb::type::rock;
+        struct sampler {
+            void row(const sb::scanline& line, std::span<float> heights) const {
+                for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(line.x(i));
+            }
+        };
+        sampler prepare() const { return {}; }
+        float operator()(double x, double) const { return static_cast<float>(x); }
+    };
+    const sb::basic_blend<ramp, sb::flat> recipe{.first = {}, .second = {}, .coverage = 1};
+    CHECK(recipe(3.5, 0) == 3.5f);
+    CHECK(recipe.type_at(3.5, 0) == sb::type::rock);
+}
+
+TEST_CASE("recipes name the parameter they refuse") {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK_THROWS_WITH(sb::ripples{.wavelength = 0}.prepare(), ContainsSubstring("ripples.wavelength is 0"));
+    CHECK_THROWS_WITH(sb::ripples{.height = -1}.prepare(), ContainsSubstring("ripples.height"));
+    CHECK_THROWS_WITH(sb::ripples{.direction = nan}.prepare(), ContainsSubstring("ripples.direction"));
+    CHECK_THROWS_WITH(sb::ripples{.spread = 2}.prepare(), ContainsSubstring("ripples.spread"));
+    CHECK_THROWS_WITH(sb::ripples{.bandwidth = nan}.prepare(), ContainsSubstring("ripples.bandwidth"));
+    CHECK_THROWS_WITH(sb::ripples{.sharpness = 1}.prepare(), ContainsSubstring("ripples.sharpness"));
+    CHECK_THROWS_WITH((sb::flat{.surface = {.shortest = 0}}.prepare()), ContainsSubstring("roughness.shortest"));
+    CHECK_THROWS_WITH((sb::flat{.surface = {.exponent = 5}}.prepare()), ContainsSubstring("roughness.exponent"));
+    CHECK_THROWS_WITH((sb::mud{.density = 9}.prepare()), ContainsSubstring("mud.density is 9"));
+    CHECK_THROWS_WITH(sb::mud{.size = nan}.prepare(), ContainsSubstring("mud.size"));
+    CHECK_THROWS_WITH(sb::rock{.steepness = 0}.prepare(), ContainsSubstring("rock.steepness"));
+    CHECK_THROWS_WITH(sb::blend{.coverage = 1.5f}.prepare(), ContainsSubstring("blend.coverage"));
+    CHECK_THROWS_WITH((sb::blend{.patch = 1, .border = 2}.prepare()), ContainsSubstring("blend.border"));
+    CHECK_THROWS_AS(sb::sample(sb::any(sb::rock{.block = 0}), {}), in::invalid_input);
+}

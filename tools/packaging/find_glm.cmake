@@ -1,0 +1,20 @@
+# Gives the target insonify::glm: GLM's header-only target where its package is installed, else a search for its headers.
+# Read by the build and by the installed package; without GLM there is no target, and the reader says so.
+if(TARGET insonify::glm)
+  return()
+endif()
+
+find_package(glm CONFIG QUIET)
+find_path(INSONIFY_GLM_INCLUDE_DIR glm/vec3.hpp DOC "The folder that holds glm/, where GLM comes without its package")
+mark_as_advanced(INSONIFY_GLM_INCLUDE_DIR)
+
+if(TARGET glm::glm-header-only OR TARGET glm::glm OR INSONIFY_GLM_INCLUDE_DIR)
+  add_library(insonify::glm INTERFACE IMPORTED)
+  if(TARGET glm::glm-header-only)
+    target_link_libraries(insonify::glm INTERFACE glm::glm-header-only)
+  elseif(TARGET glm::glm)
+    target_link_libraries(insonify::glm INTERFACE glm::glm)
+  else()
+    target_include_directories(insonify::glm INTERFACE ${INSONIFY_GLM_INCLUDE_DIR})
+  endif()
+endif()

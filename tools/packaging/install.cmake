@@ -1,0 +1,17 @@
+# Headers, the CMake package and the pkg-config file.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/insonify)
+
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/insonify DESTINATION include)
+install(TARGETS insonify EXPORT insonifyTargets)
+install(EXPORT insonifyTargets NAMESPACE insonify:: DESTINATION ${package_dir})
+
+# Nothing in the package depends on the machine that built it. While the major version is 0, a minor one may break.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/insonifyConfigVersion.cmake COMPATIBILITY SameMinorVersion
+                                 ARCH_INDEPENDENT)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/insonify.pc.in ${PROJECT_BINARY_DIR}/insonify.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/insonifyConfig.cmake ${CMAKE_CURRENT_LIST_DIR}/find_glm.cmake
+              ${PROJECT_BINARY_DIR}/insonifyConfigVersion.cmake DESTINATION ${package_dir})
+install(FILES ${PROJECT_BINARY_DIR}/insonify.pc DESTINATION ${CMAKE_INSTALL_DATADIR}/pkgconfig)

@@ -1,0 +1,80 @@
+# Sourced by the tools: what a build needs, found or installed.
+#
+#   need <name>...   sees that each is there; on Debian and Ubuntu installs what is missing, elsewhere says what to install
+#   ways             fills the array `generator` with CMake's options for the best build program at hand
+
+set -u -o pipefail
+export LC_ALL=C
+
+# name        probe                                   Debian, Ubuntu        Fedora              macOS (Homebrew)
+requirements='
+g++           command:g++                             g++                   gcc-c++             gcc
+cmake         command:cmake                           cmake                 cmake               cmake
+ninja         command:ninja|make                      ninja-build           ninja-build         ninja
+python        command:python3                         python3               python3             python
+glm           header:glm/vec3.hpp                     libglm-dev            glm-devel           glm
+catch2        header:catch2/catch_all.hpp|catch2/catch.hpp  catch2          catch-devel         catch2
+stb           header:stb/stb_image_write.h|stb_image_write.h  libstb-dev    stb-devel           stb
+cli11         header:CLI/CLI.hpp                      libcli11-dev          cli11-devel         cli11
+json          header:nlohmann/json.hpp                nlohmann-json3-dev    json-devel          nlohmann-json
+clang         command:clang++                         clang                 clang               llvm
+clang-format  command:clang-format                    clang-format          clang-tools-extra   clang-format
+'
+
+# Whether one of the alternatives `a|b` of a probe is there.
+present() {
+    local kind=${1%%:*} candidates=${1#*:} candidate prefix
+    for candidate in ${candidates//|/ }; do
+        if [ "$kind" = command ]; then
+            command -v "$candidate" >/dev/null && return 0
+        else
+            for prefix in /usr /usr/local /opt/homebrew /opt/local ${CMAKE_PREFIX_PATH:+${CMAKE_PREFIX_PATH//[:;]/ }}; do
+                [ -e "$prefix/include/$candidate" ] && return 0
+            done
+        fi
+    done
+    return 1
+}
+
+# The rows of the table, of those named, that are not there.
+missing() {
+    local name probe packages
+    while read -r name probe packages; do
+        case " $* " in *" $name "*) present "$probe" || echo "$name $probe $packages" ;; esac
+    done <<<"$requirements"
+}
+
+# Installs Debian packages, as root or through sudo, with fresh lists only if the old ones don't know them.
+install_debian() {
+    local root=()
+    [ "$(id -u)" = 0 ] || root=(sudo)
+    local install=("${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@")
+    echo "Installing: $*"
+    "${install[@]}" || { "${root[@]}" apt-get update && "${install[@]}"; }
+}
+
+need() {
+    local rows
+    rows=$(missing "$@")
+    [ -n "$rows" ] || return 0
+    if command -v apt-get >/dev/null; then
+        # shellcheck disable=SC2046 # one package a word
+        install_debian $(awk '{print $3}' <<<"$rows") >&2
+        rows=$(missing "$@")
+        [ -n "$rows" ] || return 0
+    fi
+    {
+        echo "Missing, with the packages that bring it:"
+        awk '{printf "  %-13s Debian, Ubuntu: %-20s Fedora: %-18s Homebrew: %s\n", $1, $3, $4, $5}' <<<"$rows"
+    } >&2
+    return 1
+}
+
+ways() {
+    generator=()
+    if command -v ninja >/dev/null; then generator=(-G Ninja); fi
+    if command -v ccache >/dev/null; then generator+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+    CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(getconf _NPROCESSORS_ONLN)}
+    CTEST_PARALLEL_LEVEL=${CTEST_PARALLEL_LEVEL:-$CMAKE_BUILD_PARALLEL_LEVEL}
+    export CMAKE_BUILD_PARALLEL_LEVEL CTEST_PARALLEL_LEVEL CTEST_OUTPUT_ON_FAILURE=1
+}
