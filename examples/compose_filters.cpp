@@ -1,0 +1,34 @@
+// Filters on a picture of your own: compose_filters in.png out.png [reference picture]
+//
+// What is chained here touches the pixels once: histogram match, speckle, a function of your own, and the colour map
+// fuse into one pass.
+#include <insonify/filter/colormap.hpp>
+#include <insonify/filter/match.hpp>
+#include <insonify/filter/noise.hpp>
+#include <insonify/filter/pipe.hpp>
+#include <insonify/io/png.hpp>
+
+#include <cstdio>
+
+#include "common/pictures.hpp"
+
+namespace in = insonify;
+
+int main(int argc, char** argv) try {
+    if (argc < 3) {
+        std::fputs("compose_filters in.png out.png [reference picture]\n", stderr);
+        return 2;
+    }
+    const in::image<float> picture = examples::read_gray(argv[1]);
+    const in::image<float> reference = argc > 3 ? examples::read_gray(argv[3]) : picture;
+
+    // Any function of a pixel is a filter: here, what is farther from the left border gets a little darker.
+    const auto fade = [width = picture.width()](float v, int x, int) {
+        return v * (1.0f - 0.3f * static_cast<float>(x) / static_cast<float>(width));
+    };
+    const auto look = in::match_histogram(reference) | in::speckle{.variance = 0.05f, .seed = 1} | fade;
+    in::write_png(argv[2], picture | look | in::colormap::copper);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "compose_filters: %s\n", error.what());
+    return 1;
+}

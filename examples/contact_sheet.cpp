@@ -1,0 +1,133 @@
+// One picture of a data set: contact_sheet <data set> <out.png> [images per class]
+//
+// A row for each class; in it, plain images before those with the look of a reference, by seabed.
+#include <insonify/core/image.hpp>
+#include <insonify/io/file.hpp>
+#include <insonify/io/png.hpp>
+
+#include "common/pictures.hpp"
+
+#if __has_include(<stb_easy_font.h>)
+#include <stb_easy_font.h>
+#else
+#include <stb/stb_easy_font.h>
+#endif
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <sstream>
+#include <tuple>
+#include <vector>
+
+namespace in = insonify;
+
+namespace {
+
+constexpr int tile = 320, gap = 8, caption = 20;
+
+struct entry {
+    std::string class_name, seabed, file;
+    bool referenced;
+    auto order() const { return std::tie(referenced, seabed, file); }
+};
+
+std::vector<std::string> cells(const std::string& line) {
+    std::vector<std::string> result;
+    std::istringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) result.push_back(cell);
+    return result;
+}
+
+/// The images of a data set by class, from its manifest.
+std::map<std::string, std::vector<entry>> read_manifest(const std::string& folder) {
+    std::istringstream text(in::read_file(folder + "/manifest.csv"));
+    std::string line;
+    std::getline(text, line);
+    const std::vector<std::string> names = cells(line);
+    const auto column = [&](const char* name) {
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end()) throw in::io_error(folder + "/manifest.csv: has no column " + name);
+        return static_cast<std::size_t>(found - names.begin());
+    };
+    const std::size_t file = column("file"), name = column("class"), seabed = column("seabed"),
+                      look = column("reference");
+    std::map<std::string, std::vector<entry>> classes;
+    while (std::getline(text, line)) {
+        const std::vector<std::string> row = cells(line);
+        if (row.size() < names.size()) continue;
+        classes[row[name]].push_back({row[name], row[seabed], row[file], row[look] != "-1"});
+    }
+    for (auto& [key, entries] : classes)
+        std::sort(entries.begin(), entries.end(), [](const entry& a, const entry& b) { return a.order() < b.order(); });
+    return classes;
+}
+
+/// A picture shrunk to a tile, each pixel the mean of those it stands for.
+in::image<float> shrink(const in::image<float>& picture) {
+    in::image<float> small_one(tile, tile);
+    for (int y = 0; y < tile; ++y)
+        for (int x = 0; x < tile; ++x) {
+            const auto span = [](int i, int pixels) {
+                const int first = i * pixels / tile;
+                return std::pair(first, (std::max)(first + 1, (i + 1) * pixels / tile));
+            };
+            const auto [x0, x1] = span(x, picture.width());
+            const auto [y0, y1] = span(y, picture.height());
+            float sum = 0;
+            for (int v = y0; v < y1; ++v)
+                for (int u = x0; u < x1; ++u) sum += picture(u, v);
+            small_one(x, y) = sum / static_cast<float>((x1 - x0) * (y1 - y0));
+        }
+    return small_one;
+}
+
+void write_text(in::image<float>& sheet, int x, int y, std::string text) {
+    struct corner {
+        float x, y, z;
+        unsigned char color[4];
+    };
+    std::vector<corner> corners(4096);
+    const int quads = stb_easy_font_print(0, 0, text.data(), nullptr, corners.data(),
+                                          static_cast<int>(corners.size() * sizeof(corner)));
+    for (std::size_t q = 0; q < static_cast<std::size_t>(quads); ++q) {
+        const corner &from = corners[4 * q], &to = corners[4 * q + 2];
+        for (int v = static_cast<int>(from.y); v < static_cast<int>(to.y); ++v)
+            for (int u = static_cast<int>(from.x); u < static_cast<int>(to.x); ++u)
+                if (x + u < sheet.width() && y + v < sheet.height()) sheet(x + u, y + v) = 1;
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    if (argc < 3) {
+        std::fputs("contact_sheet <data set> <out.png> [images per class]\n", stderr);
+        return 2;
+    }
+    const std::string folder = argv[1];
+    const std::size_t most = argc > 3 ? std::stoul(argv[3]) : 6;
+    const auto classes = read_manifest(folder);
+    if (classes.empty() || most == 0) throw in::io_error(folder + ": has no images to show");
+
+    std::size_t columns = 0;
+    for (const auto& [name, entries] : classes) columns = (std::max)(columns, (std::min)(most, entries.size()));
+    in::image<float> sheet(static_cast<int>(columns) * (tile + gap) + gap,
+                           static_cast<int>(classes.size()) * (tile + gap + caption) + gap, 0.12f);
+    int top = gap;
+    for (const auto& [name, entries] : classes) {
+        for (std::size_t i = 0; i < (std::min)(most, entries.size()); ++i) {
+            const int left = gap + static_cast<int>(i) * (tile + gap);
+            const in::image<float> small_one = shrink(examples::read_gray(folder + "/" + entries[i].file));
+            for (int y = 0; y < tile; ++y)
+                std::copy_n(small_one.row(y).begin(), tile, sheet.row(top + y).begin() + left);
+            write_text(sheet, left + 2, top + tile + 5,
+                       name + ", " + entries[i].seabed + (entries[i].referenced ? ", look of a reference" : ""));
+        }
+        top += tile + gap + caption;
+    }
+    in::write_png(argv[2], sheet);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "contact_sheet: %s\n", error.what());
+    return 1;
+}

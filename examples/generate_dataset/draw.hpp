@@ -1,0 +1,163 @@
+// From plan to picture: builds the scene, renders it, and gives it the look that was asked for.
+#pragma once
+
+#include <insonify/insonify.hpp>
+
+#include <filesystem>
+#include <map>
+
+#include "../common/pictures.hpp"
+#include "plan.hpp"
+
+namespace generator {
+
+namespace in = insonify;
+
+/// What all images share: meshes, heightmap and references, read once.
+class stock {
+  public:
+    /// @throws io_error for a file that can't be read
+    explicit stock(const options& o) {
+        for (const std::string& mesh : o.meshes) {
+            const std::size_t equals = mesh.find('=');
+            meshes_[mesh.substr(0, equals)] = upright(in::load_obj(mesh.substr(equals + 1)), o.mesh_up == "y");
+        }
+        if (!o.heightmap.empty()) {
+            const in::image<float> picture = examples::read_gray(o.heightmap);
+            heightmap_ = in::seabed::from_image(picture, o.heightmap_spacing, static_cast<float>(o.heightmap_scale));
+        }
+        for (const std::string& path : picture_paths(o))
+            references_.push_back(in::match_histogram(examples::read_gray(path)));
+        if (references_.empty() && o.demo) references_.push_back(in::match_histogram(made_up_reference()));
+    }
+
+    std::size_t references() const { return references_.size(); }
+    const in::match_histogram& reference(std::size_t i) const { return references_[i]; }
+    const in::seabed::heightfield& heightmap() const { return heightmap_; }
+
+    /// The target of a plan in its own frame, of the size that the plan says.
+    in::mesh target(const plan& p) const {
+        const auto s = static_cast<float>(p.size), a = static_cast<float>(p.aspect);
+        if (p.class_name == "cylinder") return to_mesh(in::cylinder{.radius = s / 2, .length = 3 * s * a});
+        if (p.class_name == "cube") return to_mesh(in::cube{.size = {s, s * a, s}});
+        if (p.class_name == "cone") return to_mesh(in::cone{.radius = 0.6f * s * a, .height = 1.2f * s});
+        if (p.class_name == "sphere") return to_mesh(in::sphere{.radius = s / 2, .aspect = {a, 1, 1}});
+        const in::mesh& unit = meshes_.at(p.class_name);
+        return in::transformed(unit, {glm::dmat3(2 * p.size), {}});
+    }
+
+  private:
+    /// Turned so that z is up, moved to its middle, and scaled to a largest extent of 1.
+    static in::mesh upright(in::mesh m, bool y_up) {
+        if (y_up) m = in::transformed(std::move(m), in::to_world({.roll = in::literals::operator""_deg(90ull)}));
+        const in::bounding_box box = in::bounds(m);
+        const glm::dvec3 size = box.size();
+        const double largest = (std::max)({size.x, size.y, size.z, 1e-9});
+        return in::transformed(std::move(m), {glm::dmat3(1 / largest), -box.centre() / largest});
+    }
+
+    /// The pictures among the references, folders opened, in the order of their names.
+    static std::vector<std::string> picture_paths(const options& o) {
+        std::vector<std::string> paths;
+        for (const std::string& given : o.references) {
+            if (!std::filesystem::is_directory(given)) {
+                paths.push_back(given);
+                continue;
+            }
+            std::vector<std::string> inside;
+            for (const auto& entry : std::filesystem::directory_iterator(given)) {
+                const std::string extension = entry.path().extension().string();
+                if (extension == ".png" || extension == ".pgm" || extension == ".pfm" || extension == ".jpg")
+                    inside.push_back(entry.path().string());
+            }
+            std::sort(inside.begin(), inside.end());
+            paths.insert(paths.end(), inside.begin(), inside.end());
+        }
+        return paths;
+    }
+
+    /// Gray values as a sonar's: Rayleigh amplitudes around a quarter of full scale.
+    static in::image<float> made_up_reference() { return in::image<float>(256, 256, 0.25f) | in::rayleigh{.seed = 1}; }
+
+    std::map<std::string, in::mesh> meshes_;
+    in::seabed::heightfield heightmap_;
+    std::vector<in::match_histogram> references_;
+};
+
+inline in::seabed::any seabed_of(const plan& p, const stock& shared) {
+    const auto relief = static_cast<float>(p.relief);
+    const auto wavelength = static_cast<float>(p.wavelength);
+    const in::seabed::ripples ripples{.wavelength = wavelength,
+                                      .height = wavelength * (0.03f + 0.05f * relief),
+                                      .direction = static_cast<float>(p.direction),
+                                      .seed = p.seabed_seed};
+    const in::seabed::mud mud{.seed = p.seabed_seed};
+    const in::seabed::rock rock{.relief = 0.08f + 0.12f * relief, .seed = p.seabed_seed};
+    if (p.seabed == "ripples") return ripples;
+    if (p.seabed == "mud") return mud;
+    if (p.seabed == "rock") return rock;
+    if (p.seabed == "mixed") return in::seabed::blend{.first = ripples, .second = mud, .seed = p.seabed_seed};
+    if (p.seabed == "heightmap") return shared.heightmap();
+    return in::seabed::flat{.seed = p.seabed_seed};
+}
+
+/// A finished image with its frame and the numbers that the labels want.
+struct drawn {
+    in::frame<> frame;
+    in::image<in::rgb8> color;
+    in::image<std::uint8_t> gray;  ///< used where the colour map is gray
+    in::pose placement;
+};
+
+inline drawn draw(const options& o, const plan& p, const stock& shared, auto& ex) {
+    in::overhead rig{.position = {p.place_x, p.place_y},
+                     .altitude = static_cast<float>(p.altitude),
+                     .yaw = static_cast<float>(p.rig_yaw),
+                     .size = {o.size, o.size},
+                     .grazing = static_cast<float>(p.grazing),
+                     .intensity = static_cast<float>(o.intensity),
+                     .sky = static_cast<float>(o.sky)};
+    if (p.seabed == "heightmap") {  // it lies where it lies: look at its middle
+        const in::seabed::heightfield& map = shared.heightmap();
+        rig.position = map.origin + 0.5 * map.spacing * glm::dvec2(map.heights.width() - 1, map.heights.height() - 1);
+    }
+
+    in::scene scene;
+    scene.seabed = seabed_of(p, shared);
+    const in::overhead_geometry view(rig);
+    const glm::dvec2 half = view.half_extent(0);
+    const auto [sine, cosine] = in::numeric::sin_cos(p.rig_yaw);
+    const glm::dvec2 offset{p.offset_x * half.x, p.offset_y * half.y};
+    const glm::dvec2 ground =
+        rig.position + glm::dvec2(offset.x * cosine - offset.y * sine, offset.x * sine + offset.y * cosine);
+
+    const in::mesh shape = shared.target(p);
+    const in::pose posed{.position = glm::dvec3(ground, 0),
+                         .yaw = static_cast<float>(p.yaw),
+                         .pitch = static_cast<float>(p.pitch),
+                         .roll = static_cast<float>(p.roll)};
+    in::pose placement = in::rest_on(scene.seabed, shape, posed);
+    placement.burial = static_cast<float>(p.burial * p.size);
+    scene.add(shape, placement, p.class_name, {static_cast<float>(o.reflectivity)});
+
+    drawn result{.frame = in::render(scene, rig, {}, ex), .color = {}, .gray = {}, .placement = placement};
+    in::image<float> look = result.frame.image;
+    if (p.referenced) look = in::apply(std::move(look), shared.reference(p.reference), ex);
+    for (const noise_step& step : noise_steps(o)) {
+        const auto strength = static_cast<float>(step.strength);
+        if (step.kind == "speckle")
+            look = in::apply(std::move(look), in::speckle{.variance = strength, .seed = p.noise_seed}, ex);
+        if (step.kind == "gaussian")
+            look = in::apply(std::move(look), in::gaussian{.variance = strength, .seed = p.noise_seed}, ex);
+        if (step.kind == "poisson")
+            look = in::apply(std::move(look), in::poisson{.photons = strength, .seed = p.noise_seed}, ex);
+        if (step.kind == "rayleigh") look = in::apply(std::move(look), in::rayleigh{.seed = p.noise_seed}, ex);
+    }
+    if (o.colormap == "copper")
+        result.color = in::apply(look, in::colormap::copper, ex);
+    else
+        result.gray = in::apply(look, in::to_uint8, ex);
+    return result;
+}
+
+}  // namespace generator

@@ -1,0 +1,77 @@
+// What image i shows: every parameter, drawn from the seed and i alone.
+#pragma once
+
+#include <insonify/core/random.hpp>
+
+#include <string>
+
+#include "options.hpp"
+
+namespace generator {
+
+struct plan {
+    std::size_t index;
+    std::string class_name, seabed;
+    bool referenced;
+    std::size_t reference;  ///< which of the references, if any
+
+    double size, aspect, yaw, pitch, roll, burial;  ///< metres, -, radians, share of the height
+    double altitude, grazing, rig_yaw;              ///< metres, radians
+    double offset_x, offset_y;                      ///< of the target, in half pictures from the middle
+    double place_x, place_y;                        ///< of the rig in the world, metres
+    std::uint64_t seabed_seed, noise_seed;
+    double relief, wavelength, direction;  ///< of the seabed: in [0, 1], metres, radians
+
+    std::string id() const {
+        std::string digits = std::to_string(index);
+        return std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
+    }
+};
+
+/// The classes of a data set, in the order of their category numbers (from 1).
+inline std::vector<std::string> class_names(const options& o) {
+    std::vector<std::string> names = o.targets;
+    for (const std::string& mesh : o.meshes) names.push_back(mesh.substr(0, mesh.find('=')));
+    return names;
+}
+
+/// Classes and seabeds take turns, so that every run of targets x seabeds images is balanced; the rest is random.
+/// The demonstration shows the same scenes twice: as they are, and with the look of a reference.
+inline plan plan_image(const options& o, std::size_t index, std::size_t references) {
+    const std::vector<std::string> classes = class_names(o);
+    const std::size_t scenes = classes.size() * o.seabeds.size();
+    const std::size_t scene = o.demo ? index % scenes : index;
+
+    insonify::random_sequence random(o.seed, 1, scene);
+    const auto from = [&](const range& r) { return random.uniform(r.low, r.high); };
+    const auto radians = [](double degrees) { return insonify::numeric::to_radians(degrees); };
+    const double full_turn = 2 * insonify::numeric::pi;
+    plan p{};
+    p.index = index;
+    p.class_name = classes[scene % classes.size()];
+    p.seabed = o.seabeds[scene / classes.size() % o.seabeds.size()];
+    p.referenced = references > 0 && (!o.demo || index >= scenes);
+    p.reference = references > 0 ? random.below(static_cast<std::uint32_t>(references)) : 0;
+    p.size = from(o.target_size);
+    p.aspect = from(o.aspect);
+    p.yaw = random.uniform(0, full_turn);
+    p.pitch = radians(from(o.tilt));
+    p.roll = radians(from(o.tilt));
+    p.burial = from(o.burial);
+    p.altitude = from(o.altitude);
+    p.grazing = radians(from(o.grazing));
+    p.rig_yaw = random.uniform(0, full_turn);
+    // Left of the middle, so that the long shadow has room to the right.
+    p.offset_x = random.uniform(-0.4, -0.2);
+    p.offset_y = random.uniform(-0.2, 0.2);
+    p.place_x = random.uniform(-500, 500);
+    p.place_y = random.uniform(-500, 500);
+    p.seabed_seed = random.word();
+    p.noise_seed = random.word();
+    p.relief = random.uniform();
+    p.wavelength = random.uniform(0.5, 1.1);
+    p.direction = random.uniform(0, full_turn);
+    return p;
+}
+
+}  // namespace generator

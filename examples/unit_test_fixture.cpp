@@ -1,0 +1,43 @@
+// insonify inside somebody else's unit test: a small, deterministic frame as a fixture for a shadow detector.
+#include <insonify/insonify.hpp>
+
+#include "../tests/catch.hpp"
+
+namespace in = insonify;
+using namespace in::literals;
+
+namespace {
+
+/// The code under test, which knows nothing of insonify: the longest dark run of each row.
+int longest_dark_run(const float* row, int width, float threshold) {
+    int longest = 0, run = 0;
+    for (int x = 0; x < width; ++x) {
+        run = row[x] < threshold ? run + 1 : 0;
+        longest = run > longest ? run : longest;
+    }
+    return longest;
+}
+
+/// A cube of 0.3 m on level sand in 128 x 128 pixels; always the same bytes.
+in::frame<> cube_on_sand() {
+    in::scene scene;
+    scene.seabed = in::seabed::flat{.surface = {.rms = 0}};
+    scene.add(in::cube{.size = glm::vec3(0.3f)}, {.position = {-1, 0, 0.15}}, "cube");
+    return in::render(scene, {.altitude = 3, .field_of_view = 90_deg, .size = {128, 128}, .grazing = 10_deg});
+}
+
+}  // namespace
+
+TEST_CASE("The detector finds the shadow of a cube and its length") {
+    const in::frame<> frame = cube_on_sand();
+    const in::target_label& cube = frame.labels.targets.at(0);
+    const int row = cube.shadow_box.y + cube.shadow_box.height / 2;
+    const int found = longest_dark_run(frame.image.row(row).data(), frame.image.width(), 0.05f);
+    CHECK(std::abs(found - cube.shadow_box.width) <= 1);
+}
+
+TEST_CASE("The detector finds nothing in the rows beside the shadow") {
+    const in::frame<> frame = cube_on_sand();
+    CHECK(longest_dark_run(frame.image.row(3).data(), frame.image.width(), 0.05f) == 0);
+    CHECK(longest_dark_run(frame.image.row(124).data(), frame.image.width(), 0.05f) == 0);
+}
