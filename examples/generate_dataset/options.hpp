@@ -33,7 +33,7 @@ struct options {
     double heightmap_spacing = 0.02, heightmap_scale = 1;
     range target_size{0.4, 0.8}, aspect{0.8, 1.25}, tilt{-8, 8}, burial{0, 0.3};
     range altitude{4, 6}, grazing{6, 6};
-    double reflectivity = 0.9, intensity = 3, sky = 0.05;
+    double reflectivity = 0.9, intensity = 4, sky = 0.05;
     std::vector<std::string> references;
     std::vector<std::string> noise{"speckle:0.1"};
     std::string colormap = "gray";
@@ -125,6 +125,7 @@ inline options parse(int argc, char** argv) {
         "  generate_dataset --out out/b --first 200 --count 200 --reference real_images/ --colormap copper\n"
         "  generate_dataset --out out/c --targets cylinder --mesh wreck=wreck.obj --seabeds mud,mixed");
     app.get_formatter()->column_width(34);
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.set_config("--config", "", "Read options from a TOML or INI file; the command line wins");
 
     std::string target_size, aspect, tilt, burial, altitude, grazing;
@@ -168,11 +169,11 @@ inline options parse(int argc, char** argv) {
     const char* const rig = "Camera and light";
     app.add_option("--altitude", altitude, "Range: metres above the sea floor (4:6)")->group(rig);
     app.add_option("--grazing", grazing, "Range: light above the sea floor, degrees (6)")->group(rig);
-    app.add_option("--intensity", o.intensity, "Light on a surface that faces it (3)")
+    app.add_option("--intensity", o.intensity, "Light on a surface that faces it (4)")
         ->check(CLI::NonNegativeNumber)
         ->group(rig);
     app.add_option("--sky", o.sky, "Light from everywhere (0.05)")->check(CLI::NonNegativeNumber)->group(rig);
-    app.add_option("--reflectivity", o.reflectivity, "Of targets; seabeds have 0.35 to 0.6 (0.9)")
+    app.add_option("--reflectivity", o.reflectivity, "Of targets; seabeds have 0.4 to 0.6 (0.9)")
         ->check(CLI::NonNegativeNumber)
         ->group(rig);
 

@@ -5502,7 +5502,9 @@ class blend_sampler {
         first_.row(line, {other.data(), heights.size()}, {other_types.data(), types.size()});
         second_.row(line, heights, types);
         for (std::size_t i = 0; i < heights.size(); ++i) {
-            heights[i] = detail::mix(heights[i], other[i], detail::fade(share[i]));
+            // In this form shares of 0 and 1 give the very bits that the shortcuts above give.
+            const float weight = detail::fade(share[i]);
+            heights[i] = heights[i] * (1 - weight) + other[i] * weight;
         }
         for (std::size_t i = 0; i < types.size(); ++i) {
             if (share[i] >= 0.5f) types[i] = other_types[i];
@@ -6181,7 +6183,7 @@ struct target {
 /// The bottom and what lies on it. Heights are metres above the datum z = 0.
 struct scene {
     insonify::seabed::any seabed = insonify::seabed::flat{};
-    std::array<material, 4> bottom{{{0.45f}, {0.5f}, {0.35f}, {0.6f}}};  ///< by seabed::type: sand, ripples, mud, rock
+    std::array<material, 4> bottom{{{0.45f}, {0.5f}, {0.4f}, {0.6f}}};  ///< by seabed::type: sand, ripples, mud, rock
     std::vector<target> targets;
 
     /// Adds a mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
@@ -6408,7 +6410,8 @@ namespace insonify::inline INSONIFY_ABI {
 /// Camera and light over a point of the sea floor. Image up is forward, image right is starboard; the light comes from
 /// the left, so ranges and shadows grow to the right, as on a starboard channel.
 ///
-/// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky), cut at 1.
+/// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky x share of the
+/// sky that the surface looks at), cut at 1.
 struct overhead {
     glm::dvec2 position{0, 0};                                      ///< of the camera over the datum, metres
     float altitude = 10;                                            ///< above the datum, metres
@@ -6417,7 +6420,7 @@ struct overhead {
     glm::ivec2 size{2048, 2048};                           ///< pixels: width (across track), height (along track)
     float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
     float light_azimuth = 0;  ///< where the light travels, from image right towards image up, radians
-    float intensity = 3;      ///< of the light on a surface that faces it
+    float intensity = 4;      ///< of the light on a surface that faces it
     float sky = 0.05f;        ///< light from everywhere, which no shadow stops; 0 for none
 };
 
@@ -6724,7 +6727,8 @@ class overhead_painter {
         const overhead& rig = view_.rig();
         const bool is_dark = !(sine > 0) || share.lit == 0;
         const float direct = is_dark ? 0 : rig.intensity * options_.law((std::min)(sine, 1.0f)) * share.lit;
-        out_.image(f.x, f.y) = (std::min)(surface.reflectivity * (direct + rig.sky), 1.0f);
+        const float open_sky = 0.5f * (1 + (f.front ? n.z : -n.z) / length);
+        out_.image(f.x, f.y) = (std::min)(surface.reflectivity * (direct + rig.sky * open_sky), 1.0f);
         if constexpr (labelled) {
             out_.labels.instance(f.x, f.y) = instance;
             out_.labels.shadow(f.x, f.y) = share.caster;

@@ -100,7 +100,9 @@ class blend_sampler {
         first_.row(line, {other.data(), heights.size()}, {other_types.data(), types.size()});
         second_.row(line, heights, types);
         for (std::size_t i = 0; i < heights.size(); ++i) {
-            heights[i] = detail::mix(heights[i], other[i], detail::fade(share[i]));
+            // In this form shares of 0 and 1 give the very bits that the shortcuts above give.
+            const float weight = detail::fade(share[i]);
+            heights[i] = heights[i] * (1 - weight) + other[i] * weight;
         }
         for (std::size_t i = 0; i < types.size(); ++i) {
             if (share[i] >= 0.5f) types[i] = other_types[i];

@@ -228,7 +228,8 @@ class overhead_painter {
         const overhead& rig = view_.rig();
         const bool is_dark = !(sine > 0) || share.lit == 0;
         const float direct = is_dark ? 0 : rig.intensity * options_.law((std::min)(sine, 1.0f)) * share.lit;
-        out_.image(f.x, f.y) = (std::min)(surface.reflectivity * (direct + rig.sky), 1.0f);
+        const float open_sky = 0.5f * (1 + (f.front ? n.z : -n.z) / length);
+        out_.image(f.x, f.y) = (std::min)(surface.reflectivity * (direct + rig.sky * open_sky), 1.0f);
         if constexpr (labelled) {
             out_.labels.instance(f.x, f.y) = instance;
             out_.labels.shadow(f.x, f.y) = share.caster;

@@ -12,7 +12,8 @@ namespace insonify::inline INSONIFY_ABI {
 /// Camera and light over a point of the sea floor. Image up is forward, image right is starboard; the light comes from
 /// the left, so ranges and shadows grow to the right, as on a starboard channel.
 ///
-/// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky), cut at 1.
+/// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky x share of the
+/// sky that the surface looks at), cut at 1.
 struct overhead {
     glm::dvec2 position{0, 0};                                      ///< of the camera over the datum, metres
     float altitude = 10;                                            ///< above the datum, metres
@@ -21,7 +22,7 @@ struct overhead {
     glm::ivec2 size{2048, 2048};                           ///< pixels: width (across track), height (along track)
     float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
     float light_azimuth = 0;  ///< where the light travels, from image right towards image up, radians
-    float intensity = 3;      ///< of the light on a surface that faces it
+    float intensity = 4;      ///< of the light on a surface that faces it
     float sky = 0.05f;        ///< light from everywhere, which no shadow stops; 0 for none
 };
 

@@ -25,7 +25,7 @@ struct target {
 /// The bottom and what lies on it. Heights are metres above the datum z = 0.
 struct scene {
     insonify::seabed::any seabed = insonify::seabed::flat{};
-    std::array<material, 4> bottom{{{0.45f}, {0.5f}, {0.35f}, {0.6f}}};  ///< by seabed::type: sand, ripples, mud, rock
+    std::array<material, 4> bottom{{{0.45f}, {0.5f}, {0.4f}, {0.6f}}};  ///< by seabed::type: sand, ripples, mud, rock
     std::vector<target> targets;
 
     /// Adds a mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.

@@ -1,10 +1,10 @@
-#include "../../catch.hpp"
-
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/sample.hpp>
 
 #include <cmath>
+
+#include "../../catch.hpp"
 
 namespace in = insonify;
 namespace sb = insonify::seabed;
@@ -68,7 +68,9 @@ int forks(const sb::ripples& recipe, double side) {
     const auto sampler = recipe.prepare();
     const double step = static_cast<double>(recipe.wavelength) / 8;
     const int n = static_cast<int>(side / step);
-    const auto turns = [](double from, double to) { return (to - from) / (2 * pi) - std::round((to - from) / (2 * pi)); };
+    const auto turns = [](double from, double to) {
+        return (to - from) / (2 * pi) - std::round((to - from) / (2 * pi));
+    };
     std::vector<double> above, here;
     int count = 0;
     for (int j = 0; j < n; ++j) {
@@ -116,8 +118,8 @@ TEST_CASE("heights and types are a function of position alone, whatever patch, c
         CHECK(sb::sample(kind, whole, pool).heights == reference.heights);
         CHECK(sb::sample(kind, whole, backwards{}).types == reference.types);
 
-        const sb::grid patch{.origin = {far_away + 97 * spacing, 3 + 11 * spacing}, .spacing = spacing, .width = 150,
-                             .height = 9};
+        const sb::grid patch{
+            .origin = {far_away + 97 * spacing, 3 + 11 * spacing}, .spacing = spacing, .width = 150, .height = 9};
         const auto part = sb::sample(kind, patch);
         const auto prepared = sb::prepare(kind);
         std::size_t differing = 0;
@@ -151,7 +153,8 @@ TEST_CASE("the call operator of a recipe agrees with its sampler, and seeds diff
 TEST_CASE("relief is as continuous ten thousand kilometres away as at home") {
     const double origin = GENERATE(0.0, 10000000.0);
     for (const sb::any& kind : kinds()) {
-        const auto field = sb::sample(kind, {.origin = {origin, origin}, .spacing = 1.0 / 1024, .width = 400, .height = 8});
+        const auto field =
+            sb::sample(kind, {.origin = {origin, origin}, .spacing = 1.0 / 1024, .width = 400, .height = 8});
         float steepest = 0;
         for (int j = 0; j < 8; ++j) {
             for (int i = 1; i < 400; ++i) {
@@ -241,8 +244,10 @@ TEST_CASE("ripples have one amplitude everywhere, not that of a Gaussian field")
 TEST_CASE("the spectrum of ripples peaks at their wavelength, along their direction") {
     const bool along_y = GENERATE(false, true);
     const float wavelength = GENERATE(0.3f, 1.2f);
-    const sb::ripples recipe{.wavelength = wavelength, .direction = along_y ? static_cast<float>(pi / 2) : 0.0f,
-                             .surface = smooth, .seed = 8};
+    const sb::ripples recipe{.wavelength = wavelength,
+                             .direction = along_y ? static_cast<float>(pi / 2) : 0.0f,
+                             .surface = smooth,
+                             .seed = 8};
     const int n = 512;
     const double spacing = static_cast<double>(wavelength) / 16;
     auto heights = sb::sample(recipe, {.spacing = spacing, .width = n, .height = n}).heights;
@@ -313,8 +318,13 @@ TEST_CASE("slopes of ripples stay bounded, at forks as elsewhere") {
 
 TEST_CASE("mounds and pock marks of mud have the density, height and volume asked for") {
     const float share = GENERATE(0.0f, 1.0f);
-    const sb::mud recipe{.surface = smooth, .density = 0.3f, .size = 0.4f, .mound_height = 0.05f, .pock_depth = 0.1f,
-                         .pock_share = share, .seed = 6};
+    const sb::mud recipe{.surface = smooth,
+                         .density = 0.3f,
+                         .size = 0.4f,
+                         .mound_height = 0.05f,
+                         .pock_depth = 0.1f,
+                         .pock_share = share,
+                         .seed = 6};
     const auto m = moments_of(sb::sample(recipe, {.spacing = 0.09, .width = 1500, .height = 1500}).heights);
     const double height = share > 0 ? -0.1 : 0.05;
     CHECK((share > 0 ? m.low : m.high) == Approx(height).epsilon(0.05));
@@ -363,8 +373,10 @@ TEST_CASE("a blend covers the share asked for and is the pure recipe where it co
     CHECK(static_cast<double>(first) / 250000 == Approx(static_cast<double>(coverage)).margin(0.03));
 
     const sb::grid area{.spacing = 0.1, .width = 200, .height = 50};
-    CHECK(sb::sample(sb::blend{.first = sb::mud{}, .coverage = 1}, area).heights == sb::sample(sb::mud{}, area).heights);
-    CHECK(sb::sample(sb::blend{.second = sb::mud{}, .coverage = 0}, area).heights == sb::sample(sb::mud{}, area).heights);
+    CHECK(sb::sample(sb::blend{.first = sb::mud{}, .coverage = 1}, area).heights ==
+          sb::sample(sb::mud{}, area).heights);
+    CHECK(sb::sample(sb::blend{.second = sb::mud{}, .coverage = 0}, area).heights ==
+          sb::sample(sb::mud{}, area).heights);
 }
 
 TEST_CASE("the heights of a blend are those of its recipes but for borders of the width asked for") {
@@ -395,17 +407,23 @@ TEST_CASE("the heights of a blend are those of its recipes but for borders of th
     CHECK(width < 2 * static_cast<double>(border));
 }
 
-TEST_CASE("blends take recipes of the user's own") {
-    struct ramp {
-        static constexpr sb::type kind = sb::type::rock;
-        struct sampler {
-            void row(const sb::scanline& line, std::span<float> heights) const {
-                for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(line.x(i));
-            }
-        };
-        sampler prepare() const { return {}; }
-        float operator()(double x, double) const { return static_cast<float>(x); }
+namespace {
+
+/// A slope of one, as a user would write it.
+struct ramp {
+    static constexpr sb::type kind = sb::type::rock;
+    struct sampler {
+        void row(const sb::scanline& line, std::span<float> heights) const {
+            for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(line.x(i));
+        }
     };
+    sampler prepare() const { return {}; }
+    float operator()(double x, double) const { return static_cast<float>(x); }
+};
+
+}  // namespace
+
+TEST_CASE("blends take recipes of the user's own") {
     const sb::basic_blend<ramp, sb::flat> recipe{.first = {}, .second = {}, .coverage = 1};
     CHECK(recipe(3.5, 0) == 3.5f);
     CHECK(recipe.type_at(3.5, 0) == sb::type::rock);
