@@ -24,7 +24,7 @@ namespace in = insonify;
 
 namespace {
 
-constexpr int tile = 320, gap = 8, caption = 20;
+constexpr int tile = 256, gap = 8, caption = 20;
 
 struct entry {
     std::string class_name, seabed, file;

@@ -1,8 +1,6 @@
-// A cylinder on rippled sand, as a sonar would show it: hello_sonar [reference picture] writes cylinder.png.
+// A cylinder on rippled sand, as a sonar would show it: hello_sonar [reference.pgm] writes cylinder.png.
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
-
-#include "common/pictures.hpp"
 
 namespace in = insonify;
 using namespace in::literals;
@@ -15,7 +13,7 @@ int main(int argc, char** argv) {
     const auto rig = in::overhead{.altitude = 4, .size = {1024, 1024}, .grazing = 6_deg};
     const auto frame = in::render(scene, rig);  // frame.image, frame.labels, frame.stats
 
-    const auto reference = argc > 1 ? examples::read_gray(argv[1]) : frame.image | in::equalize{};
+    const auto reference = argc > 1 ? in::read_netpbm<float>(argv[1]) : frame.image | in::equalize{};
     const auto look = in::match_histogram(reference) | in::speckle{.variance = 0.1f, .seed = 7};
     in::write_png("cylinder.png", frame.image | look | in::colormap::copper);
 }

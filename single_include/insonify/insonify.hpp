@@ -4514,7 +4514,9 @@ struct scanline {
 /// Writes the heights of a row, in metres above the datum z = 0. Heights depend on seed and position alone; positions
 /// are good to 1e9 m from the origin. Its type is either one, `kind`, or one per sample (see `typed_sampler`).
 template <class S>
-concept sampler = requires(const S& s, const scanline& row, std::span<float> heights) { s.row(row, heights); };
+concept sampler = requires(const S& s, const scanline& row, std::span<float> heights) {
+    s.row(row, heights);
+};
 
 /// Also writes the type of each sample; `types` is as long as `heights`, or empty where nobody asks.
 template <class S>
@@ -4534,9 +4536,10 @@ template <class R>
 concept recipe = requires(const R& r, double x, double y) {
     { r(x, y) } -> std::convertible_to<float>;
     r.prepare();
-} && (single_typed<R> || (requires(const R& r) {
-    { r.type_at(0.0, 0.0) } -> std::convertible_to<type>;
-} && typed_sampler<decltype(std::declval<const R&>().prepare())>));
+}
+&&(single_typed<R> || (requires(const R& r) {
+       { r.type_at(0.0, 0.0) } -> std::convertible_to<type>;
+   } && typed_sampler<decltype(std::declval<const R&>().prepare())>));
 
 namespace detail {
 
@@ -4639,8 +4642,8 @@ constexpr std::uint64_t scramble(std::uint64_t z) {
     return z ^ (z >> 31);
 }
 
-/// 64 random bits for each cell of a plane: a pure function of (seed, stream, layer, column, row). Philox draws the key;
-/// the cells themselves are hashed by two finalisers, five times cheaper and the row's shared along it.
+/// 64 random bits for each cell of a plane: a pure function of (seed, stream, layer, column, row). Philox draws the
+/// key; the cells themselves are hashed by two finalisers, five times cheaper and the row's shared along it.
 class cell_hash {
   public:
     cell_hash(std::uint64_t seed, stream purpose, std::uint32_t layer = 0) {
@@ -4731,8 +4734,7 @@ class gradient_noise {
     static constexpr float mean_square_slope = 16.767904f;
 
     /// @param cell  metres, > 0
-    gradient_noise(double cell, detail::cell_hash hash)
-        : lattice_(detail::lattice::shifted(cell, hash)), hash_(hash) {}
+    gradient_noise(double cell, detail::cell_hash hash) : lattice_(detail::lattice::shifted(cell, hash)), hash_(hash) {}
 
     /// Calls `visit(i, value)` for each sample of the row.
     template <class Visit>
@@ -4762,8 +4764,8 @@ class gradient_noise {
                 started = true;
             },
             [&](std::size_t i, float t) {
-                visit(i, detail::mix(left.height + left.slope * t, right.height + right.slope * (t - 1),
-                                     detail::fade(t)));
+                visit(i,
+                      detail::mix(left.height + left.slope * t, right.height + right.slope * (t - 1), detail::fade(t)));
             });
     }
 
@@ -4811,7 +4813,8 @@ class power_law_noise {
         }
         const double scale = static_cast<double>(r.rms) * static_cast<double>(r.rms) / sum;
         slope_ = numeric::square_root(slope_ * scale);
-        for (octave& o : octaves_) o.amplitude = static_cast<float>(numeric::square_root(static_cast<double>(o.amplitude) * scale));
+        for (octave& o : octaves_)
+            o.amplitude = static_cast<float>(numeric::square_root(static_cast<double>(o.amplitude) * scale));
     }
 
     /// Adds the relief along a row to `heights`, metres.
@@ -4977,9 +4980,9 @@ inline float mud::operator()(double x, double y) const {
 // psi(x) = sum_n exp i(k_n . x + phi_n), drives a profile of constant amplitude: height = (eta / 2) cos arg psi. Crests
 // fork at the zeros of psi, around which the phase winds once.
 //
-// The carrier exp(i k_0 . x) is divided out of psi. What is left varies slowly, so along a row it is summed on a lattice
-// several times coarser than the ripples and interpolated; across rows it is exact. The lattice is the world's: a height
-// depends on seed and position alone.
+// The carrier exp(i k_0 . x) is divided out of psi. What is left varies slowly, so along a row it is summed on a
+// lattice several times coarser than the ripples and interpolated; across rows it is exact. The lattice is the world's:
+// a height depends on seed and position alone.
 //
 // Based on: Dajun Tang, Frank S. Henyey, Brian T. Hefner, Peter A. Traykovski. Simulating Realistic-Looking Sediment
 // Ripple Fields. IEEE Journal of Oceanic Engineering 34, 2009 (why ripples are not Gaussian).
@@ -5023,9 +5026,9 @@ struct turn {
         const float t = a * a;
         const float s =
             a * (1 + t * (-1.0f / 6 + t * (1.0f / 120 + t * (-1.0f / 5040 + t * (1.0f / 362880 - t / 39916800)))));
-        const float c = 1 + t * (-0.5f + t * (1.0f / 24 +
-                                              t * (-1.0f / 720 + t * (1.0f / 40320 + t * (-1.0f / 3628800 +
-                                                                                         t / 479001600)))));
+        const float c =
+            1 + t * (-0.5f +
+                     t * (1.0f / 24 + t * (-1.0f / 720 + t * (1.0f / 40320 + t * (-1.0f / 3628800 + t / 479001600)))));
         sine = 2 * s * c;
         cosine = 1 - 2 * s * s;
     }
@@ -5059,8 +5062,8 @@ class ripples_sampler {
         double largest = 0;
         for (wave& w : waves_) {
             const double k = frequency * (1 + static_cast<double>(r.bandwidth) * spread_draw(draw));
-            const auto along = numeric::sin_cos(static_cast<double>(r.direction) +
-                                                static_cast<double>(r.spread) * spread_draw(draw));
+            const auto along =
+                numeric::sin_cos(static_cast<double>(r.direction) + static_cast<double>(r.spread) * spread_draw(draw));
             w = {k * along.cosine - carrier_.x, k * along.sine - carrier_.y, draw.uniform()};
             largest = (std::max)(largest, w.x < 0 ? -w.x : w.x);
         }
@@ -5187,8 +5190,7 @@ class ripples_sampler {
                 const float magnitude = numeric::square_root(a * a + b * b + softening * softening);
                 // With c = cos arg psi, the profile is (c - s) / (1 - s c): -1 to 1 like c itself, the curvature of
                 // its crests (1 + s) / (1 - s) times a sinusoid's and that of its troughs the inverse.
-                heights[i] =
-                    half_height_ * (real - sharpness_ * magnitude) / (magnitude - sharpness_ * real);
+                heights[i] = half_height_ * (real - sharpness_ * magnitude) / (magnitude - sharpness_ * real);
             });
     }
 
@@ -5323,11 +5325,11 @@ class rock_sampler;
 struct rock {
     static constexpr type kind = type::rock;
 
-    float relief = 0.5f;      ///< metres, >= 0: about the height of ridges with their blocks
-    float outcrop = 6.0f;     ///< metres, > 0: from ridge to ridge
-    float block = 1.4f;       ///< metres, > 0: spacing of the largest blocks; others have 1/2 and 1/4 of it
-    float fracture = 0.5f;    ///< in [0, 1]: how many places hold a block
-    float steepness = 2.5f;   ///< > 0: slope of the walls of blocks, 1 is 45 degrees
+    float relief = 0.5f;     ///< metres, >= 0: about the height of ridges with their blocks
+    float outcrop = 6.0f;    ///< metres, > 0: from ridge to ridge
+    float block = 1.4f;      ///< metres, > 0: spacing of the largest blocks; others have 1/2 and 1/4 of it
+    float fracture = 0.5f;   ///< in [0, 1]: how many places hold a block
+    float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees
     roughness surface{.rms = 0.012f, .longest = 0.8f, .shortest = 0.04f, .exponent = 3.0f};
     std::uint64_t seed = 1;
 
@@ -5353,8 +5355,8 @@ class rock_sampler {
             const float size = r.block / static_cast<float>(1 << k);
             // Small blocks hold less height than their size would allow: rubble lies, it doesn't stand.
             const float height = 0.8f * r.relief / static_cast<float>(1 << k);
-            blocks_.push_back({static_cast<double>(size), r.fracture, height, r.steepness,
-                               {r.seed, detail::stream::blocks, k}});
+            blocks_.push_back(
+                {static_cast<double>(size), r.fracture, height, r.steepness, {r.seed, detail::stream::blocks, k}});
         }
     }
 
@@ -5367,8 +5369,8 @@ class rock_sampler {
   private:
     void part(const scanline& line, std::span<float> heights) const {
         // Ridged octaves: creases of the noise become crests, and where one is low the finer are lower still.
-        // F. Kenton Musgrave, in: David S. Ebert and others. Texturing and Modeling: A Procedural Approach. 3rd edition,
-        // 2003 (ridged multifractal).
+        // F. Kenton Musgrave, in: David S. Ebert and others. Texturing and Modeling: A Procedural Approach. 3rd
+        // edition, 2003 (ridged multifractal).
         std::array<float, detail::chunk> weight;
         weight.fill(0.35f * relief_);
         std::fill(heights.begin(), heights.end(), 0.0f);
@@ -5416,8 +5418,8 @@ using simple = std::variant<flat, ripples, mud, rock>;
 template <preparable First, preparable Second>
 class blend_sampler;
 
-/// Patches of `first` in `second`: where a noise exceeds a threshold there is one, else the other. Across the border one
-/// relief dies out as the other grows, so ripples end within about a border's width.
+/// Patches of `first` in `second`: where a noise exceeds a threshold there is one, else the other. Across the border
+/// one relief dies out as the other grows, so ripples end within about a border's width.
 ///
 /// `blend` holds any two simple recipes; spell out the template for recipes of your own.
 template <preparable First, preparable Second>
@@ -5443,8 +5445,8 @@ namespace detail {
 inline double normal_exceeded(double p) {
     const double tail = p < 0.5 ? p : 1 - p;
     const double t = numeric::square_root(-2 * numeric::log(tail));
-    const double value = t - (2.515517 + t * (0.802853 + t * 0.010328)) /
-                                 (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+    const double value =
+        t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
     return p < 0.5 ? value : -value;
 }
 
@@ -5563,9 +5565,9 @@ class heightfield_sampler;
 /// Heights at the vertices of a square grid; vertex (i, j) stands at origin + spacing * (i, j), so that y, along track,
 /// grows with the row: the array looked at as a picture has forward at the bottom (`from_image` turns it).
 ///
-/// Between vertices the surface is the one that is drawn: each cell is cut from vertex (i, j) to (i + 1, j + 1) into two
-/// plane triangles. Outside, it goes on as at the nearest edge. A vertex that is NaN or infinite is no data: queries on
-/// its triangles answer NaN, and they are left out of the drawn mesh.
+/// Between vertices the surface is the one that is drawn: each cell is cut from vertex (i, j) to (i + 1, j + 1) into
+/// two plane triangles. Outside, it goes on as at the nearest edge. A vertex that is NaN or infinite is no data:
+/// queries on its triangles answer NaN, and they are left out of the drawn mesh.
 struct heightfield {
     image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
     image<type> types{};          ///< one per vertex, or none: then everything is `fallback`
@@ -5702,8 +5704,8 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 /// parameters of the recipe out of their range
 template <preparable Recipe, executor_argument Executor = serial_executor>
 heightfield sample(const Recipe& source, const grid& where, Executor&& ex = serial_executor{}) {
-    heightfield result{.heights = image<float>(where.width, where.height), .origin = where.origin,
-                       .spacing = where.spacing};
+    heightfield result{
+        .heights = image<float>(where.width, where.height), .origin = where.origin, .spacing = where.spacing};
     if constexpr (single_typed<Recipe>) {
         result.fallback = Recipe::kind;
     } else {
@@ -5714,8 +5716,8 @@ heightfield sample(const Recipe& source, const grid& where, Executor&& ex = seri
     const auto prepared = prepare(source);
     ex.bulk(static_cast<std::size_t>(where.height), [&](std::size_t row) {
         const int j = static_cast<int>(row);
-        const scanline line{.y = where.origin.y + where.spacing * j, .origin = where.origin.x,
-                            .spacing = where.spacing};
+        const scanline line{
+            .y = where.origin.y + where.spacing * j, .origin = where.origin.x, .spacing = where.spacing};
         prepared.row(line, result.heights.row(j), result.types.empty() ? std::span<type>{} : result.types.row(j));
     });
     return result;

@@ -14,8 +14,8 @@ using simple = std::variant<flat, ripples, mud, rock>;
 template <preparable First, preparable Second>
 class blend_sampler;
 
-/// Patches of `first` in `second`: where a noise exceeds a threshold there is one, else the other. Across the border one
-/// relief dies out as the other grows, so ripples end within about a border's width.
+/// Patches of `first` in `second`: where a noise exceeds a threshold there is one, else the other. Across the border
+/// one relief dies out as the other grows, so ripples end within about a border's width.
 ///
 /// `blend` holds any two simple recipes; spell out the template for recipes of your own.
 template <preparable First, preparable Second>
@@ -41,8 +41,8 @@ namespace detail {
 inline double normal_exceeded(double p) {
     const double tail = p < 0.5 ? p : 1 - p;
     const double t = numeric::square_root(-2 * numeric::log(tail));
-    const double value = t - (2.515517 + t * (0.802853 + t * 0.010328)) /
-                                 (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+    const double value =
+        t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
     return p < 0.5 ? value : -value;
 }
 

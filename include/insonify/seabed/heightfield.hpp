@@ -50,9 +50,9 @@ class heightfield_sampler;
 /// Heights at the vertices of a square grid; vertex (i, j) stands at origin + spacing * (i, j), so that y, along track,
 /// grows with the row: the array looked at as a picture has forward at the bottom (`from_image` turns it).
 ///
-/// Between vertices the surface is the one that is drawn: each cell is cut from vertex (i, j) to (i + 1, j + 1) into two
-/// plane triangles. Outside, it goes on as at the nearest edge. A vertex that is NaN or infinite is no data: queries on
-/// its triangles answer NaN, and they are left out of the drawn mesh.
+/// Between vertices the surface is the one that is drawn: each cell is cut from vertex (i, j) to (i + 1, j + 1) into
+/// two plane triangles. Outside, it goes on as at the nearest edge. A vertex that is NaN or infinite is no data:
+/// queries on its triangles answer NaN, and they are left out of the drawn mesh.
 struct heightfield {
     image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
     image<type> types{};          ///< one per vertex, or none: then everything is `fallback`

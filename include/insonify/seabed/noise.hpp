@@ -28,8 +28,8 @@ constexpr std::uint64_t scramble(std::uint64_t z) {
     return z ^ (z >> 31);
 }
 
-/// 64 random bits for each cell of a plane: a pure function of (seed, stream, layer, column, row). Philox draws the key;
-/// the cells themselves are hashed by two finalisers, five times cheaper and the row's shared along it.
+/// 64 random bits for each cell of a plane: a pure function of (seed, stream, layer, column, row). Philox draws the
+/// key; the cells themselves are hashed by two finalisers, five times cheaper and the row's shared along it.
 class cell_hash {
   public:
     cell_hash(std::uint64_t seed, stream purpose, std::uint32_t layer = 0) {
@@ -120,8 +120,7 @@ class gradient_noise {
     static constexpr float mean_square_slope = 16.767904f;
 
     /// @param cell  metres, > 0
-    gradient_noise(double cell, detail::cell_hash hash)
-        : lattice_(detail::lattice::shifted(cell, hash)), hash_(hash) {}
+    gradient_noise(double cell, detail::cell_hash hash) : lattice_(detail::lattice::shifted(cell, hash)), hash_(hash) {}
 
     /// Calls `visit(i, value)` for each sample of the row.
     template <class Visit>
@@ -151,8 +150,8 @@ class gradient_noise {
                 started = true;
             },
             [&](std::size_t i, float t) {
-                visit(i, detail::mix(left.height + left.slope * t, right.height + right.slope * (t - 1),
-                                     detail::fade(t)));
+                visit(i,
+                      detail::mix(left.height + left.slope * t, right.height + right.slope * (t - 1), detail::fade(t)));
             });
     }
 
@@ -200,7 +199,8 @@ class power_law_noise {
         }
         const double scale = static_cast<double>(r.rms) * static_cast<double>(r.rms) / sum;
         slope_ = numeric::square_root(slope_ * scale);
-        for (octave& o : octaves_) o.amplitude = static_cast<float>(numeric::square_root(static_cast<double>(o.amplitude) * scale));
+        for (octave& o : octaves_)
+            o.amplitude = static_cast<float>(numeric::square_root(static_cast<double>(o.amplitude) * scale));
     }
 
     /// Adds the relief along a row to `heights`, metres.

@@ -34,7 +34,9 @@ struct scanline {
 /// Writes the heights of a row, in metres above the datum z = 0. Heights depend on seed and position alone; positions
 /// are good to 1e9 m from the origin. Its type is either one, `kind`, or one per sample (see `typed_sampler`).
 template <class S>
-concept sampler = requires(const S& s, const scanline& row, std::span<float> heights) { s.row(row, heights); };
+concept sampler = requires(const S& s, const scanline& row, std::span<float> heights) {
+    s.row(row, heights);
+};
 
 /// Also writes the type of each sample; `types` is as long as `heights`, or empty where nobody asks.
 template <class S>
@@ -54,9 +56,10 @@ template <class R>
 concept recipe = requires(const R& r, double x, double y) {
     { r(x, y) } -> std::convertible_to<float>;
     r.prepare();
-} && (single_typed<R> || (requires(const R& r) {
-    { r.type_at(0.0, 0.0) } -> std::convertible_to<type>;
-} && typed_sampler<decltype(std::declval<const R&>().prepare())>));
+}
+&&(single_typed<R> || (requires(const R& r) {
+       { r.type_at(0.0, 0.0) } -> std::convertible_to<type>;
+   } && typed_sampler<decltype(std::declval<const R&>().prepare())>));
 
 namespace detail {
 

@@ -4,9 +4,9 @@
 // psi(x) = sum_n exp i(k_n . x + phi_n), drives a profile of constant amplitude: height = (eta / 2) cos arg psi. Crests
 // fork at the zeros of psi, around which the phase winds once.
 //
-// The carrier exp(i k_0 . x) is divided out of psi. What is left varies slowly, so along a row it is summed on a lattice
-// several times coarser than the ripples and interpolated; across rows it is exact. The lattice is the world's: a height
-// depends on seed and position alone.
+// The carrier exp(i k_0 . x) is divided out of psi. What is left varies slowly, so along a row it is summed on a
+// lattice several times coarser than the ripples and interpolated; across rows it is exact. The lattice is the world's:
+// a height depends on seed and position alone.
 //
 // Based on: Dajun Tang, Frank S. Henyey, Brian T. Hefner, Peter A. Traykovski. Simulating Realistic-Looking Sediment
 // Ripple Fields. IEEE Journal of Oceanic Engineering 34, 2009 (why ripples are not Gaussian).
@@ -55,9 +55,9 @@ struct turn {
         const float t = a * a;
         const float s =
             a * (1 + t * (-1.0f / 6 + t * (1.0f / 120 + t * (-1.0f / 5040 + t * (1.0f / 362880 - t / 39916800)))));
-        const float c = 1 + t * (-0.5f + t * (1.0f / 24 +
-                                              t * (-1.0f / 720 + t * (1.0f / 40320 + t * (-1.0f / 3628800 +
-                                                                                         t / 479001600)))));
+        const float c =
+            1 + t * (-0.5f +
+                     t * (1.0f / 24 + t * (-1.0f / 720 + t * (1.0f / 40320 + t * (-1.0f / 3628800 + t / 479001600)))));
         sine = 2 * s * c;
         cosine = 1 - 2 * s * s;
     }
@@ -91,8 +91,8 @@ class ripples_sampler {
         double largest = 0;
         for (wave& w : waves_) {
             const double k = frequency * (1 + static_cast<double>(r.bandwidth) * spread_draw(draw));
-            const auto along = numeric::sin_cos(static_cast<double>(r.direction) +
-                                                static_cast<double>(r.spread) * spread_draw(draw));
+            const auto along =
+                numeric::sin_cos(static_cast<double>(r.direction) + static_cast<double>(r.spread) * spread_draw(draw));
             w = {k * along.cosine - carrier_.x, k * along.sine - carrier_.y, draw.uniform()};
             largest = (std::max)(largest, w.x < 0 ? -w.x : w.x);
         }
@@ -219,8 +219,7 @@ class ripples_sampler {
                 const float magnitude = numeric::square_root(a * a + b * b + softening * softening);
                 // With c = cos arg psi, the profile is (c - s) / (1 - s c): -1 to 1 like c itself, the curvature of
                 // its crests (1 + s) / (1 - s) times a sinusoid's and that of its troughs the inverse.
-                heights[i] =
-                    half_height_ * (real - sharpness_ * magnitude) / (magnitude - sharpness_ * real);
+                heights[i] = half_height_ * (real - sharpness_ * magnitude) / (magnitude - sharpness_ * real);
             });
     }
 

@@ -11,11 +11,11 @@ class rock_sampler;
 struct rock {
     static constexpr type kind = type::rock;
 
-    float relief = 0.5f;      ///< metres, >= 0: about the height of ridges with their blocks
-    float outcrop = 6.0f;     ///< metres, > 0: from ridge to ridge
-    float block = 1.4f;       ///< metres, > 0: spacing of the largest blocks; others have 1/2 and 1/4 of it
-    float fracture = 0.5f;    ///< in [0, 1]: how many places hold a block
-    float steepness = 2.5f;   ///< > 0: slope of the walls of blocks, 1 is 45 degrees
+    float relief = 0.5f;     ///< metres, >= 0: about the height of ridges with their blocks
+    float outcrop = 6.0f;    ///< metres, > 0: from ridge to ridge
+    float block = 1.4f;      ///< metres, > 0: spacing of the largest blocks; others have 1/2 and 1/4 of it
+    float fracture = 0.5f;   ///< in [0, 1]: how many places hold a block
+    float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees
     roughness surface{.rms = 0.012f, .longest = 0.8f, .shortest = 0.04f, .exponent = 3.0f};
     std::uint64_t seed = 1;
 
@@ -41,8 +41,8 @@ class rock_sampler {
             const float size = r.block / static_cast<float>(1 << k);
             // Small blocks hold less height than their size would allow: rubble lies, it doesn't stand.
             const float height = 0.8f * r.relief / static_cast<float>(1 << k);
-            blocks_.push_back({static_cast<double>(size), r.fracture, height, r.steepness,
-                               {r.seed, detail::stream::blocks, k}});
+            blocks_.push_back(
+                {static_cast<double>(size), r.fracture, height, r.steepness, {r.seed, detail::stream::blocks, k}});
         }
     }
 
@@ -55,8 +55,8 @@ class rock_sampler {
   private:
     void part(const scanline& line, std::span<float> heights) const {
         // Ridged octaves: creases of the noise become crests, and where one is low the finer are lower still.
-        // F. Kenton Musgrave, in: David S. Ebert and others. Texturing and Modeling: A Procedural Approach. 3rd edition,
-        // 2003 (ridged multifractal).
+        // F. Kenton Musgrave, in: David S. Ebert and others. Texturing and Modeling: A Procedural Approach. 3rd
+        // edition, 2003 (ridged multifractal).
         std::array<float, detail::chunk> weight;
         weight.fill(0.35f * relief_);
         std::fill(heights.begin(), heights.end(), 0.0f);

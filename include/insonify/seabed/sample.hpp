@@ -39,8 +39,8 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 /// parameters of the recipe out of their range
 template <preparable Recipe, executor_argument Executor = serial_executor>
 heightfield sample(const Recipe& source, const grid& where, Executor&& ex = serial_executor{}) {
-    heightfield result{.heights = image<float>(where.width, where.height), .origin = where.origin,
-                       .spacing = where.spacing};
+    heightfield result{
+        .heights = image<float>(where.width, where.height), .origin = where.origin, .spacing = where.spacing};
     if constexpr (single_typed<Recipe>) {
         result.fallback = Recipe::kind;
     } else {
@@ -51,8 +51,8 @@ heightfield sample(const Recipe& source, const grid& where, Executor&& ex = seri
     const auto prepared = prepare(source);
     ex.bulk(static_cast<std::size_t>(where.height), [&](std::size_t row) {
         const int j = static_cast<int>(row);
-        const scanline line{.y = where.origin.y + where.spacing * j, .origin = where.origin.x,
-                            .spacing = where.spacing};
+        const scanline line{
+            .y = where.origin.y + where.spacing * j, .origin = where.origin.x, .spacing = where.spacing};
         prepared.row(line, result.heights.row(j), result.types.empty() ? std::span<type>{} : result.types.row(j));
     });
     return result;

@@ -1,0 +1,68 @@
+// How long a frame takes: frame [threads] [cells] [pixels] prints the median of nine, in milliseconds, part by part.
+//
+// The scene is the reference workload's: a rippled seabed of cells x cells and a cylinder, seen from 10 m by a camera
+// of 120 degrees, lit at 6 degrees; everything is made anew in every frame.
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/insonify.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+namespace in = insonify;
+
+namespace {
+
+template <class Fn>
+double median_ms(const Fn& work) {
+    std::vector<double> times;
+    for (int i = 0; i < 9; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        work();
+        times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    }
+    std::nth_element(times.begin(), times.begin() + 4, times.end());
+    return times[4];
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const int threads = argc > 1 ? std::atoi(argv[1]) : 2;
+    const int cells = argc > 2 ? std::atoi(argv[2]) : 1024;
+    const int pixels = argc > 3 ? std::atoi(argv[3]) : 2048;
+    in::thread_pool pool(threads);
+
+    in::scene scene;
+    scene.seabed = in::seabed::ripples{};
+    scene.add(in::cylinder{.radius = 0.5f, .length = 2}, {.position = {0, 0, 0.5}, .yaw = 0.5f}, "cylinder");
+    const in::overhead rig{.altitude = 10, .size = {pixels, pixels}};
+
+    const double side = 2 * in::overhead_geometry(rig).half_extent(0).x;
+    const in::seabed::grid grid{{-side / 2, -side / 2}, side / cells, cells + 1, cells + 1};
+    const auto field = in::seabed::sample(scene.seabed, grid, pool);
+    const in::mesh bottom = in::seabed::tessellate(field, pool);
+    const in::shadow::light_frame light({0, static_cast<double>(rig.grazing)});
+    const double texel = in::overhead_geometry(rig).ground_sampling() / 1.5;
+    const in::affine place{glm::dmat3(1), glm::dvec3(grid.origin, 0)};
+
+    std::printf("%d x %d cells, %zu triangles, %d x %d pixels, %d threads\n", cells, cells, bottom.triangles.size(),
+                pixels, pixels, pool.threads());
+    std::printf("  sample the seabed       %7.1f ms\n",
+                median_ms([&] { in::seabed::sample(scene.seabed, grid, pool); }));
+    std::printf("  tessellate it           %7.1f ms\n", median_ms([&] { in::seabed::tessellate(field, pool); }));
+    std::printf("  draw its shadow map     %7.1f ms\n", median_ms([&] {
+                    in::shadow::height_map map(light, in::shadow::extent_of(bottom, place, light, pool), texel);
+                    map.cast(bottom, place, pool);
+                }));
+    using bare = in::render_options<in::shadow::none, in::no_labels>;
+    using shaded = in::render_options<in::shadow::pcf, in::no_labels>;
+    std::printf("  frame, no shadows       %7.1f ms\n",
+                median_ms([&] { in::render(scene, rig, bare{.cells = cells}, pool); }));
+    std::printf("  frame, shadows          %7.1f ms\n",
+                median_ms([&] { in::render(scene, rig, shaded{.cells = cells}, pool); }));
+    std::printf("  frame, shadows, labels  %7.1f ms\n",
+                median_ms([&] { in::render(scene, rig, in::render_options<>{.cells = cells}, pool); }));
+}
