@@ -6453,6 +6453,7 @@ class overhead_geometry {
         : rig_((validate(rig), rig)),
           tangent_(numeric::tan(0.5 * static_cast<double>(rig.field_of_view))),
           light_({static_cast<double>(rig.light_azimuth), static_cast<double>(rig.grazing)}) {
+        clip_scale_ = glm::vec2(1 / tangent_, static_cast<double>(rig.size.x) / rig.size.y / tangent_);
         const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
         right_ = {cosine, sine};
         rig_from_world_.linear = {{cosine, -sine, 0}, {sine, cosine, 0}, {0, 0, 1}};
@@ -6485,9 +6486,7 @@ class overhead_geometry {
 
     /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
     glm::vec4 clip(const glm::vec3& p) const {
-        const auto scale = static_cast<float>(1 / tangent_);
-        const float shape = static_cast<float>(rig_.size.x) / static_cast<float>(rig_.size.y);
-        return {p.x * scale, p.y * scale * shape, 1e-3f * rig_.altitude, rig_.altitude - p.z};
+        return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
     }
 
     /// Where a point of the rig frame appears, in continuous pixels.
@@ -6499,6 +6498,7 @@ class overhead_geometry {
   private:
     overhead rig_;
     double tangent_;
+    glm::vec2 clip_scale_;
     shadow::light_frame light_;
     glm::dvec2 right_;
     affine rig_from_world_;
