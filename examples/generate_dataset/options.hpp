@@ -111,6 +111,14 @@ inline nlohmann::ordered_json pinned(const options& o) {
             {"demo", o.demo}};
 }
 
+/// Help without the validators' shorthand: what a value may be is said in words.
+struct plain_formatter : CLI::Formatter {
+    plain_formatter() { column_width(30); }
+    std::string make_option_opts(const CLI::Option* option) const override {
+        return option->get_expected_max() == 0 ? "" : option->get_required() ? " VALUE (needed)" : " VALUE";
+    }
+};
+
 /// Reads the command line. Prints help or an error and exits where there is nothing to generate.
 inline options parse(int argc, char** argv) {
     options o;
@@ -124,7 +132,7 @@ inline options parse(int argc, char** argv) {
         "  generate_dataset --out out/a --count 400 --size 512 --noise speckle:0.1\n"
         "  generate_dataset --out out/b --first 200 --count 200 --reference real_images/ --colormap copper\n"
         "  generate_dataset --out out/c --targets cylinder --mesh wreck=wreck.obj --seabeds mud,mixed");
-    app.get_formatter()->column_width(34);
+    app.formatter(std::make_shared<plain_formatter>());
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.set_config("--config", "", "Read options from a TOML or INI file; the command line wins");
 
@@ -178,7 +186,8 @@ inline options parse(int argc, char** argv) {
         ->group(rig);
 
     const char* const look = "Look";
-    app.add_option("--reference", o.references, "Real images, files or folders, to match histograms with")
+    app.add_option("--reference", o.references,
+                   "Real image or folder of images to match histograms with; repeat for more")
         ->check(CLI::ExistingPath)
         ->group(look);
     app.add_option("--noise", o.noise, "none, or a chain: speckle:0.1,gaussian:0.01,poisson:255,rayleigh (speckle:0.1)")
