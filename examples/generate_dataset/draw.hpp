@@ -142,16 +142,14 @@ inline drawn draw(const options& o, const plan& p, const stock& shared, auto& ex
 
     drawn result{.frame = in::render(scene, rig, {}, ex), .color = {}, .gray = {}, .placement = placement};
     in::image<float> look = result.frame.image;
-    if (p.referenced) look = in::apply(std::move(look), shared.reference(p.reference), ex);
+    const auto add = [&](const auto& filter) { look = in::apply(std::move(look), filter, ex); };
+    if (p.referenced) add(shared.reference(p.reference));
     for (const noise_step& step : noise_steps(o)) {
         const auto strength = static_cast<float>(step.strength);
-        if (step.kind == "speckle")
-            look = in::apply(std::move(look), in::speckle{.variance = strength, .seed = p.noise_seed}, ex);
-        if (step.kind == "gaussian")
-            look = in::apply(std::move(look), in::gaussian{.variance = strength, .seed = p.noise_seed}, ex);
-        if (step.kind == "poisson")
-            look = in::apply(std::move(look), in::poisson{.photons = strength, .seed = p.noise_seed}, ex);
-        if (step.kind == "rayleigh") look = in::apply(std::move(look), in::rayleigh{.seed = p.noise_seed}, ex);
+        if (step.kind == "speckle") add(in::speckle{.variance = strength, .seed = p.noise_seed});
+        if (step.kind == "gaussian") add(in::gaussian{.variance = strength, .seed = p.noise_seed});
+        if (step.kind == "poisson") add(in::poisson{.photons = strength, .seed = p.noise_seed});
+        if (step.kind == "rayleigh") add(in::rayleigh{.seed = p.noise_seed});
     }
     if (o.colormap == "copper")
         result.color = in::apply(look, in::colormap::copper, ex);
