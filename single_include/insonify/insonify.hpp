@@ -6285,6 +6285,23 @@ inline image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) 
     return mask;
 }
 
+/// The class of every pixel.
+struct class_map {
+    std::vector<std::string> names;  ///< each once, in the order in which the targets bring them
+    image<std::uint16_t> classes;    ///< 0 for no target, 1 for names[0], ...
+};
+inline class_map classes_of(const labels& l) {
+    class_map map;
+    std::vector<std::uint16_t> class_of{0};  // by instance
+    for (const target_label& t : l.targets) {
+        const auto known = std::find(map.names.begin(), map.names.end(), t.class_name);
+        class_of.push_back(static_cast<std::uint16_t>(known - map.names.begin() + 1));
+        if (known == map.names.end()) map.names.push_back(t.class_name);
+    }
+    map.classes = map_pixels(l.instance, [&](std::uint16_t instance) { return class_of[instance]; });
+    return map;
+}
+
 /// Fills in labels::targets from the images.
 inline void describe_targets(labels& l, const std::vector<target>& targets) {
     struct extent {

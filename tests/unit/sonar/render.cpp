@@ -116,6 +116,19 @@ TEST_CASE("Labels say which target a pixel shows, who shades it, and what the bo
     CHECK(l.targets[0].area == Approx(in::numeric::pi * std::pow(0.25 / 2.74 * 150, 2)).epsilon(0.12));
 }
 
+TEST_CASE("Targets of one class share its number in the class map") {
+    in::scene s;
+    s.seabed = plane;
+    for (const double y : {-1.0, 0.0, 1.0})
+        s.add(in::cube{.size = glm::vec3(0.3f)}, {.position = {0, y, 0.15}}, y == 0 ? "rock" : "mine");
+    const auto picture = in::render(s, {.altitude = 3, .field_of_view = 90_deg, .size = {120, 120}});
+    const in::class_map map = in::classes_of(picture.labels);
+    CHECK(map.names == std::vector<std::string>{"mine", "rock"});
+    const std::uint16_t expected[] = {0, 1, 2, 1};
+    for (std::size_t i = 0; i < map.classes.size(); ++i)
+        REQUIRE(map.classes.pixels()[i] == expected[picture.labels.instance.pixels()[i]]);
+}
+
 TEST_CASE("The picture is the same wherever in the world it is taken") {
     const auto at = [](glm::dvec2 offset) {
         in::scene s;
