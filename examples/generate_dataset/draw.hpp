@@ -132,11 +132,11 @@ inline drawn draw(const options& o, const plan& p, const stock& shared, auto& ex
         rig.position + glm::dvec2(offset.x * cosine - offset.y * sine, offset.x * sine + offset.y * cosine);
 
     const in::mesh shape = shared.target(p);
-    const in::pose posed{.position = glm::dvec3(ground, 0),
-                         .yaw = static_cast<float>(p.yaw),
-                         .pitch = static_cast<float>(p.pitch),
-                         .roll = static_cast<float>(p.roll)};
-    in::pose placement = in::rest_on(scene.seabed, shape, posed);
+    // Level first, tilted in place then: what one end rises, the other sinks in, and no light passes below.
+    in::pose placement =
+        in::rest_on(scene.seabed, shape, {.position = glm::dvec3(ground, 0), .yaw = static_cast<float>(p.yaw)});
+    placement.pitch = static_cast<float>(p.pitch);
+    placement.roll = static_cast<float>(p.roll);
     placement.burial = static_cast<float>(p.burial * p.size);
     scene.add(shape, placement, p.class_name, {static_cast<float>(o.reflectivity)});
 

@@ -31,8 +31,8 @@ struct options {
     std::vector<std::string> seabeds{"ripples", "mud", "rock"};
     std::string heightmap;
     double heightmap_spacing = 0.02, heightmap_scale = 1;
-    range target_size{0.4, 0.8}, aspect{0.8, 1.25}, tilt{-8, 8}, burial{0, 0.3};
-    range altitude{4, 6}, grazing{6, 6};
+    range target_size{0.4, 0.8}, aspect{0.8, 1.25}, tilt{-3, 3}, burial{0.1, 0.3};
+    range altitude{3.5, 5}, grazing{6, 6};
     double reflectivity = 0.9, intensity = 4, sky = 0.05;
     std::vector<std::string> references;
     std::vector<std::string> noise{"speckle:0.1"};
@@ -171,11 +171,11 @@ inline options parse(int argc, char** argv) {
     app.add_option("--heightmap-scale", o.heightmap_scale, "Metres for a full-scale pixel (1)")->group(scene);
     app.add_option("--target-size", target_size, "Range: height or diameter, metres (0.4:0.8)")->group(scene);
     app.add_option("--aspect", aspect, "Range: length over what is usual for the kind (0.8:1.25)")->group(scene);
-    app.add_option("--tilt", tilt, "Range: pitch and roll, degrees (-8:8)")->group(scene);
-    app.add_option("--burial", burial, "Range: share of the height that is buried (0:0.3)")->group(scene);
+    app.add_option("--tilt", tilt, "Range: pitch and roll, degrees (-3:3)")->group(scene);
+    app.add_option("--burial", burial, "Range: share of the height that is buried (0.1:0.3)")->group(scene);
 
     const char* const rig = "Camera and light";
-    app.add_option("--altitude", altitude, "Range: metres above the sea floor (4:6)")->group(rig);
+    app.add_option("--altitude", altitude, "Range: metres above the sea floor (3.5:5)")->group(rig);
     app.add_option("--grazing", grazing, "Range: light above the sea floor, degrees (6)")->group(rig);
     app.add_option("--intensity", o.intensity, "Light on a surface that faces it (4)")
         ->check(CLI::NonNegativeNumber)
