@@ -2580,7 +2580,10 @@ class obj_reader {
         raise(io_error(std::string(name_) + ":" + to_text(line_) + ": " + reason));
     }
     static std::string quoted(std::string_view word) {
-        return "'" + std::string(word.substr(0, 40)) + (word.size() > 40 ? "...'" : "'");
+        std::string text(1, '\'');
+        text += word.substr(0, 40);
+        text += word.size() > 40 ? "...'" : "'";
+        return text;
     }
 
     // Elements.
