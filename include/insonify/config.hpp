@@ -33,6 +33,20 @@
 #define INSONIFY_ASSERT(condition) assert(condition)
 #endif
 
+// Fused multiply-add rounds once where a product and a sum round twice, so a compiler that may fuse changes bytes.
+// Every header that computes with floats stands between these two, which forbid it there whatever the user's flags
+// allow. (clang heeds no pragma under an explicit -ffp-contract=fast; fast-honor-pragmas is the same and does.)
+#if defined(__clang__)
+#define INSONIFY_ARITHMETIC_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
+#define INSONIFY_ARITHMETIC_END _Pragma("float_control(pop)")
+#elif defined(__GNUC__) && defined(__FP_FAST_FMA)
+#define INSONIFY_ARITHMETIC_BEGIN _Pragma("GCC push_options") _Pragma("GCC optimize(\"fp-contract=off\")")
+#define INSONIFY_ARITHMETIC_END _Pragma("GCC pop_options")
+#else
+#define INSONIFY_ARITHMETIC_BEGIN
+#define INSONIFY_ARITHMETIC_END
+#endif
+
 // Run-time dispatch to wider instruction sets: x86-64 with GNU attributes only. Other targets compile one path.
 #if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__)
 #define INSONIFY_DISPATCH 1

@@ -64,6 +64,20 @@
 #define INSONIFY_ASSERT(condition) assert(condition)
 #endif
 
+// Fused multiply-add rounds once where a product and a sum round twice, so a compiler that may fuse changes bytes.
+// Every header that computes with floats stands between these two, which forbid it there whatever the user's flags
+// allow. (clang heeds no pragma under an explicit -ffp-contract=fast; fast-honor-pragmas is the same and does.)
+#if defined(__clang__)
+#define INSONIFY_ARITHMETIC_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
+#define INSONIFY_ARITHMETIC_END _Pragma("float_control(pop)")
+#elif defined(__GNUC__) && defined(__FP_FAST_FMA)
+#define INSONIFY_ARITHMETIC_BEGIN _Pragma("GCC push_options") _Pragma("GCC optimize(\"fp-contract=off\")")
+#define INSONIFY_ARITHMETIC_END _Pragma("GCC pop_options")
+#else
+#define INSONIFY_ARITHMETIC_BEGIN
+#define INSONIFY_ARITHMETIC_END
+#endif
+
 // Run-time dispatch to wider instruction sets: x86-64 with GNU attributes only. Other targets compile one path.
 #if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__)
 #define INSONIFY_DISPATCH 1
@@ -265,6 +279,8 @@ class image_view {
 #include <limits>
 #include <numbers>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 namespace literals {
@@ -420,11 +436,15 @@ inline double atan2(double y, double x) {
 }  // namespace numeric
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/accuracy/metrics.hpp -------------------------------------------------------------
 // How far an image or a mask is from the truth.
 //
 // Means hide one broken tile, so the largest difference stands beside them; the ratio of two tiny masks explodes, so
 // the displacement of their border stands beside it.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::accuracy {
 
@@ -540,12 +560,16 @@ inline pixel_difference compare_images(image_view<const std::uint8_t> result, im
 
 }  // namespace insonify::inline INSONIFY_ABI::accuracy
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/core/dispatch.hpp ----------------------------------------------------------------
 // One kernel, several instruction sets: written once over a lane count, chosen when the program runs.
 //
 // A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
-// values go through it at a time. Its arithmetic is the same in every lane at every N, and no target enables fused
-// multiply-add, so all levels give the same bytes; N = 1 is plain scalar code.
+// values go through it at a time. Its arithmetic is the same in every lane at every N, and no target fuses products
+// with sums (AVX-512 could), so all levels give the same bytes; N = 1 is plain scalar code.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -593,6 +617,8 @@ void dispatch(const Kernel& kernel, isa level) {
 
 }  // namespace detail
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/executor.hpp ----------------------------------------------------------------
 // Who runs the loops. An executor is an argument, serial by default; the library starts no thread of its own.
@@ -752,6 +778,8 @@ auto map_pixels(const image<T>& source, Fn&& fn) {
 
 #include <cstring>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::detail {
 
 template <class T, int N>
@@ -779,6 +807,43 @@ INSONIFY_INLINE void store(T* into, const Lanes& from) {
     std::memcpy(into, &from, sizeof from);
 }
 
+/// Each lane as a cast would make it.
+template <class To, class From>
+INSONIFY_INLINE void convert(To& into, const From& from) {
+#if INSONIFY_SIMD
+    if constexpr (!std::is_arithmetic_v<To>)
+        into = __builtin_convertvector(from, To);
+    else
+#endif
+        into = static_cast<To>(from);
+}
+
+/// Whether any lane of a mask is set.
+template <class Mask>
+INSONIFY_INLINE bool any(const Mask& mask) {
+    std::uint64_t words[(sizeof mask + 7) / 8] = {};
+    std::memcpy(words, &mask, sizeof mask);
+    std::uint64_t all = 0;
+    for (const std::uint64_t word : words) all |= word;
+    return all != 0;
+}
+
+/// One lane, to look at and to change.
+template <class Lanes>
+INSONIFY_INLINE auto lane(const Lanes& lanes, int i) {
+    if constexpr (std::is_arithmetic_v<Lanes>)
+        return lanes;
+    else
+        return lanes[i];
+}
+template <class Lanes, class T>
+INSONIFY_INLINE void set_lane(Lanes& lanes, int i, T value) {
+    if constexpr (std::is_arithmetic_v<Lanes>)
+        lanes = value;
+    else
+        lanes[i] = value;
+}
+
 /// 0, 1, ... N - 1.
 template <class T, int N>
 INSONIFY_INLINE void count_up(lanes<T, N>& into) {
@@ -789,8 +854,12 @@ INSONIFY_INLINE void count_up(lanes<T, N>& into) {
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/core/quantize.hpp ----------------------------------------------------------------
 // From [0, 1] to codes of 8 or 16 bits and back: the one rounding rule of filters and files.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -816,6 +885,8 @@ constexpr float dequantize(Code code) {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/core/random.hpp ------------------------------------------------------------------
 // Random numbers without state: a number is a pure function of (seed, stream, counter).
 //
@@ -825,6 +896,8 @@ constexpr float dequantize(Code code) {
 // SC11, 2011 (Philox4x32-10; checked against the known answers of Random123).
 
 #include <array>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -908,8 +981,12 @@ class random_sequence {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/filter/colormap.hpp --------------------------------------------------------------
 // From gray to colour by a table of 256 entries: `image | colormap::copper`.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -957,6 +1034,8 @@ inline constexpr color_table gray = tabulate_colors([](int level) {
 }  // namespace colormap
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/filter/concept.hpp ---------------------------------------------------------------
 // What may stand to the right of an image in `image | filter`.
 //
@@ -968,6 +1047,8 @@ inline constexpr color_table gray = tabulate_colors([](int level) {
 //
 // What `pass` returns is a value and is copied for each run of rows, so it may remember what it drew for the last
 // pixel.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -1022,8 +1103,12 @@ concept filter_for = image_filter<F, Pixel> || measured_filter<F, Pixel> || pixe
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/filter/convert.hpp ---------------------------------------------------------------
 // Filters between floats in [0, 1] and codes of 8 or 16 bits.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -1066,8 +1151,12 @@ inline constexpr detail::to_unit to_float{};
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/filter/gray.hpp ------------------------------------------------------------------
 // From colour to gray by weights.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -1116,10 +1205,14 @@ struct to_gray {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/filter/histogram.hpp -------------------------------------------------------------
 // Histograms of equal bins, and the two filters that MATLAB builds on them: equalize and match.
 //
 // Based on: MathWorks. Image Processing Toolbox, imhist, histeq, imhistmatch (64 bins, 256 source levels).
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -1270,6 +1363,8 @@ class match_binned {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/filter/match.hpp -----------------------------------------------------------------
 // Gives an image the distribution of a reference by exact ranks: no bins, every distinct value counts.
 //
@@ -1278,6 +1373,8 @@ class match_binned {
 // with linear interpolation between values that are present.
 
 #include <memory>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -1459,6 +1556,8 @@ class match_histogram {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/filter/noise.hpp -----------------------------------------------------------------
 // Noise by pixel: gaussian, speckle (uniform, gaussian, Rayleigh) and poisson, on floats in [0, 1].
 //
@@ -1470,6 +1569,8 @@ class match_histogram {
 // Based on: George E. P. Box, Mervin E. Muller. A Note on the Generation of Random Normal Deviates. Annals of
 // Mathematical Statistics 29, 1958. Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random
 // Variables. Insurance: Mathematics and Economics 12, 1993 (algorithm PTRS).
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -1630,6 +1731,8 @@ struct rayleigh {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/filter/pipe.hpp ------------------------------------------------------------------
 // Filters by `|`: `image | f` applies, `f | g` makes a chain without touching a pixel, `apply` brings an executor.
 //
@@ -1640,6 +1743,8 @@ struct rayleigh {
 // declare `is_filter`) or a chain; `filter_chain<>{} | mine | yours` starts one without.
 
 #include <tuple>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -1892,11 +1997,15 @@ auto operator|(F&& f, G&& g) {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/filter/poisson.hpp ---------------------------------------------------------------
 // Shot noise: each pixel becomes the count of a Poisson draw whose mean it was.
 //
 // Based on: Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random Variables. Insurance:
 // Mathematics and Economics 12, 1993 (algorithm PTRS, means of 10 and above; below, inversion by summing).
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -2013,6 +2122,8 @@ struct poisson {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/mesh.hpp ----------------------------------------------------------------
 // Triangles as plain data: what builders and importers make, and what everything downstream draws.
 
@@ -2041,6 +2152,8 @@ inline void validate(const mesh& m) {
 
 // ------------ insonify/geometry/bounds.hpp --------------------------------------------------------------
 // Axis-aligned boxes, for fitting cameras and culling.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -2081,8 +2194,12 @@ inline bounding_box bounds(const mesh& m) {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/revolution.hpp ----------------------------------------------------------
 // Surfaces of revolution: the one builder behind cylinders, cones, spheres, and anything else turned on a lathe.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -2206,8 +2323,12 @@ inline mesh revolve(std::span<const outline_point> outline, int segments, axis a
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/cone.hpp ----------------------------------------------------------------
 // Cones, whole and truncated.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -2247,8 +2368,12 @@ inline mesh to_mesh(const cone& shape) {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/cube.hpp ----------------------------------------------------------------
 // Boxes.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -2286,8 +2411,12 @@ inline mesh to_mesh(const cube& shape) {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/cylinder.hpp ------------------------------------------------------------
 // Cylinders lying on their side, with flat or with rounded ends.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -2342,13 +2471,63 @@ inline mesh to_mesh(const capsule& shape) {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/core/linear.hpp ------------------------------------------------------------------
+// The products of vectors and matrices, written out: GLM's may be compiled with fused multiply-add, which rounds
+// differently, and then a picture would depend on the user's flags. Storage, sums and scalings stay GLM's.
+
+#include <glm/mat3x3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::numeric {
+
+template <class T>
+T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class T>
+glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+    return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+
+/// m v, as GLM stores matrices: by columns.
+template <class T>
+glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::vec<3, T>& v) {
+    return {m[0].x * v.x + m[1].x * v.y + m[2].x * v.z, m[0].y * v.x + m[1].y * v.y + m[2].y * v.z,
+            m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
+}
+
+/// a b: first b, then a.
+template <class T>
+glm::mat<3, 3, T> product(const glm::mat<3, 3, T>& a, const glm::mat<3, 3, T>& b) {
+    return {product(a, b[0]), product(a, b[1]), product(a, b[2])};
+}
+
+/// det(m) times the inverse transpose: the map of area vectors, of the cross product of two edges.
+template <class T>
+glm::mat<3, 3, T> cofactors(const glm::mat<3, 3, T>& m) {
+    return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
+}
+
+template <class T>
+T determinant(const glm::mat<3, 3, T>& m) {
+    return dot(m[0], cross(m[1], m[2]));
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::numeric
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/normals.hpp -------------------------------------------------------------
 // Shading normals for meshes that come without.
 //
 // Based on: Grit Thuermer, Charles A. Wuethrich. Computing Vertex Normals from Polygonal Facets. Journal of Graphics
 // Tools 3(1), 1998.
 
-#include <glm/geometric.hpp>
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -2361,25 +2540,27 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     std::vector<glm::dvec3> sums(m.positions.size(), glm::dvec3(0));
     for (const glm::uvec3& t : m.triangles) {
         const glm::dvec3 corners[3] = {m.positions[t.x], m.positions[t.y], m.positions[t.z]};
-        const glm::dvec3 area = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        const double length = numeric::square_root(glm::dot(area, area));
+        const glm::dvec3 area = numeric::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const double length = numeric::square_root(numeric::dot(area, area));
         if (!(length > 0 && numeric::is_finite(length))) continue;
         for (int i = 0; i < 3; ++i) {
             const glm::dvec3 a = corners[(i + 1) % 3] - corners[i];
             const glm::dvec3 b = corners[(i + 2) % 3] - corners[i];
-            sums[t[i]] += numeric::atan2(length, glm::dot(a, b)) / length * area;
+            sums[t[i]] += numeric::atan2(length, numeric::dot(a, b)) / length * area;
         }
     }
 
     std::vector<glm::vec3> normals(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        const double length = numeric::square_root(glm::dot(sums[i], sums[i]));
+        const double length = numeric::square_root(numeric::dot(sums[i], sums[i]));
         normals[i] = length > 0 ? glm::vec3(sums[i] / length) : glm::vec3(0, 0, 1);
     }
     return normals;
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/triangulate.hpp ---------------------------------------------------------
 // Polygons into triangles: a fan where the polygon is convex, ear clipping where it is not.
@@ -2388,6 +2569,8 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
 // whether its two neighbours are ears, and no other: quadratic in all).
 
 #include <glm/vec2.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -2404,7 +2587,7 @@ class flat_polygon {
         glm::dvec3 area(0);
         const glm::dvec3 origin(corners[0]);
         for (std::size_t i = 2; i < corners.size(); ++i) {
-            area += glm::cross(glm::dvec3(corners[i - 1]) - origin, glm::dvec3(corners[i]) - origin);
+            area += numeric::cross(glm::dvec3(corners[i - 1]) - origin, glm::dvec3(corners[i]) - origin);
         }
         const glm::dvec3 extent = area * area;
         const int away = extent.x > extent.y ? (extent.x > extent.z ? 0 : 2) : (extent.y > extent.z ? 1 : 2);
@@ -2488,6 +2671,8 @@ inline void triangulate(std::span<const glm::vec3> corners, std::vector<glm::uve
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/obj.hpp -----------------------------------------------------------------
 // Wavefront OBJ import: triangles and normals, from text that may be broken or hostile.
 //
@@ -2496,6 +2681,8 @@ inline void triangulate(std::span<const glm::vec3> corners, std::vector<glm::uve
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -2670,7 +2857,7 @@ class obj_reader {
                 const std::uint32_t normal = corners_[*at].normal;
                 if (at == first || normal != corners_[*(at - 1)].normal) {
                     const glm::dvec3 n = normal == none ? glm::dvec3(0) : glm::dvec3(normals_[normal]);
-                    const double length = numeric::square_root(glm::dot(n, n));
+                    const double length = numeric::square_root(numeric::dot(n, n));
                     complete = complete && length > 0;
                     out.positions.push_back(positions_[p]);
                     out.normals.push_back(length > 0 ? glm::vec3(n / length) : glm::vec3(0));
@@ -2744,14 +2931,17 @@ inline mesh load_obj(const std::string& path) {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/transform.hpp -----------------------------------------------------------
 // Where a mesh stands in the world: poses for people, affine maps for the machine. Double precision throughout.
 //
 // A world position may be 10^7 m from the origin (UTM), where a float steps by 1 m. Compose the maps first, from object
 // to camera, and round to float last.
 
-#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -2778,44 +2968,40 @@ struct affine {
 
 namespace detail {
 
-/// det(m) times the inverse transpose: the map of area vectors, of the cross product of two edges.
-inline glm::dmat3 cofactors(const glm::dmat3& m) {
-    return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
-}
 /// A vector without direction (zero, or not finite) stays as it is.
 inline glm::dvec3 unit(const glm::dvec3& n) {
-    const double square = glm::dot(n, n);
+    const double square = numeric::dot(n, n);
     return square > 0 && numeric::is_finite(square) ? n / numeric::square_root(square) : n;
 }
 
 }  // namespace detail
 
 inline glm::dvec3 transform_point(const affine& map, const glm::dvec3& point) {
-    return map.linear * point + map.offset;
+    return numeric::product(map.linear, point) + map.offset;
 }
 inline glm::dvec3 transform_direction(const affine& map, const glm::dvec3& direction) {
-    return map.linear * direction;
+    return numeric::product(map.linear, direction);
 }
 /// The unit normal of the transformed surface, on the same side of it as before; by the inverse transpose.
 inline glm::dvec3 transform_normal(const affine& map, const glm::dvec3& normal) {
-    const glm::dmat3 areas = detail::cofactors(map.linear);
-    const double determinant = glm::dot(map.linear[0], areas[0]);
-    return detail::unit(areas * (determinant < 0 ? -normal : normal));
+    const glm::dmat3 areas = numeric::cofactors(map.linear);
+    const double determinant = numeric::dot(map.linear[0], areas[0]);
+    return detail::unit(numeric::product(areas, determinant < 0 ? -normal : normal));
 }
 
 /// First `inner`, then `outer`.
 inline affine compose(const affine& outer, const affine& inner) {
-    return {outer.linear * inner.linear, transform_point(outer, inner.offset)};
+    return {numeric::product(outer.linear, inner.linear), transform_point(outer, inner.offset)};
 }
 
 /// @throws invalid_input if the map flattens space, or is not finite
 inline affine inverse(const affine& map) {
-    const glm::dmat3 areas = detail::cofactors(map.linear);
-    const double determinant = glm::dot(map.linear[0], areas[0]);
+    const glm::dmat3 areas = numeric::cofactors(map.linear);
+    const double determinant = numeric::dot(map.linear[0], areas[0]);
     detail::require(determinant != 0 && numeric::is_finite(determinant), "determinant of affine.linear", determinant,
                     "finite and not 0");
     const glm::dmat3 linear = glm::transpose(areas) / determinant;
-    return {linear, -(linear * map.offset)};
+    return {linear, -numeric::product(linear, map.offset)};
 }
 
 /// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
@@ -2848,7 +3034,7 @@ inline affine to_world(const pose& p) {
 inline mesh transformed(mesh m, const affine& map) {
     for (glm::vec3& position : m.positions) position = glm::vec3(transform_point(map, position));
     for (glm::vec3& normal : m.normals) normal = glm::vec3(transform_normal(map, normal));
-    if (glm::determinant(map.linear) < 0) {
+    if (numeric::determinant(map.linear) < 0) {
         for (glm::uvec3& triangle : m.triangles) std::swap(triangle.y, triangle.z);
     }
     return m;
@@ -2856,8 +3042,12 @@ inline mesh transformed(mesh m, const affine& map) {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/sphere.hpp --------------------------------------------------------------
 // Spheres and hemispheres, and by their aspect ellipsoids: boulders, floats, half-buried balls.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -2916,10 +3106,14 @@ inline mesh to_mesh(const hemisphere& shape) {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/topology.hpp ------------------------------------------------------------
 // Is a mesh closed? The question to ask of an imported target before it casts a shadow.
 
 #include <numeric>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -3002,6 +3196,8 @@ inline topology inspect(const mesh& m) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/io/file.hpp ----------------------------------------------------------------------
 // Whole files: read at once, and written so that a reader finds the old file or the new one, never half of one.
@@ -3234,6 +3430,8 @@ class csv_table {
 //     rgb<float>                PF, little endian     PF of either endianness; P3, P6 as sample / maxval
 //
 // Based on: Jef Poskanzer and others. Netpbm, pgm(5) and ppm(5). Paul Debevec. PFM Portable FloatMap.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -3491,6 +3689,64 @@ void write_netpbm(const std::string& path, const image<Pixel>& source) {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/core/int128.hpp ------------------------------------------------------------------
+// Integers of 128 bits, as far as exact geometry far from the picture needs them: products of two 64-bit numbers, their
+// sums, and what can be asked of those. Two's complement in two halves, so that every compiler has them.
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+struct int128 {
+    std::int64_t high = 0;
+    std::uint64_t low = 0;
+
+    static constexpr int128 from(std::int64_t value) { return {value < 0 ? -1 : 0, static_cast<std::uint64_t>(value)}; }
+
+    static constexpr int128 product(std::int64_t a, std::int64_t b) {
+        const bool negative = (a < 0) != (b < 0);
+        const std::uint64_t x = size(a), y = size(b);
+        const std::uint64_t x0 = x & half, x1 = x >> 32, y0 = y & half, y1 = y >> 32;
+        const std::uint64_t middle = x1 * y0 + ((x0 * y0) >> 32);
+        const std::uint64_t carry = x0 * y1 + (middle & half);
+        const int128 result{static_cast<std::int64_t>(x1 * y1 + (middle >> 32) + (carry >> 32)), x * y};
+        return negative ? -result : result;
+    }
+
+    constexpr int128 operator-() const {
+        const std::uint64_t flipped = ~low + 1;
+        return {static_cast<std::int64_t>(~static_cast<std::uint64_t>(high) + (flipped == 0 ? 1u : 0u)), flipped};
+    }
+    friend constexpr int128 operator+(const int128& a, const int128& b) {
+        const std::uint64_t sum = a.low + b.low;
+        return {static_cast<std::int64_t>(static_cast<std::uint64_t>(a.high) + static_cast<std::uint64_t>(b.high) +
+                                          (sum < a.low ? 1u : 0u)),
+                sum};
+    }
+    friend constexpr int128 operator-(const int128& a, const int128& b) { return a + -b; }
+
+    /// -1, 0 or 1.
+    constexpr int sign() const { return high < 0 ? -1 : (high > 0 || low > 0) ? 1 : 0; }
+
+    /// Divided by 2^bits, 0 < bits < 64, rounded down; what does not fit 64 bits becomes the end of their range.
+    constexpr std::int64_t shifted_down(int bits) const {
+        constexpr auto top = (std::numeric_limits<std::int64_t>::max)();
+        constexpr auto bottom = (std::numeric_limits<std::int64_t>::min)();
+        const std::int64_t rest = high >> (bits - 1);
+        if (rest > 0) return top;
+        if (rest < -1) return bottom;
+        return static_cast<std::int64_t>((static_cast<std::uint64_t>(high) << (64 - bits)) | (low >> bits));
+    }
+
+  private:
+    static constexpr std::uint64_t half = 0xFFFFFFFFu;
+    static constexpr std::uint64_t size(std::int64_t v) {
+        return v < 0 ? ~static_cast<std::uint64_t>(v) + 1 : static_cast<std::uint64_t>(v);
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
 // ------------ insonify/raster/framebuffer.hpp -----------------------------------------------------------
 // Where a draw leaves its results. The type says which attachments there are; what is absent is not compiled.
 
@@ -3533,7 +3789,7 @@ struct framebuffer<void> {
 }  // namespace insonify::inline INSONIFY_ABI
 
 // ------------ insonify/raster/setup.hpp -----------------------------------------------------------------
-// From three snapped vertices to what the pixel loop needs: three edge functions and a depth plane.
+// From three snapped vertices to what the pixel loop needs: three edge functions, and the pixels to try.
 //
 // Positions are snapped to fixed point first; everything after is decided with integers, so two triangles that share
 // an edge agree about every pixel on it. Fixed-point numbers count 2^-s pixels, s = subpixel bits (8 by default), from
@@ -3546,19 +3802,23 @@ struct framebuffer<void> {
 // Juan Pineda. A Parallel Algorithm for Polygon Rasterization. SIGGRAPH 1988
 // Nicolas Capens. Advanced Rasterization. 2004
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::detail {
 
 /// A vertex on the screen: position in fixed point, z / w and 1 / w.
 struct screen_vertex {
-    std::int32_t x, y;
-    float z;
-    float inverse_w;
+    std::int64_t x, y;
+    double z;
+    double inverse_w;
 };
 
 /// A pixel rectangle, ends included; empty if last < first.
 struct pixel_box {
     int x0, y0, x1, y1;
     bool empty() const { return x1 < x0 || y1 < y0; }
+    int width() const { return x1 - x0 + 1; }
+    int height() const { return y1 - y0 + 1; }
 };
 
 inline pixel_box intersect(const pixel_box& a, const pixel_box& b) {
@@ -3570,97 +3830,105 @@ struct pixel_grid {
     int subpixel_bits;
     int width, height;
 
-    std::int32_t half() const { return 1 << (subpixel_bits - 1); }
-    std::int64_t center(int pixel) const { return (std::int64_t{pixel} << subpixel_bits) + half(); }
-    /// First and last pixel whose centre is within [low, high].
-    int first_center(std::int32_t low) const {
-        return static_cast<int>((std::int64_t{low} + half() - 1) >> subpixel_bits);
-    }
-    int last_center(std::int32_t high) const {
-        return static_cast<int>((std::int64_t{high} - half()) >> subpixel_bits);
-    }
-    /// Fixed-point coordinates stay within +-2^29 of the image's centre, so that an edge function fits 64 bits.
-    double guard_pixels() const { return static_cast<double>(1 << (29 - subpixel_bits)); }
+    /// Coordinates within 2^29 of the image's centre are compact: 32 bits hold them and 64 bits an edge function.
+    /// Beyond 2^50 nothing is held, and triangles are clipped; between the two, 128 bits decide.
+    static constexpr int compact_bits = 29, widest_bits = 50;
 
-    /// Rounds a distance in pixels from the centre of an axis, to nearest, ties to even; |pixels| <= guard_pixels().
-    std::int32_t snap(double pixels, int extent) const {
+    std::int64_t unit() const { return std::int64_t{1} << subpixel_bits; }
+    std::int64_t half() const { return std::int64_t{1} << (subpixel_bits - 1); }
+    std::int64_t center(int pixel) const { return pixel * unit() + half(); }
+    /// First and last pixel of an axis whose centre is within [low, high], as far as it is one of [-1, extent].
+    int first_center(std::int64_t low, int extent) const {
+        return static_cast<int>(std::clamp<std::int64_t>((low + half() - 1) >> subpixel_bits, -1, extent));
+    }
+    int last_center(std::int64_t high, int extent) const {
+        return static_cast<int>(std::clamp<std::int64_t>((high - half()) >> subpixel_bits, -1, extent));
+    }
+    /// Pixels from the image's centre to where coordinates of so many bits end.
+    double reach(int bits) const { return static_cast<double>(std::int64_t{1} << bits) / static_cast<double>(unit()); }
+
+    /// Rounds a distance in pixels from the centre of an axis, to nearest, ties to even; |pixels| < reach(51).
+    std::int64_t snap(double pixels, int extent) const {
         // Adding 1.5 * 2^52 leaves the rounded integer in the low bits of the sum.
         constexpr double magic = 0x1.8p52;
-        const double scaled = pixels * static_cast<double>(1 << subpixel_bits);
+        const double scaled = pixels * static_cast<double>(unit());
         const auto rounded = std::bit_cast<std::int64_t>(scaled + magic) - std::bit_cast<std::int64_t>(magic);
-        return static_cast<std::int32_t>(rounded + (std::int64_t{extent} << (subpixel_bits - 1)));
+        return rounded + extent * half();
+    }
+    bool is_compact(const screen_vertex& v) const {
+        constexpr std::int64_t most = std::int64_t{1} << compact_bits;
+        const std::int64_t x = v.x - width * half(), y = v.y - height * half();
+        return -most <= x && x <= most && -most <= y && y <= most;
     }
 };
 
-/// Twice the signed area in squared fixed-point units; positive for triangles that run clockwise on the screen.
-inline std::int64_t doubled_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
-    return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) -
-           (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
+/// run * down - rise * right: positive for what lies on the inner side of an edge of a clockwise triangle.
+/// Compact differences stay within 2^30, so 64 bits hold the result.
+inline std::int64_t compact_side(std::int64_t run, std::int64_t rise, std::int64_t right, std::int64_t down) {
+    return run * down - rise * right;
+}
+inline int128 wide_side(std::int64_t run, std::int64_t rise, std::int64_t right, std::int64_t down) {
+    return int128::product(run, down) - int128::product(rise, right);
 }
 
-/// The pixels whose centres a triangle's bounding box holds.
+/// Twice the signed area in squared fixed-point units; positive for triangles that run clockwise on the screen.
+inline std::int64_t compact_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
+    return compact_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
+}
+inline int128 wide_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
+    return wide_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
+}
+
+/// The pixels of an image whose centres a triangle's bounding box holds.
 inline pixel_box center_box(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
                             const pixel_grid& grid) {
-    return {grid.first_center((std::min)({a.x, b.x, c.x})), grid.first_center((std::min)({a.y, b.y, c.y})),
-            grid.last_center((std::max)({a.x, b.x, c.x})), grid.last_center((std::max)({a.y, b.y, c.y}))};
+    const pixel_box box{grid.first_center((std::min)({a.x, b.x, c.x}), grid.width),
+                        grid.first_center((std::min)({a.y, b.y, c.y}), grid.height),
+                        grid.last_center((std::max)({a.x, b.x, c.x}), grid.width),
+                        grid.last_center((std::max)({a.y, b.y, c.y}), grid.height)};
+    return intersect(box, {0, 0, grid.width - 1, grid.height - 1});
 }
 
 /// E(x, y) >= 0 at the centre of pixel (x, y) exactly if the pixel is on the inner side, fill rule included.
 struct edge_function {
-    std::int64_t origin;  ///< E at pixel (0, 0) of the box it was set up for
+    std::int64_t origin;  ///< E at the first pixel of the box it was set up for
     std::int64_t dx, dy;  ///< per pixel to the right and down
 
     /// The edge from a to b of a clockwise triangle, at the pixels right of and below (x, y).
-    static edge_function through(const screen_vertex& a, const screen_vertex& b, const pixel_grid& grid, int x, int y) {
-        const std::int64_t run = std::int64_t{b.x} - a.x, rise = std::int64_t{b.y} - a.y;
+    static edge_function through(const screen_vertex& a, const screen_vertex& b, const pixel_grid& grid, int x, int y,
+                                 bool compact) {
+        const std::int64_t run = b.x - a.x, rise = b.y - a.y;
+        const std::int64_t right = grid.center(x) - a.x, down = grid.center(y) - a.y;
         const bool top_left = rise < 0 || (rise == 0 && run > 0);
-        const std::int64_t e = run * (grid.center(y) - a.y) - rise * (grid.center(x) - a.x) - (top_left ? 0 : 1);
+        const std::int64_t inner = top_left ? 0 : -1;
         // A pixel is 2^s units wide, so E changes by multiples of 2^s and its sign survives the shift.
-        return {e >> grid.subpixel_bits, -rise, run};
+        if (compact) return {(compact_side(run, rise, right, down) + inner) >> grid.subpixel_bits, -rise, run};
+        return {(wide_side(run, rise, right, down) + int128::from(inner)).shifted_down(grid.subpixel_bits), -rise, run};
     }
 
     /// Whether E fits 32 bits everywhere in a box of that size.
     bool is_narrow(int width, int height) const {
         const auto size = [](std::int64_t v) { return v < 0 ? -v : v; };
-        return size(origin) + size(dx) * width + size(dy) * height < (std::int64_t{1} << 31);
-    }
-};
-
-/// z(x, y) over a triangle, anchored at a pixel of its own, so that the value doesn't depend on tiles.
-/// Kept within the range of the three corners: slivers can't reach out.
-struct depth_plane {
-    float value, dx, dy;
-    int x, y;
-    float lowest, highest;
-
-    /// `area` is doubled_area(a, b, c), not zero.
-    static depth_plane through(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
-                               std::int64_t area, const pixel_grid& grid) {
-        const double unit = static_cast<double>(1 << grid.subpixel_bits);
-        const double scale = unit / static_cast<double>(area);
-        const double b_rise = static_cast<double>(b.z) - static_cast<double>(a.z);
-        const double c_rise = static_cast<double>(c.z) - static_cast<double>(a.z);
-        const auto difference = [](std::int32_t to, std::int32_t from) {
-            return static_cast<double>(std::int64_t{to} - from);
-        };
-        const double dx = scale * (b_rise * difference(c.y, a.y) - c_rise * difference(b.y, a.y));
-        const double dy = scale * (c_rise * difference(b.x, a.x) - b_rise * difference(c.x, a.x));
-        const int x = a.x >> grid.subpixel_bits, y = a.y >> grid.subpixel_bits;
-        const double value = static_cast<double>(a.z) + dx * (static_cast<double>(grid.center(x) - a.x) / unit) +
-                             dy * (static_cast<double>(grid.center(y) - a.y) / unit);
-        const auto [lowest, highest] = std::minmax({a.z, b.z, c.z});
-        return {static_cast<float>(value), static_cast<float>(dx), static_cast<float>(dy), x, y, lowest, highest};
+        constexpr std::int64_t most = std::int64_t{1} << 31;
+        return size(dx) < most && size(dy) < most && -most < origin && origin < most &&
+               size(origin) + size(dx) * width + size(dy) * height < most;
     }
 
-    /// The same sequence of operations as the pixel kernel's, hence the same bits.
-    float at(int px, int py) const {
-        const float z = (value + dy * static_cast<float>(py - y)) + dx * static_cast<float>(px - x);
-        const float raised = z > lowest ? z : lowest;
-        return raised < highest ? raised : highest;
+    /// The same decision for the pixels of a box of that size, in numbers as small as they can be: where E has one
+    /// sign, only the sign is kept. Else E is below 2^62 all over a tile, however far away the edge's ends are.
+    edge_function simplified(int width, int height) const {
+        const std::int64_t across = dx * (width - 1), along = dy * (height - 1);
+        const std::int64_t falls = (std::min<std::int64_t>)(across, 0) + (std::min<std::int64_t>)(along, 0);
+        const std::int64_t rises = (std::max<std::int64_t>)(across, 0) + (std::max<std::int64_t>)(along, 0);
+        if (origin >= -falls) return {0, 0, 0};
+        if (origin < -rises) return {-1, 0, 0};
+        return *this;
     }
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/binning.hpp ---------------------------------------------------------------
 // Which triangles each tile has to look at, in the order in which they were submitted.
@@ -3668,6 +3936,8 @@ struct depth_plane {
 // Triangles go through in chunks, in parallel; each chunk notes (tile, triangle) pairs. Counting the pairs of every
 // chunk and tile gives each its place, and a second parallel pass puts the triangles there: an order-preserving
 // counting sort whose result doesn't depend on who ran which chunk.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
@@ -3745,14 +4015,18 @@ class tile_bins {
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/raster/clip.hpp ------------------------------------------------------------------
-// Clipping of the few triangles that need it: in front of the camera plane, beyond the depth range, or so far outside
-// the picture that fixed point can't hold them. Everything else is left to the rectangle of the image.
+// Clipping of the few triangles that need it: in front of the camera plane, beyond the depth range, or 2^50 sub-pixels
+// outside the picture. Everything else is left to the rectangle of the image.
 //
 // Where an edge crosses a plane, the new vertex is computed from the inner end to the outer one. Both triangles that
 // share the edge see the same two ends, hence get the same bits: no crack opens, however many planes cut.
 
 #include <glm/vec4.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
@@ -3767,6 +4041,7 @@ struct clip_polygon {
     static constexpr int planes = 7;
     std::array<clip_corner, 3 + planes> corners;
     int count = 0;
+    bool cut = false;  ///< by any plane
 };
 
 /// From clip space to the fixed-point grid.
@@ -3776,8 +4051,10 @@ class projection {
         : grid_(grid),
           half_width_(0.5 * grid.width),
           half_height_(0.5 * grid.height),
-          reach_x_(grid.guard_pixels() / half_width_),
-          reach_y_(grid.guard_pixels() / half_height_),
+          compact_x_(grid.reach(pixel_grid::compact_bits) / half_width_),
+          compact_y_(grid.reach(pixel_grid::compact_bits) / half_height_),
+          widest_x_(grid.reach(pixel_grid::widest_bits) / half_width_),
+          widest_y_(grid.reach(pixel_grid::widest_bits) / half_height_),
           sign_(keep == keep_depth::smaller ? 1.0 : -1.0) {}
 
     /// Distance to each clipping plane in clip space, >= 0 inside. The first keeps w away from zero.
@@ -3786,25 +4063,24 @@ class projection {
             case 0: return p.w - 1e-30;
             case 1: return p.z;
             case 2: return p.w - p.z;
-            case 3: return reach_x_ * p.w + p.x;
-            case 4: return reach_x_ * p.w - p.x;
-            case 5: return reach_y_ * p.w + p.y;
-            default: return reach_y_ * p.w - p.y;
+            case 3: return widest_x_ * p.w + p.x;
+            case 4: return widest_x_ * p.w - p.x;
+            case 5: return widest_y_ * p.w + p.y;
+            default: return widest_y_ * p.w - p.y;
         }
     }
 
-    /// Inside all planes; false for NaN and infinity too.
-    bool holds(const glm::dvec4& p) const {
+    /// Inside all planes and compact on the grid; false for NaN and infinity too.
+    bool is_compact(const glm::dvec4& p) const {
         const double x = p.x < 0 ? -p.x : p.x, y = p.y < 0 ? -p.y : p.y;
-        return p.w >= 1e-30 && p.z >= 0 && p.z <= p.w && x <= reach_x_ * p.w && y <= reach_y_ * p.w && p.w <= 1e38;
+        return p.w >= 1e-30 && p.z >= 0 && p.z <= p.w && x <= compact_x_ * p.w && y <= compact_y_ * p.w &&
+               p.w <= static_cast<double>((std::numeric_limits<float>::max)());
     }
 
     /// Internally smaller depth always wins; a target that keeps the larger one sees it negated.
     screen_vertex to_screen(const glm::dvec4& p) const {
-        const double inverse = 1.0 / p.w;
-        return {grid_.snap(p.x * inverse * half_width_, grid_.width),
-                grid_.snap(-(p.y * inverse) * half_height_, grid_.height), static_cast<float>(sign_ * (p.z * inverse)),
-                static_cast<float>(inverse)};
+        return {grid_.snap(p.x / p.w * half_width_, grid_.width), grid_.snap(-(p.y / p.w) * half_height_, grid_.height),
+                sign_ * (p.z / p.w), 1 / p.w};
     }
 
     /// The part of a triangle that lies inside all planes (Sutherland and Hodgman, 1974).
@@ -3822,6 +4098,7 @@ class projection {
   private:
     clip_polygon cut(const clip_polygon& whole, int plane) const {
         clip_polygon kept;
+        kept.cut = whole.cut;
         const auto keep = [&](const clip_corner& corner) {
             kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
         };
@@ -3831,6 +4108,7 @@ class projection {
             const double d_here = distance(plane, here.position), d_next = distance(plane, next.position);
             const bool here_inside = d_here >= 0, next_inside = d_next >= 0;
             if (here_inside) keep(here);
+            kept.cut |= !here_inside;
             if (here_inside != next_inside)
                 keep(here_inside ? crossing(here, d_here, next, d_next) : crossing(next, d_next, here, d_here));
         }
@@ -3845,17 +4123,273 @@ class projection {
 
     pixel_grid grid_;
     double half_width_, half_height_;
-    double reach_x_, reach_y_;
+    double compact_x_, compact_y_;  ///< |x| / w and |y| / w up to which vertices are compact
+    double widest_x_, widest_y_;    ///< and up to which they are not clipped
     double sign_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/core/double_double.hpp -----------------------------------------------------------
+// Numbers of twice a double's precision, as the unevaluated sum of two: for the few pixels whose depth a double can't
+// round with certainty. Relative error of each operation below 2^-100.
+//
+// This work is based on:
+// T. J. Dekker. A Floating-Point Technique for Extending the Available Precision. 1971
+// Jonathan R. Shewchuk. Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates. 1997
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+struct double_double {
+    double high = 0, low = 0;
+
+    /// a + b exactly.
+    static double_double sum(double a, double b) {
+        const double s = a + b, part = s - a;
+        return {s, (a - (s - part)) + (b - part)};
+    }
+    /// a b exactly, |a|, |b| < 2^995.
+    static double_double product(double a, double b) {
+        const double p = a * b;
+        const auto [a1, a0] = halves(a);
+        const auto [b1, b0] = halves(b);
+        return {p, ((a1 * b1 - p) + a1 * b0 + a0 * b1) + a0 * b0};
+    }
+    static double_double from(const int128& value) {
+        constexpr double word = 0x1p32;
+        const auto part = [](std::uint64_t bits) { return static_cast<double>(bits & 0xFFFFFFFFu); };
+        const double_double upper = sum(static_cast<double>(value.high >> 32) * (word * word * word),
+                                        part(static_cast<std::uint64_t>(value.high)) * (word * word));
+        return upper + (sum(part(value.low >> 32) * word, part(value.low)));
+    }
+
+    friend double_double operator+(const double_double& a, const double_double& b) {
+        const double_double s = sum(a.high, b.high), t = sum(a.low, b.low);
+        const double_double u = quick_sum(s.high, s.low + t.high);
+        return quick_sum(u.high, u.low + t.low);
+    }
+    friend double_double operator*(const double_double& a, double b) {
+        const double_double p = product(a.high, b);
+        return quick_sum(p.high, p.low + a.low * b);
+    }
+    friend double_double operator/(const double_double& a, const double_double& b) {
+        const double q1 = a.high / b.high;
+        const double_double r1 = a + b * -q1;
+        const double q2 = r1.high / b.high;
+        const double_double r2 = r1 + b * -q2;
+        return quick_sum(q1, q2) + double_double{r2.high / b.high, 0};
+    }
+
+    /// The nearest float. Rounding the upper half to odd first keeps the lower one's say in ties.
+    float to_float() const {
+        auto bits = std::bit_cast<std::uint64_t>(high);
+        if (low != 0 && (bits & 1) == 0) bits += (low > 0) == (high > 0) ? 1u : ~std::uint64_t{0};
+        return static_cast<float>(std::bit_cast<double>(bits));
+    }
+
+  private:
+    /// a + b exactly if |a| >= |b|.
+    static double_double quick_sum(double a, double b) {
+        const double s = a + b;
+        return {s, b - (s - a)};
+    }
+    struct parts {
+        double upper, lower;
+    };
+    /// Twenty-six bits each, so that products of halves are exact.
+    static parts halves(double a) {
+        const double c = 134217729.0 * a;
+        const double upper = c - (c - a);
+        return {upper, a - upper};
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/raster/depth.hpp -----------------------------------------------------------------
+// Depth between the vertices, correctly rounded: the float nearest to the plane through the three snapped corners.
+//
+// The plane is computed in double and goes with a bound of its error. Where that leaves two floats to choose from (near
+// the middle between them, or on slivers, whose gradients are differences of almost equal numbers) the shares of the
+// corners decide: they are integers, so the quotient is known to a hundred bits. That a pixel's depth doesn't depend on
+// how it was reached follows from that.
+//
+// This work is based on:
+// Abraham Ziv. Fast Evaluation of Elementary Mathematical Functions with Correctly Rounded Last Bit. 1991
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// z(x, y) at pixel centres of a triangle's own box.
+struct depth_plane {
+    double x, y, z;         ///< the vertex it is anchored at, in pixels from the first pixel's centre
+    double dx, dy;          ///< per pixel
+    float lowest, highest;  ///< of the corners: nothing between them reaches out
+    double error;           ///< bound of what the plane is off by, anywhere in the triangle's box
+
+    /// @param area  twice the triangle's area in squared fixed-point units, positive
+    static depth_plane through(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, double area,
+                               const pixel_grid& grid) {
+        const auto unit = static_cast<double>(grid.unit()), pixel = 1 / unit;
+        const double scale = unit / area;
+        const double b_rise = b.z - a.z, c_rise = c.z - a.z;
+        const auto bx = static_cast<double>(b.x - a.x), by = static_cast<double>(b.y - a.y);
+        const auto cx = static_cast<double>(c.x - a.x), cy = static_cast<double>(c.y - a.y);
+        const auto [lowest, highest] = std::minmax({a.z, b.z, c.z});
+        depth_plane plane;
+        plane.x = static_cast<double>(a.x - grid.half()) * pixel;
+        plane.y = static_cast<double>(a.y - grid.half()) * pixel;
+        plane.z = a.z;
+        plane.dx = scale * (b_rise * cy - c_rise * by);
+        plane.dy = scale * (c_rise * bx - b_rise * cx);
+        plane.lowest = static_cast<float>(lowest);
+        plane.highest = static_cast<float>(highest);
+
+        // A gradient's two products are off by 2^-53 of themselves, and count as many times as the box is wide or high.
+        const auto size = [](double v) { return v < 0 ? -v : v; };
+        const auto span = [](double u, double v) { return (std::max)({u, v, 0.0}) - (std::min)({u, v, 0.0}); };
+        const double swing = 4 * (highest - lowest) * span(bx, cx) * span(by, cy);
+        const double largest = (std::max)(size(lowest), size(highest)) * area;
+        plane.error = 0x1p-49 * (swing + largest) / area;
+        return plane;
+    }
+
+    /// The plane at the start of a pixel row, and along it: the same operations in every kernel, hence the same bits.
+    double row(int py) const { return z + dy * (static_cast<double>(py) - y); }
+};
+
+/// Which share each corner has in a pixel's centre, times twice the area: exact.
+struct corner_shares {
+    int128 a, b, c;
+
+    static corner_shares at(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, int px, int py,
+                            const pixel_grid& grid) {
+        const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
+            return wide_side(to.x - from.x, to.y - from.y, grid.center(px) - from.x, grid.center(py) - from.y);
+        };
+        return {opposite(b, c), opposite(c, a), opposite(a, b)};
+    }
+};
+
+/// The float nearest to the plane through three corners at a pixel that they cover.
+inline float nearest_depth(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, int px, int py,
+                           const pixel_grid& grid) {
+    const corner_shares share = corner_shares::at(a, b, c, px, py, grid);
+    const auto wide = [](const int128& v) { return double_double::from(v); };
+    const double_double sum = wide(share.a) * a.z + wide(share.b) * b.z + wide(share.c) * c.z;
+    return (sum / wide(share.a + share.b + share.c)).to_float();
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/raster/fold.hpp ------------------------------------------------------------------
+// A clipped triangle on the pixel grid. Rounding can fold a thin polygon over itself: a corner that lands on the wrong
+// side of an edge turns one of the triangles it is cut into around, and pixels beside the polygon would be hit. So the
+// winding number decides there, pixel by pixel, by the same top-left rule.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+class screen_polygon {
+  public:
+    screen_polygon(const clip_polygon& polygon, const projection& p) : count_(polygon.count) {
+        for (int i = 0; i < count_; ++i)
+            corners_[static_cast<std::size_t>(i)] = p.to_screen(polygon.corners[static_cast<std::size_t>(i)].position);
+        int128 area;
+        for (int i = 1; i + 1 < count_; ++i) {
+            const int128 part = wide_area(at(0), at(i), at(i + 1));
+            area = area + part;
+            turns_[part.sign() + 1] = true;
+            const int128 size = part.sign() < 0 ? -part : part;
+            if ((size - largest_).sign() > 0) {
+                largest_ = size;
+                largest_part_ = i;
+            }
+        }
+        area_sign_ = area.sign();
+    }
+
+    const screen_vertex& at(int corner) const { return corners_[static_cast<std::size_t>(corner)]; }
+    /// 1 for clockwise on the screen, -1 for counter-clockwise, 0 for nothing.
+    int area_sign() const { return area_sign_; }
+
+    /// Calls `part(corners, box, is_run)` for disjoint parts that cover what the polygon covers: triangles of three of
+    /// its corners; or, of a folded one, runs of pixels in the plane of three of its corners.
+    template <class Part>
+    void for_each_part(const pixel_grid& grid, const Part& part) const {
+        if (turns_[0] && turns_[2]) return for_each_run(grid, part);
+        for (int i = 1; i + 1 < count_; ++i) {
+            const pixel_box box = center_box(at(0), at(i), at(i + 1), grid);
+            if (!box.empty() && wide_area(at(0), at(i), at(i + 1)).sign() != 0)
+                part(std::array<int, 3>{0, i, i + 1}, box, false);
+        }
+    }
+
+  private:
+    template <class Part>
+    void for_each_run(const pixel_grid& grid, const Part& part) const {
+        const std::array<int, 3> plane{0, largest_part_, largest_part_ + 1};
+        pixel_box all{grid.width, grid.height, -1, -1};
+        for (int i = 1; i + 1 < count_; ++i) {
+            const pixel_box box = center_box(at(0), at(i), at(i + 1), grid);
+            if (box.empty()) continue;
+            all = {(std::min)(all.x0, box.x0), (std::min)(all.y0, box.y0), (std::max)(all.x1, box.x1),
+                   (std::max)(all.y1, box.y1)};
+        }
+        for (int y = all.y0; y <= all.y1; ++y)
+            for (int x = all.x0; x <= all.x1; ++x) {
+                if (winding(x, y, grid) * area_sign_ <= 0) continue;
+                const int first = x;
+                while (x < all.x1 && winding(x + 1, y, grid) * area_sign_ > 0) ++x;
+                part(plane, pixel_box{first, y, x, y}, true);
+            }
+    }
+
+    /// How often the outline runs clockwise around a pixel's centre, which the fill rule puts a hair to the right of
+    /// where it is, and by a hair of that hair lower.
+    int winding(int px, int py, const pixel_grid& grid) const {
+        const std::int64_t x = grid.center(px), y = grid.center(py);
+        int sum = 0;
+        for (int i = 0; i < count_; ++i) {
+            const screen_vertex &from = at(i), &to = at((i + 1) % count_);
+            const bool up = to.y <= y && y < from.y, down = from.y <= y && y < to.y;
+            if (!up && !down) continue;
+            const int side = wide_side(to.x - from.x, to.y - from.y, x - from.x, y - from.y).sign();
+            if (up && side >= 0) ++sum;
+            if (down && side <= 0) --sum;
+        }
+        return sum;
+    }
+
+    std::array<screen_vertex, 3 + clip_polygon::planes> corners_;
+    int count_;
+    bool turns_[3] = {};  ///< whether a part runs counter-clockwise, has no area, runs clockwise
+    int128 largest_{};
+    int largest_part_ = 1;
+    int area_sign_ = 0;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/shader.hpp ----------------------------------------------------------------
 // What people bring to a draw: a callable that places vertices, and one that is asked for each visible pixel.
 //
 // Both are plain callables, inlined into the loops. They must be pure: a vertex may be placed several times, and pixels
 // are asked for in any order and on any thread.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -3922,9 +4456,9 @@ INSONIFY_INLINE auto varyings_at(const S& shader, const vertex& v) {
         return shader(v).varyings;
 }
 
-/// The mean of three values by weights, float by float.
+/// The mean of three values by weights, float by float, each rounded once.
 template <class V>
-INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::vec3& weights) {
+INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3& weights) {
     if constexpr (std::is_empty_v<V>) {
         return a;
     } else {
@@ -3933,7 +4467,10 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::vec3& 
         const auto fb = std::bit_cast<floats>(b);
         const auto fc = std::bit_cast<floats>(c);
         floats sum;
-        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = fa[i] * weights.x + fb[i] * weights.y + fc[i] * weights.z;
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] =
+                static_cast<float>(static_cast<double>(fa[i]) * weights.x + static_cast<double>(fb[i]) * weights.y +
+                                   static_cast<double>(fc[i]) * weights.z);
         return std::bit_cast<V>(sum);
     }
 }
@@ -3963,10 +4500,17 @@ concept fragment_shader = requires(const S& shader, const fragment<Varyings>& f)
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/raster/assembly.hpp --------------------------------------------------------------
 // From mesh to screen: vertices placed and snapped, triangles culled, the few that need it clipped, all put into bins.
+//
+// Almost all triangles are compact: 32-bit coordinates, 64-bit decisions. The others go a slower way that no distance
+// and no number of clipping planes makes less exact.
 
 #include <atomic>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -4001,33 +4545,47 @@ struct draw_stats {
 
 namespace detail {
 
-/// A piece of a clipped triangle, with the share of the whole triangle's vertices in each of its corners.
-struct clipped_triangle {
+/// A vertex inside all clipping planes and compact on the grid, as millions of them are kept.
+struct compact_vertex {
+    std::int32_t x, y;
+    double z, inverse_w;
+
+    static compact_vertex of(const screen_vertex& v) {
+        return {static_cast<std::int32_t>(v.x), static_cast<std::int32_t>(v.y), v.z, v.inverse_w};
+    }
+    operator screen_vertex() const { return {x, y, z, inverse_w}; }
+};
+
+/// A triangle with a vertex that isn't compact, or a piece of one that was clipped.
+struct wide_triangle {
     std::array<screen_vertex, 3> corners;
-    std::array<glm::vec3, 3> shares;
+    std::array<glm::dvec3, 3> shares;  ///< of the mesh triangle's vertices in each corner
     std::uint32_t triangle;
+    pixel_box run;  ///< if not empty, the pixels it covers, whatever the corners say
 };
 
 /// A triangle as bins refer to it: its corners in clockwise order on the screen.
 struct screen_triangle {
     screen_vertex a, b, c;
     bool front;
-    std::uint32_t triangle;           ///< of the mesh
-    const clipped_triangle* clipped;  ///< null for a whole one
+    std::uint32_t triangle;     ///< of the mesh
+    const wide_triangle* wide;  ///< null for a compact one
 
     /// Perspective-correct shares of the mesh triangle's three vertices at a pixel's centre; they sum to one.
-    glm::vec3 weights_at(int x, int y, const pixel_grid& grid) const {
+    glm::dvec3 weights_at(int x, int y, const pixel_grid& grid) const {
         const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
-            return static_cast<double>((std::int64_t{to.x} - from.x) * (grid.center(y) - from.y) -
-                                       (std::int64_t{to.y} - from.y) * (grid.center(x) - from.x));
+            const std::int64_t run = to.x - from.x, rise = to.y - from.y;
+            const std::int64_t right = grid.center(x) - from.x, down = grid.center(y) - from.y;
+            return wide == nullptr ? static_cast<double>(compact_side(run, rise, right, down))
+                                   : double_double::from(wide_side(run, rise, right, down)).high;
         };
-        const double wa = opposite(b, c) * static_cast<double>(a.inverse_w);
-        const double wb = opposite(c, a) * static_cast<double>(b.inverse_w);
-        const double wc = opposite(a, b) * static_cast<double>(c.inverse_w);
+        const double wa = opposite(b, c) * a.inverse_w;
+        const double wb = opposite(c, a) * b.inverse_w;
+        const double wc = opposite(a, b) * c.inverse_w;
         const double scale = 1.0 / (wa + wb + wc);
-        glm::vec3 w(static_cast<float>(wa * scale), static_cast<float>(wb * scale), static_cast<float>(wc * scale));
+        glm::dvec3 w(wa * scale, wb * scale, wc * scale);
         if (front) std::swap(w.y, w.z);  // b and c stand in the mesh's other order
-        return clipped == nullptr ? w : w.x * clipped->shares[0] + w.y * clipped->shares[1] + w.z * clipped->shares[2];
+        return wide == nullptr ? w : numeric::product(glm::dmat3(wide->shares[0], wide->shares[1], wide->shares[2]), w);
     }
 };
 
@@ -4035,7 +4593,7 @@ inline vertex mesh_vertex(const mesh& m, std::uint32_t index) {
     return {m.positions[index], m.normals.empty() ? glm::vec3(0) : m.normals[index], index};
 }
 
-/// A mesh on the screen: its vertices, the pieces that clipping made, and the bins that refer to both.
+/// A mesh on the screen: its vertices, the triangles that need more room, and the bins that refer to both.
 class screen_mesh {
   public:
     template <vertex_shader Shader, executor E>
@@ -4051,15 +4609,15 @@ class screen_mesh {
         });
         detail::require(bad_index == 0, "mesh.triangles", bad_index.load(), "an index of a position");
 
-        // Pieces of clipped triangles get names behind those of whole ones, in submission order.
+        // Wide triangles get names behind those of compact ones, in submission order.
         std::vector<tile_pairs> pairs;
         pairs.reserve(chunks.size());
         for (chunk& c : chunks) {
-            const auto offset = static_cast<std::uint32_t>(clipped_.size());
-            if (offset > 0 && !c.clipped.empty())
+            const auto offset = static_cast<std::uint32_t>(wide_.size());
+            if (offset > 0 && !c.wide.empty())
                 for (auto& pair : c.pairs.pairs)
                     if (pair.triangle >= whole()) pair.triangle += offset;
-            clipped_.insert(clipped_.end(), c.clipped.begin(), c.clipped.end());
+            wide_.insert(wide_.end(), c.wide.begin(), c.wide.end());
             pairs.push_back(std::move(c.pairs));
             stats_ += c.stats;
         }
@@ -4075,34 +4633,34 @@ class screen_mesh {
         if (name < whole()) {
             const glm::uvec3& index = mesh_.triangles[name];
             t = {vertices_[index.x], vertices_[index.y], vertices_[index.z], false, name, nullptr};
+            t.front = compact_area(t.a, t.b, t.c) < 0;  // counter-clockwise as seen, y being down
         } else {
-            const clipped_triangle& piece = clipped_[name - whole()];
-            t = {piece.corners[0], piece.corners[1], piece.corners[2], false, piece.triangle, &piece};
+            const wide_triangle& wide = wide_[name - whole()];
+            t = {wide.corners[0], wide.corners[1], wide.corners[2], false, wide.triangle, &wide};
+            t.front = wide_area(t.a, t.b, t.c).sign() < 0;
         }
-        if (doubled_area(t.a, t.b, t.c) < 0) {  // counter-clockwise as seen, y being down
-            t.front = true;
-            std::swap(t.b, t.c);
-        }
+        if (t.front) std::swap(t.b, t.c);
         return t;
     }
 
   private:
     struct chunk {
         tile_pairs pairs;
-        std::vector<clipped_triangle> clipped;
+        std::vector<wide_triangle> wide;
         draw_stats stats;
     };
     static constexpr std::int32_t off_grid = (std::numeric_limits<std::int32_t>::min)();
 
     std::uint32_t whole() const { return static_cast<std::uint32_t>(mesh_.triangles.size()); }
 
-    /// Fast path: vertices inside all clipping planes. The others are marked and seen to triangle by triangle.
+    /// Compact vertices. The others are marked and seen to triangle by triangle.
     template <vertex_shader Shader, executor E>
     void place_vertices(const Shader& shader, E& ex) {
         bulk_ranges(ex, vertices_.size(), 8192, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 const glm::dvec4 clip(clip_position(shader, mesh_vertex(mesh_, static_cast<std::uint32_t>(i))));
-                vertices_[i] = projection_.holds(clip) ? projection_.to_screen(clip) : screen_vertex{off_grid, 0, 0, 0};
+                vertices_[i] = projection_.is_compact(clip) ? compact_vertex::of(projection_.to_screen(clip))
+                                                            : compact_vertex{off_grid, 0, 0, 0};
             }
         });
     }
@@ -4118,15 +4676,14 @@ class screen_mesh {
                 bad_index = (std::max)({index.x, index.y, index.z});
                 return;
             }
-            const screen_vertex &a = vertices_[index.x], &b = vertices_[index.y], &c = vertices_[index.z];
+            const compact_vertex &a = vertices_[index.x], &b = vertices_[index.y], &c = vertices_[index.z];
             const auto name = static_cast<std::uint32_t>(i);
-            const bool on_grid = a.x != off_grid && b.x != off_grid && c.x != off_grid;
-            count(out.stats,
-                  on_grid ? bin_triangle(a, b, c, name, tiles, out) : clip_triangle(shader, name, tiles, out));
+            const bool compact = a.x != off_grid && b.x != off_grid && c.x != off_grid;
+            count(out.stats, compact ? bin_compact(a, b, c, name, tiles, out) : bin_wide(shader, name, tiles, out));
         }
     }
 
-    /// Counted in draw_stats under these names; of a clipped triangle's pieces the first of these counts.
+    /// Counted in draw_stats under these names.
     enum class fate { drawn, culled, missed, degenerate, not_finite };
 
     static void count(draw_stats& stats, fate f) {
@@ -4139,21 +4696,25 @@ class screen_mesh {
         }
     }
 
-    /// Notes a triangle or a piece of one in the bins, unless it can't be seen.
-    fate bin_triangle(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, std::uint32_t name,
-                      const tile_grid& tiles, chunk& out) const {
-        const std::int64_t area = doubled_area(a, b, c);
+    bool is_culled(bool front) const {
+        return (cull_ == cull_mode::back && !front) || (cull_ == cull_mode::front && front);
+    }
+
+    /// Notes a triangle in the bins, unless it can't be seen.
+    fate bin_compact(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, std::uint32_t name,
+                     const tile_grid& tiles, chunk& out) const {
+        const std::int64_t area = compact_area(a, b, c);
         if (area == 0) return fate::degenerate;
-        const bool front = area < 0;
-        if ((cull_ == cull_mode::back && !front) || (cull_ == cull_mode::front && front)) return fate::culled;
-        const pixel_box box = intersect(center_box(a, b, c, grid_), {0, 0, grid_.width - 1, grid_.height - 1});
+        if (is_culled(area < 0)) return fate::culled;
+        const pixel_box box = center_box(a, b, c, grid_);
         if (box.empty()) return fate::missed;
         out.pairs.add(name, box, tiles);
         return fate::drawn;
     }
 
+    /// The same for a triangle that may have to be clipped, or whose vertices only 128 bits can compare.
     template <vertex_shader Shader>
-    fate clip_triangle(const Shader& shader, std::uint32_t triangle, const tile_grid& tiles, chunk& out) const {
+    fate bin_wide(const Shader& shader, std::uint32_t triangle, const tile_grid& tiles, chunk& out) const {
         std::array<glm::dvec4, 3> clip;
         for (int i = 0; i < 3; ++i) {
             const glm::dvec4 p(clip_position(shader, mesh_vertex(mesh_, mesh_.triangles[triangle][i])));
@@ -4162,38 +4723,43 @@ class screen_mesh {
                 return fate::not_finite;
             clip[static_cast<std::size_t>(i)] = p;
         }
-        ++out.stats.clipped;
         const clip_polygon polygon = projection_.clip(clip);
-        const auto corner = [&](int i) -> const clip_corner& { return polygon.corners[static_cast<std::size_t>(i)]; };
-        fate whole_fate = polygon.count < 3 ? fate::missed : fate::degenerate;
-        for (int i = 1; i + 1 < polygon.count; ++i) {
-            const std::array<const clip_corner*, 3> fan{&corner(0), &corner(i), &corner(i + 1)};
-            clipped_triangle piece{};
+        if (polygon.cut) ++out.stats.clipped;
+        if (polygon.count < 3) return fate::missed;
+
+        const screen_polygon on_screen(polygon, projection_);
+        if (on_screen.area_sign() == 0) return fate::degenerate;
+        if (is_culled(on_screen.area_sign() < 0)) return fate::culled;
+        fate f = fate::missed;
+        on_screen.for_each_part(grid_, [&](std::array<int, 3> corners, const pixel_box& box, bool is_run) {
+            wide_triangle part{};
             for (std::size_t k = 0; k < 3; ++k) {
-                piece.corners[k] = projection_.to_screen(fan[k]->position);
-                piece.shares[k] = glm::vec3(fan[k]->shares);
+                part.corners[k] = on_screen.at(corners[k]);
+                part.shares[k] = polygon.corners[static_cast<std::size_t>(corners[k])].shares;
             }
-            piece.triangle = triangle;
-            const auto name = whole() + static_cast<std::uint32_t>(out.clipped.size());
-            const fate f = bin_triangle(piece.corners[0], piece.corners[1], piece.corners[2], name, tiles, out);
-            if (f == fate::drawn) out.clipped.push_back(piece);
-            whole_fate = (std::min)(whole_fate, f);
-        }
-        return whole_fate;
+            part.triangle = triangle;
+            part.run = is_run ? box : pixel_box{0, 0, -1, -1};
+            out.pairs.add(whole() + static_cast<std::uint32_t>(out.wide.size()), box, tiles);
+            out.wide.push_back(part);
+            f = fate::drawn;
+        });
+        return f;
     }
 
     const mesh& mesh_;
     pixel_grid grid_;
     projection projection_;
     cull_mode cull_;
-    std::vector<screen_vertex> vertices_;
-    std::vector<clipped_triangle> clipped_;
+    std::vector<compact_vertex> vertices_;
+    std::vector<wide_triangle> wide_;
     tile_bins bins_;
     draw_stats stats_;
 };
 
 }  // namespace detail
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/tile.hpp ------------------------------------------------------------------
 // The pixel loop: one tile, its triangles in order, coverage and depth several pixels at a time.
@@ -4206,6 +4772,8 @@ class screen_mesh {
 #pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
 #endif
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::detail {
 
 /// A triangle ready for the pixels of a box: its corners run clockwise on the screen, edges are named by their ends.
@@ -4213,17 +4781,39 @@ struct triangle_setup {
     edge_function bc, ca, ab;
     depth_plane depth;
     pixel_box box;
+    bool narrow;  ///< the edge functions fit 32 bits all over the box
 
-    /// The corners must not lie on one line.
+    /// The corners must not lie on one line. What `box` leaves out may be covered nevertheless.
     static triangle_setup of(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
-                             const pixel_grid& grid, const pixel_box& box) {
-        return {edge_function::through(b, c, grid, box.x0, box.y0), edge_function::through(c, a, grid, box.x0, box.y0),
-                edge_function::through(a, b, grid, box.x0, box.y0),
-                depth_plane::through(a, b, c, doubled_area(a, b, c), grid), box};
+                             const pixel_grid& grid, const pixel_box& box, int slack) {
+        const bool compact = grid.is_compact(a) && grid.is_compact(b) && grid.is_compact(c);
+        const double area =
+            compact ? static_cast<double>(compact_area(a, b, c)) : double_double::from(wide_area(a, b, c)).high;
+        triangle_setup t{edge_function::through(b, c, grid, box.x0, box.y0, compact),
+                         edge_function::through(c, a, grid, box.x0, box.y0, compact),
+                         edge_function::through(a, b, grid, box.x0, box.y0, compact),
+                         depth_plane::through(a, b, c, area, grid),
+                         box,
+                         true};
+        if (t.is_narrow(slack)) return t;
+        const int width = box.width() + slack, height = box.height();
+        t.bc = t.bc.simplified(width, height);
+        t.ca = t.ca.simplified(width, height);
+        t.ab = t.ab.simplified(width, height);
+        t.narrow = t.is_narrow(slack);
+        return t;
     }
 
+    /// All pixels of the box are covered, and none to its right.
+    void cover_box() {
+        bc = ca = {0, 0, 0};
+        ab = {box.width() - 1, -1, 0};
+        narrow = true;
+    }
+
+  private:
     bool is_narrow(int slack) const {
-        const int width = box.x1 - box.x0 + 1 + slack, height = box.y1 - box.y0 + 1;
+        const int width = box.width() + slack, height = box.height();
         return bc.is_narrow(width, height) && ca.is_narrow(width, height) && ab.is_narrow(width, height);
     }
 };
@@ -4261,16 +4851,21 @@ class tile_buffer {
 };
 
 /// Draws one triangle into a tile, N pixels of a row at a time; a tie in depth stays with whoever came first.
-template <int N, class Int, bool Winners>
-INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<Winners>& tile, std::uint32_t name) {
+/// Depths that a double can't round with certainty are asked of `nearest(x, y)`.
+template <int N, class Int, bool Winners, class Nearest>
+INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<Winners>& tile, std::uint32_t name,
+                          const Nearest& nearest) {
     using ints = lanes<Int, N>;
     using floats = lanes<float, N>;
+    using doubles = lanes<double, N>;
+    using masks = lanes<std::int32_t, N>;
     using names = lanes<std::uint32_t, N>;
     ints column;
-    floats column_x;
+    doubles column_x;
     count_up<Int, N>(column);
-    count_up<float, N>(column_x);
+    count_up<double, N>(column_x);
     const floats lowest = floats{} + t.depth.lowest, highest = floats{} + t.depth.highest;
+    const doubles error = doubles{} + t.depth.error;
     const names drawn = names{} + name;
 
     // Lanes hold N neighbouring pixels of a row.
@@ -4279,17 +4874,28 @@ INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<Winners>& tile, s
     ints row_ab = static_cast<Int>(t.ab.origin) + column * static_cast<Int>(t.ab.dx);
 
     for (int y = t.box.y0; y <= t.box.y1; ++y) {
-        const float row_z = t.depth.value + t.depth.dy * static_cast<float>(y - t.depth.y);
+        const double row_z = t.depth.row(y);
         ints bc = row_bc, ca = row_ca, ab = row_ab;
         for (int x = t.box.x0; x <= t.box.x1; x += N) {
-            floats z = row_z + t.depth.dx * (column_x + static_cast<float>(x - t.depth.x));
+            masks covered;
+            convert(covered, ints((bc | ca | ab) >= 0));
+            const doubles plane = row_z + t.depth.dx * (column_x + (static_cast<double>(x) - t.depth.x));
+            floats z;
+            convert(z, plane);
+            floats below, above;
+            convert(below, doubles(plane - error));
+            convert(above, doubles(plane + error));
+            const masks doubtful = covered & masks(below != above);
+            if (any(doubtful))
+                for (int i = 0; i < N; ++i)
+                    if (lane(doubtful, i) != 0) set_lane(z, i, nearest(x + i, y));
             z = z > lowest ? z : lowest;
             z = z < highest ? z : highest;
 
             float* const stored = tile.depth(x, y);
             floats old;
             load(old, stored);
-            const auto visible = ((bc | ca | ab) >= 0) & (z < old);
+            const masks visible = covered & masks(z < old);
             store(stored, floats(visible ? z : old));
             if constexpr (Winners) {
                 std::uint32_t* const winner = tile.winner(x, y);
@@ -4307,7 +4913,8 @@ INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<Winners>& tile, s
     }
 }
 
-/// All triangles of one tile. `Triangles` gives `setup(i)` for i in [0, count()), with an empty box for none.
+/// All triangles of one tile. `Triangles` gives `setup(i)` for i in [0, count()), with an empty box for none, and
+/// `nearest_depth(i, x, y)`.
 template <class Triangles, bool Winners>
 struct tile_kernel {
     const Triangles& triangles;
@@ -4317,10 +4924,11 @@ struct tile_kernel {
     INSONIFY_INLINE void run() const {
         for (std::uint32_t i = 0; i < triangles.count(); ++i) {
             const triangle_setup t = triangles.setup(i);
-            if (t.is_narrow(tile_buffer<Winners>::slack))
-                fill<N, std::int32_t>(t, tile, i);
+            const auto nearest = [&](int x, int y) { return triangles.nearest_depth(i, x, y); };
+            if (t.narrow)
+                fill<N, std::int32_t>(t, tile, i, nearest);
             else
-                fill<1, std::int64_t>(t, tile, i);
+                fill<N, std::int64_t>(t, tile, i, nearest);
         }
     }
 };
@@ -4331,12 +4939,16 @@ struct tile_kernel {
 #pragma GCC diagnostic pop
 #endif
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/raster/draw.hpp ------------------------------------------------------------------
 // The public entry of the rasterizer: a mesh, what to do with vertices and pixels, and where to leave the result.
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
-/// How to draw. None of these but `subpixel_bits`, `cull` and `keep` changes a single bit of the result.
+/// How to draw. `tile` and `level` never change a bit of the result.
 struct draw_options {
     cull_mode cull = cull_mode::none;
     keep_depth keep = keep_depth::smaller;
@@ -4367,8 +4979,16 @@ struct tile_triangles {
     std::uint32_t count() const { return static_cast<std::uint32_t>(names.size()); }
     INSONIFY_INLINE triangle_setup setup(std::uint32_t i) const {
         const screen_triangle t = screen[names[i]];
-        return triangle_setup::of(t.a, t.b, t.c, screen.grid(),
-                                  intersect(box, center_box(t.a, t.b, t.c, screen.grid())));
+        const bool is_run = t.wide != nullptr && !t.wide->run.empty();
+        const pixel_box whole = is_run ? t.wide->run : center_box(t.a, t.b, t.c, screen.grid());
+        triangle_setup s =
+            triangle_setup::of(t.a, t.b, t.c, screen.grid(), intersect(box, whole), tile_buffer<false>::slack);
+        if (is_run) s.cover_box();
+        return s;
+    }
+    float nearest_depth(std::uint32_t i, int x, int y) const {
+        const screen_triangle t = screen[names[i]];
+        return detail::nearest_depth(t.a, t.b, t.c, x, y, screen.grid());
     }
 };
 
@@ -4392,9 +5012,14 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
             const std::uint32_t* const winner = tile.winner(s.box.x0, y);
             for (int x = s.box.x0; x <= s.box.x1; ++x) {
                 if (winner[x - s.box.x0] != i) continue;
-                const auto weights = t.weights_at(x, y, grid);
-                const fragment<varyings> f{x,       y,       depth_sign * s.depth.at(x, y), t.triangle,
-                                           weights, t.front, weighted(va, vb, vc, weights)};
+                const glm::dvec3 weights = t.weights_at(x, y, grid);
+                const fragment<varyings> f{x,
+                                           y,
+                                           depth_sign * *tile.depth(x, y),
+                                           t.triangle,
+                                           glm::vec3(weights),
+                                           t.front,
+                                           weighted(va, vb, vc, weights)};
                 if constexpr (requires { target.color; })
                     target.color(x, y) = shader(f);
                 else
@@ -4489,6 +5114,8 @@ draw_stats draw(const mesh& m, const VertexShader& place, const FragmentShader& 
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/recipe.hpp ----------------------------------------------------------------
 // What a seabed recipe is: a height and a type at every point of the world, by itself or a row at a time.
 //
@@ -4496,6 +5123,8 @@ draw_stats draw(const mesh& m, const VertexShader& place, const FragmentShader& 
 // once (wave vectors, octaves) and evaluates rows; a row is the primitive, a single point is a row of one sample.
 
 #include <variant>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
@@ -4622,6 +5251,8 @@ float height_at(const S& prepared, double x, double y) {
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/noise.hpp -----------------------------------------------------------------
 // Gradient noise on the world's lattice, and power-law relief made of its octaves.
 //
@@ -4631,6 +5262,8 @@ float height_at(const S& prepared, double x, double y) {
 // Based on: Ken Perlin. Improving Noise. SIGGRAPH, 2002 (gradients on a lattice, quintic fade).
 // Guy L. Steele, Doug Lea, Christine H. Flood. Fast Splittable Pseudorandom Number Generators. OOPSLA, 2014 (the
 // finaliser that hashes cells, "variant 13").
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
@@ -4841,8 +5474,12 @@ class power_law_noise {
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/flat.hpp ------------------------------------------------------------------
 // Flat sand: nothing but the roughness that the sea left.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
@@ -4883,8 +5520,12 @@ inline float flat::operator()(double x, double y) const {
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/mud.hpp -------------------------------------------------------------------
 // Mud: gentle relief with the mounds and pock marks of what lives and seeps in it.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
@@ -4976,6 +5617,8 @@ inline float mud::operator()(double x, double y) const {
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/ripples.hpp ---------------------------------------------------------------
 // Sand ripples: crests of one height that meander, end and fork, as waves over sand make them.
 //
@@ -4989,6 +5632,8 @@ inline float mud::operator()(double x, double y) const {
 //
 // Based on: Dajun Tang, Frank S. Henyey, Brian T. Hefner, Peter A. Traykovski. Simulating Realistic-Looking Sediment
 // Ripple Fields. IEEE Journal of Oceanic Engineering 34, 2009 (why ripples are not Gaussian).
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
@@ -5214,6 +5859,8 @@ inline float ripples::operator()(double x, double y) const {
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/blocks.hpp ----------------------------------------------------------------
 // Angular blocks strewn over the plane: what broken rock is made of.
 //
@@ -5222,6 +5869,8 @@ inline float ripples::operator()(double x, double y) const {
 // they are boulders.
 //
 // Based on: Steven Worley. A Cellular Texture Basis Function. SIGGRAPH, 1996.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed::detail {
 
@@ -5317,8 +5966,12 @@ class block_layer {
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed::detail
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/rock.hpp ------------------------------------------------------------------
 // Rock: outcrops that stand out of the bottom in ridges, broken into blocks and rubble.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
@@ -5410,8 +6063,12 @@ inline float rock::operator()(double x, double y) const {
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/blend.hpp -----------------------------------------------------------------
 // Two seabeds side by side: patches with ragged borders, and the type at every point.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
@@ -5524,8 +6181,12 @@ class blend_sampler {
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/heightfield.hpp -----------------------------------------------------------
 // A grid of sampled or measured heights: the form in which a seabed is stored, drawn, and rested upon.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
@@ -5584,7 +6245,8 @@ struct heightfield {
     /// Unit normal of the triangle at a world position; outside, that of the nearest one. NaN where there is no data.
     glm::vec3 normal_at(double x, double y) const {
         const detail::facet f = facet_at(x, y);
-        return glm::vec3(glm::normalize(glm::dvec3(-f.rise_x, -f.rise_y, spacing)));
+        const glm::dvec3 normal(-f.rise_x, -f.rise_y, spacing);
+        return glm::vec3(normal / numeric::square_root(numeric::dot(normal, normal)));
     }
 
     /// Type at the nearest vertex.
@@ -5658,6 +6320,8 @@ inline heightfield from_image(image_view<const float> picture, double spacing, f
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/any.hpp -------------------------------------------------------------------
 // Every kind of seabed a scene can be given.
 
@@ -5671,6 +6335,8 @@ using any = std::variant<flat, ripples, mud, rock, blend, heightfield>;
 
 // ------------ insonify/seabed/sample.hpp ----------------------------------------------------------------
 // From recipe to heightfield: evaluates a recipe at the vertices of a grid, a row per task.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
@@ -5728,8 +6394,12 @@ heightfield sample(const Recipe& source, const grid& where, Executor&& ex = seri
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/tessellate.hpp ------------------------------------------------------------
 // From heightfield to triangles.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
@@ -5823,6 +6493,8 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}) {
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/shadow/light.hpp -----------------------------------------------------------------
 // A parallel light over the sea floor, and the sheared frame in which its shadows are upright.
 //
@@ -5830,6 +6502,8 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}) {
 // All points of one ray share (u, v), and of two of them the higher one is nearer to the light. The map from world to
 // frame is affine, so triangles stay triangles; equal steps in (u, v) are equal steps on level ground at every
 // elevation; and level ground is level here too, so it needs no bias.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::shadow {
 
@@ -5874,11 +6548,15 @@ class light_frame {
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/shadow/map.hpp -------------------------------------------------------------------
 // The shadow map: for every ray of a parallel light, the height of the first thing it meets.
 //
 // It is an image over the light's sheared frame, drawn by the rasterizer with height as depth. See light.hpp for why
 // this frame; the resolution it needs is the picture's ground sampling, whatever the elevation.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::shadow {
 
@@ -5977,7 +6655,7 @@ class height_map {
         glm::mat3 axes;
         for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame_(to_world.offset + to_world.linear[i])) - zero);
         const glm::vec3 start(zero);
-        const auto place = [=](const vertex& v) { return glm::vec4(axes * v.position + start, 1.0f); };
+        const auto place = [=](const vertex& v) { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); };
         return draw(m, place, depth_target{heights_}, {.keep = keep_depth::larger}, ex);
     }
 
@@ -6006,6 +6684,8 @@ class height_map {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow
+
+INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/shadow/policy.hpp ----------------------------------------------------------------
 // Which shadows a picture has, as types: what is not asked for is not compiled.
@@ -6056,6 +6736,8 @@ concept policy = std::same_as<P, none> || std::same_as<P, map> || std::same_as<P
 //
 // Based on: William T. Reeves, David H. Salesin, Robert L. Cook. Rendering Antialiased Shadows with Depth Maps. 1987
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::shadow {
 
 /// A surface point as a light sees it: where it lies in the light's frame, and how its plane rises there.
@@ -6077,7 +6759,7 @@ struct receiver {
         const double along = facet.x * travel.x + facet.y * travel.y;
         const double across = facet.y * travel.x - facet.x * travel.y;
         const double facing = facet.z - along * frame.cot_elevation();
-        faces_light = facing > 0 && facing * facing > grazed * grazed * glm::dot(facet, facet);
+        faces_light = facing > 0 && facing * facing > grazed * grazed * numeric::dot(facet, facet);
         if (faces_light) {
             slope_u = -along / facing;
             slope_v = -across / facing;
@@ -6143,8 +6825,12 @@ inline float lit(const height_map& map, const receiver& r, const pcf& how) {
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/backscatter.hpp ------------------------------------------------------------
 // How much of the sound comes back from a surface that is met at an angle.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -6172,8 +6858,12 @@ struct lambert_backscatter {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/scene.hpp ------------------------------------------------------------------
 // What there is to see: a seabed, and targets on it.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -6236,8 +6926,12 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/labels.hpp -----------------------------------------------------------------
 // What each pixel shows, for those who train and those who test: targets, seabed types, shadows and who cast them.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -6340,9 +7034,13 @@ inline void describe_targets(labels& l, const std::vector<target>& targets) {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/illumination.hpp -----------------------------------------------------------
 // Who is in whose shadow: one map for the seabed, and a small tight one for each target, so that a target's shadow is
 // fine whatever the size of the picture, and the label of a shadow is the name of who casts it.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
@@ -6366,7 +7064,7 @@ struct placed_mesh {
     affine to_rig;
     glm::mat3 normals;  ///< takes normals along
 
-    placed_mesh(const mesh& m, const affine& map) : shape(&m), to_rig(map), normals(cofactors(map.linear)) {}
+    placed_mesh(const mesh& m, const affine& map) : shape(&m), to_rig(map), normals(numeric::cofactors(map.linear)) {}
 };
 
 /// The maps of all casters of a scene.
@@ -6424,8 +7122,12 @@ class shadow_maps {
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/rig.hpp --------------------------------------------------------------------
 // The paper's rig: a camera that looks straight down, and a parallel light low over the sea floor that turns with it.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -6477,7 +7179,7 @@ class overhead_geometry {
         const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
         right_ = {cosine, sine};
         rig_from_world_.linear = {{cosine, -sine, 0}, {sine, cosine, 0}, {0, 0, 1}};
-        rig_from_world_.offset = -(rig_from_world_.linear * glm::dvec3(rig.position, 0));
+        rig_from_world_.offset = -numeric::product(rig_from_world_.linear, glm::dvec3(rig.position, 0));
     }
 
     const overhead& rig() const { return rig_; }
@@ -6486,7 +7188,8 @@ class overhead_geometry {
     /// From world to rig frame. Applied to an object's own map first, it takes large coordinates away exactly.
     affine rig_from(const affine& world_from_object) const {
         const glm::dvec3 relative = world_from_object.offset - glm::dvec3(rig_.position, 0);
-        return {rig_from_world_.linear * world_from_object.linear, rig_from_world_.linear * relative};
+        return {numeric::product(rig_from_world_.linear, world_from_object.linear),
+                numeric::product(rig_from_world_.linear, relative)};
     }
 
     /// Half of what the picture shows at a height above the datum, metres.
@@ -6497,11 +7200,11 @@ class overhead_geometry {
     /// Metres on level ground at the datum from one pixel to the next.
     double ground_sampling() const { return 2 * half_extent(0).x / rig_.size.x; }
 
-    /// The picture's corners at a height, in the world.
-    glm::dvec2 world_corner(double height, int right, int up) const {
+    /// The picture's corners at a height, from the rig's position and along the world's axes.
+    glm::dvec2 corner(double height, int right, int up) const {
         const glm::dvec2 half = half_extent(height);
         const glm::dvec2 p{right * half.x, up * half.y};
-        return rig_.position + glm::dvec2(p.x * right_.x - p.y * right_.y, p.x * right_.y + p.y * right_.x);
+        return {p.x * right_.x - p.y * right_.y, p.x * right_.y + p.y * right_.x};
     }
 
     /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
@@ -6526,8 +7229,12 @@ class overhead_geometry {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/render.hpp -----------------------------------------------------------------
 // One picture: the seabed sampled where the rig looks, shadows, the image in linear values, and its labels.
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -6614,29 +7321,33 @@ class overhead_painter {
         // for what it misses.
         const double whole_picture = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
         const double farthest = std::is_same_v<Shadow, shadow::none> ? 0 : whole_picture;
-        include_heights(seabed::sample(scene_.seabed, footprint(0, 0, farthest, 4 * spacing), ex), 0.25f);
+        const auto sample = [&](seabed::grid grid) {
+            bottom_origin_ = grid.origin;
+            grid.origin += rig.position;
+            return seabed::sample(scene_.seabed, grid, ex);
+        };
+        include_heights(sample(footprint(0, 0, farthest, 4 * spacing)), 0.25f);
         const double reach = static_cast<double>(highest_ - lowest_) * view_.light().cot_elevation();
-        field_ = seabed::sample(scene_.seabed,
-                                footprint(static_cast<double>(lowest_), static_cast<double>(highest_),
-                                          (std::min)(reach, farthest), spacing),
-                                ex);
+        field_ = sample(footprint(static_cast<double>(lowest_), static_cast<double>(highest_),
+                                  (std::min)(reach, farthest), spacing));
         include_heights(field_, 0);
         bottom_ = seabed::tessellate(field_, ex);
         out_.stats.seabed_columns = field_.heights.width();
         out_.stats.seabed_rows = field_.heights.height();
     }
 
-    /// A grid under the picture of a bottom between two heights, longer by `reach` metres towards the light.
+    /// A grid under the picture of a bottom between two heights, longer by `reach` metres towards the light; its origin
+    /// is relative to the rig's position, so that far from the world's origin no bit of it changes.
     seabed::grid footprint(double low, double high, double reach, double spacing) const {
         const glm::dmat3& turn = view_.rig_from({}).linear;
         const glm::dvec2& travel = view_.light().travel();
-        const glm::dvec2 up_light = -reach * glm::dvec2(glm::dvec3(travel, 0) * turn);  // v * M turns back
-        glm::dvec2 first = view_.rig().position, last = first;
+        const glm::dvec2 up_light = -reach * glm::dvec2(numeric::product(glm::transpose(turn), glm::dvec3(travel, 0)));
+        glm::dvec2 first(0), last(0);
         for (int right : {-1, 1})
             for (int up : {-1, 1})
                 for (double height : {low, high})
                     for (const glm::dvec2& shift : {glm::dvec2(0), up_light}) {
-                        const glm::dvec2 p = view_.world_corner(height, right, up) + shift;
+                        const glm::dvec2 p = view_.corner(height, right, up) + shift;
                         first = {(std::min)(first.x, p.x), (std::min)(first.y, p.y)};
                         last = {(std::max)(last.x, p.x), (std::max)(last.y, p.y)};
                     }
@@ -6661,7 +7372,8 @@ class overhead_painter {
     }
 
     placed_mesh bottom_in_rig() const {
-        return {bottom_, view_.rig_from({glm::dmat3(1), glm::dvec3(field_.origin, 0)})};
+        const affine under_rig = view_.rig_from({glm::dmat3(1), glm::dvec3(view_.rig().position, 0)});
+        return {bottom_, compose(under_rig, {glm::dmat3(1), glm::dvec3(bottom_origin_, 0)})};
     }
 
     /// All rays of the light that reach something which the picture may show.
@@ -6713,8 +7425,9 @@ class overhead_painter {
         const glm::mat3 linear(object.to_rig.linear);
         const glm::vec3 offset(object.to_rig.offset);
         const auto place = [&, linear, offset](const vertex& v) {
-            const glm::vec3 position = linear * v.position + offset;
-            return placed_vertex<surface_point>{view_.clip(position), {position, object.normals * v.normal}};
+            const glm::vec3 position = numeric::product(linear, v.position) + offset;
+            return placed_vertex<surface_point>{view_.clip(position),
+                                                {position, numeric::product(object.normals, v.normal)}};
         };
         return draw(*object.shape, place, fragment_callable, framebuffer<void>{depth_},
                     {.keep = keep_depth::larger, .load = load, .tile = options_.tile, .level = options_.level}, ex);
@@ -6732,7 +7445,7 @@ class overhead_painter {
         const glm::uvec3& t = object.shape->triangles[f.triangle];
         const glm::vec3& a = object.shape->positions[t.x];
         const glm::vec3 ab = object.shape->positions[t.y] - a, ac = object.shape->positions[t.z] - a;
-        return object.normals * glm::cross(f.front ? ab : ac, f.front ? ac : ab);
+        return numeric::product(object.normals, numeric::cross(f.front ? ab : ac, f.front ? ac : ab));
     }
 
     template <class Shadows>
@@ -6766,6 +7479,7 @@ class overhead_painter {
     frame<Labels> out_;
     seabed::heightfield field_;
     mesh bottom_;
+    glm::dvec2 bottom_origin_{};      ///< of the field, from the rig's position
     float lowest_ = 0, highest_ = 0;  ///< of the bottom
     std::vector<placed_mesh> targets_;
 };
@@ -6788,3 +7502,5 @@ frame<Labels> render(const scene& s, const overhead& rig, const render_options<S
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

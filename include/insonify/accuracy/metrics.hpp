@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <limits>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::accuracy {
 
 /// Counts of pixels; a pixel other than 0 belongs to the mask.
@@ -124,3 +126,5 @@ inline pixel_difference compare_images(image_view<const std::uint8_t> result, im
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::accuracy
+
+INSONIFY_ARITHMETIC_END

@@ -1,11 +1,13 @@
 // One kernel, several instruction sets: written once over a lane count, chosen when the program runs.
 //
 // A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
-// values go through it at a time. Its arithmetic is the same in every lane at every N, and no target enables fused
-// multiply-add, so all levels give the same bytes; N = 1 is plain scalar code.
+// values go through it at a time. Its arithmetic is the same in every lane at every N, and no target fuses products
+// with sums (AVX-512 could), so all levels give the same bytes; N = 1 is plain scalar code.
 #pragma once
 
 #include <insonify/core/error.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -53,3 +55,5 @@ void dispatch(const Kernel& kernel, isa level) {
 
 }  // namespace detail
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -9,6 +9,9 @@
 
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
@@ -37,6 +40,43 @@ INSONIFY_INLINE void store(T* into, const Lanes& from) {
     std::memcpy(into, &from, sizeof from);
 }
 
+/// Each lane as a cast would make it.
+template <class To, class From>
+INSONIFY_INLINE void convert(To& into, const From& from) {
+#if INSONIFY_SIMD
+    if constexpr (!std::is_arithmetic_v<To>)
+        into = __builtin_convertvector(from, To);
+    else
+#endif
+        into = static_cast<To>(from);
+}
+
+/// Whether any lane of a mask is set.
+template <class Mask>
+INSONIFY_INLINE bool any(const Mask& mask) {
+    std::uint64_t words[(sizeof mask + 7) / 8] = {};
+    std::memcpy(words, &mask, sizeof mask);
+    std::uint64_t all = 0;
+    for (const std::uint64_t word : words) all |= word;
+    return all != 0;
+}
+
+/// One lane, to look at and to change.
+template <class Lanes>
+INSONIFY_INLINE auto lane(const Lanes& lanes, int i) {
+    if constexpr (std::is_arithmetic_v<Lanes>)
+        return lanes;
+    else
+        return lanes[i];
+}
+template <class Lanes, class T>
+INSONIFY_INLINE void set_lane(Lanes& lanes, int i, T value) {
+    if constexpr (std::is_arithmetic_v<Lanes>)
+        lanes = value;
+    else
+        lanes[i] = value;
+}
+
 /// 0, 1, ... N - 1.
 template <class T, int N>
 INSONIFY_INLINE void count_up(lanes<T, N>& into) {
@@ -46,3 +86,5 @@ INSONIFY_INLINE void count_up(lanes<T, N>& into) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END

@@ -12,6 +12,8 @@
 #include <limits>
 #include <numbers>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 namespace literals {
@@ -166,3 +168,5 @@ inline double atan2(double y, double x) {
 
 }  // namespace numeric
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

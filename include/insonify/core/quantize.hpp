@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// What a gray file or screen stores for a pixel.
@@ -30,3 +32,5 @@ constexpr float dequantize(Code code) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

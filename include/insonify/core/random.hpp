@@ -12,6 +12,8 @@
 #include <bit>
 #include <cstdint>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 using philox_counter = std::array<std::uint32_t, 4>;
@@ -93,3 +95,5 @@ class random_sequence {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -8,6 +8,8 @@
 #include <concepts>
 #include <type_traits>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// The colour of each gray level. Floats in [0, 1] take the colour of the nearest level; NaN that of level 0.
@@ -53,3 +55,5 @@ inline constexpr color_table gray = tabulate_colors([](int level) {
 
 }  // namespace colormap
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

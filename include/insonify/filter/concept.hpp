@@ -16,6 +16,8 @@
 #include <type_traits>
 #include <utility>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 namespace detail {
@@ -68,3 +70,5 @@ template <class F, class Pixel>
 concept filter_for = image_filter<F, Pixel> || measured_filter<F, Pixel> || pixel_filter<F, Pixel>;
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

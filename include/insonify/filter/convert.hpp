@@ -6,6 +6,8 @@
 
 #include <type_traits>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 namespace detail {
@@ -46,3 +48,5 @@ inline constexpr detail::to_code<std::uint16_t> to_uint16{};
 inline constexpr detail::to_unit to_float{};
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

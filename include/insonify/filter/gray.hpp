@@ -7,6 +7,8 @@
 #include <concepts>
 #include <type_traits>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// What red, green and blue contribute to gray.
@@ -53,3 +55,5 @@ struct to_gray {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// How many pixels there are of each level. Level k of n stands for the value k / (n - 1) and takes what is nearest to
@@ -162,3 +164,5 @@ class match_binned {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// The distinct values of an image in rising order, and how many pixels have at most that value.
@@ -197,3 +199,5 @@ class match_histogram {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -17,6 +17,8 @@
 #include <cstdint>
 #include <type_traits>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 namespace detail {
@@ -175,3 +177,5 @@ struct rayleigh {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -17,6 +17,8 @@
 #include <type_traits>
 #include <utility>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 namespace detail {
@@ -267,3 +269,5 @@ auto operator|(F&& f, G&& g) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

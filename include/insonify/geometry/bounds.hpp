@@ -9,6 +9,8 @@
 
 #include <glm/vec3.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// The points p with lower <= p <= upper in each coordinate, in metres; by default none at all.
@@ -47,3 +49,5 @@ inline bounding_box bounds(const mesh& m) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

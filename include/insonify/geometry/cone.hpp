@@ -5,6 +5,8 @@
 
 #include <vector>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// A cone standing on its base, tip towards +z, centred at mid-height: the base is at z = -height / 2.
@@ -42,3 +44,5 @@ inline mesh to_mesh(const cone& shape) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

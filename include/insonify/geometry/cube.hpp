@@ -8,6 +8,8 @@
 
 #include <glm/vec3.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// A box centred at the origin, edges along the axes.
@@ -43,3 +45,5 @@ inline mesh to_mesh(const cube& shape) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

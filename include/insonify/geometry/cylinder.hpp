@@ -6,6 +6,8 @@
 #include <array>
 #include <vector>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// A cylinder along x, centred at the origin, with flat ends.
@@ -58,3 +60,5 @@ inline mesh to_mesh(const capsule& shape) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -4,14 +4,16 @@
 // Tools 3(1), 1998.
 #pragma once
 
+#include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 
 #include <cstddef>
 #include <vector>
 
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -24,22 +26,24 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     std::vector<glm::dvec3> sums(m.positions.size(), glm::dvec3(0));
     for (const glm::uvec3& t : m.triangles) {
         const glm::dvec3 corners[3] = {m.positions[t.x], m.positions[t.y], m.positions[t.z]};
-        const glm::dvec3 area = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        const double length = numeric::square_root(glm::dot(area, area));
+        const glm::dvec3 area = numeric::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const double length = numeric::square_root(numeric::dot(area, area));
         if (!(length > 0 && numeric::is_finite(length))) continue;
         for (int i = 0; i < 3; ++i) {
             const glm::dvec3 a = corners[(i + 1) % 3] - corners[i];
             const glm::dvec3 b = corners[(i + 2) % 3] - corners[i];
-            sums[t[i]] += numeric::atan2(length, glm::dot(a, b)) / length * area;
+            sums[t[i]] += numeric::atan2(length, numeric::dot(a, b)) / length * area;
         }
     }
 
     std::vector<glm::vec3> normals(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        const double length = numeric::square_root(glm::dot(sums[i], sums[i]));
+        const double length = numeric::square_root(numeric::dot(sums[i], sums[i]));
         normals[i] = length > 0 ? glm::vec3(sums[i] / length) : glm::vec3(0, 0, 1);
     }
     return normals;
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -3,6 +3,7 @@
 // Source: Wavefront Technologies. Advanced Visualizer Manual, appendix B1: Object Files (.obj), 1993.
 #pragma once
 
+#include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/geometry/normals.hpp>
@@ -20,8 +21,9 @@
 #include <system_error>
 #include <vector>
 
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -196,7 +198,7 @@ class obj_reader {
                 const std::uint32_t normal = corners_[*at].normal;
                 if (at == first || normal != corners_[*(at - 1)].normal) {
                     const glm::dvec3 n = normal == none ? glm::dvec3(0) : glm::dvec3(normals_[normal]);
-                    const double length = numeric::square_root(glm::dot(n, n));
+                    const double length = numeric::square_root(numeric::dot(n, n));
                     complete = complete && length > 0;
                     out.positions.push_back(positions_[p]);
                     out.normals.push_back(length > 0 ? glm::vec3(n / length) : glm::vec3(0));
@@ -269,3 +271,5 @@ inline mesh load_obj(const std::string& path) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

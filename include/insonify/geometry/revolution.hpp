@@ -11,6 +11,8 @@
 
 #include <glm/vec3.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 enum class axis { x, y, z };
@@ -132,3 +134,5 @@ inline mesh revolve(std::span<const outline_point> outline, int segments, axis a
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

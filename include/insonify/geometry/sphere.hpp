@@ -9,6 +9,8 @@
 
 #include <glm/vec3.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// A sphere centred at the origin, stretched along x, y and z by `aspect`: the semi-axes are radius * aspect.
@@ -65,3 +67,5 @@ inline mesh to_mesh(const hemisphere& shape) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -13,6 +13,8 @@
 
 #include <glm/vec3.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// What a mesh is as a surface, with vertices in the same place taken as one (sharp edges split them for their
@@ -94,3 +96,5 @@ inline topology inspect(const mesh& m) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -4,15 +4,17 @@
 // to camera, and round to float last.
 #pragma once
 
+#include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 
 #include <utility>
 
-#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -39,44 +41,40 @@ struct affine {
 
 namespace detail {
 
-/// det(m) times the inverse transpose: the map of area vectors, of the cross product of two edges.
-inline glm::dmat3 cofactors(const glm::dmat3& m) {
-    return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
-}
 /// A vector without direction (zero, or not finite) stays as it is.
 inline glm::dvec3 unit(const glm::dvec3& n) {
-    const double square = glm::dot(n, n);
+    const double square = numeric::dot(n, n);
     return square > 0 && numeric::is_finite(square) ? n / numeric::square_root(square) : n;
 }
 
 }  // namespace detail
 
 inline glm::dvec3 transform_point(const affine& map, const glm::dvec3& point) {
-    return map.linear * point + map.offset;
+    return numeric::product(map.linear, point) + map.offset;
 }
 inline glm::dvec3 transform_direction(const affine& map, const glm::dvec3& direction) {
-    return map.linear * direction;
+    return numeric::product(map.linear, direction);
 }
 /// The unit normal of the transformed surface, on the same side of it as before; by the inverse transpose.
 inline glm::dvec3 transform_normal(const affine& map, const glm::dvec3& normal) {
-    const glm::dmat3 areas = detail::cofactors(map.linear);
-    const double determinant = glm::dot(map.linear[0], areas[0]);
-    return detail::unit(areas * (determinant < 0 ? -normal : normal));
+    const glm::dmat3 areas = numeric::cofactors(map.linear);
+    const double determinant = numeric::dot(map.linear[0], areas[0]);
+    return detail::unit(numeric::product(areas, determinant < 0 ? -normal : normal));
 }
 
 /// First `inner`, then `outer`.
 inline affine compose(const affine& outer, const affine& inner) {
-    return {outer.linear * inner.linear, transform_point(outer, inner.offset)};
+    return {numeric::product(outer.linear, inner.linear), transform_point(outer, inner.offset)};
 }
 
 /// @throws invalid_input if the map flattens space, or is not finite
 inline affine inverse(const affine& map) {
-    const glm::dmat3 areas = detail::cofactors(map.linear);
-    const double determinant = glm::dot(map.linear[0], areas[0]);
+    const glm::dmat3 areas = numeric::cofactors(map.linear);
+    const double determinant = numeric::dot(map.linear[0], areas[0]);
     detail::require(determinant != 0 && numeric::is_finite(determinant), "determinant of affine.linear", determinant,
                     "finite and not 0");
     const glm::dmat3 linear = glm::transpose(areas) / determinant;
-    return {linear, -(linear * map.offset)};
+    return {linear, -numeric::product(linear, map.offset)};
 }
 
 /// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
@@ -109,10 +107,12 @@ inline affine to_world(const pose& p) {
 inline mesh transformed(mesh m, const affine& map) {
     for (glm::vec3& position : m.positions) position = glm::vec3(transform_point(map, position));
     for (glm::vec3& normal : m.normals) normal = glm::vec3(transform_normal(map, normal));
-    if (glm::determinant(map.linear) < 0) {
+    if (numeric::determinant(map.linear) < 0) {
         for (glm::uvec3& triangle : m.triangles) std::swap(triangle.y, triangle.z);
     }
     return m;
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

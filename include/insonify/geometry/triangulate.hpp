@@ -4,16 +4,17 @@
 // whether its two neighbours are ears, and no other: quadratic in all).
 #pragma once
 
-#include <insonify/config.hpp>
+#include <insonify/core/linear.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -30,7 +31,7 @@ class flat_polygon {
         glm::dvec3 area(0);
         const glm::dvec3 origin(corners[0]);
         for (std::size_t i = 2; i < corners.size(); ++i) {
-            area += glm::cross(glm::dvec3(corners[i - 1]) - origin, glm::dvec3(corners[i]) - origin);
+            area += numeric::cross(glm::dvec3(corners[i - 1]) - origin, glm::dvec3(corners[i]) - origin);
         }
         const glm::dvec3 extent = area * area;
         const int away = extent.x > extent.y ? (extent.x > extent.z ? 0 : 2) : (extent.y > extent.z ? 1 : 2);
@@ -113,3 +114,5 @@ inline void triangulate(std::span<const glm::vec3> corners, std::vector<glm::uve
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

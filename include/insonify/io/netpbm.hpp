@@ -22,6 +22,8 @@
 #include <string_view>
 #include <type_traits>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 namespace detail {
@@ -277,3 +279,5 @@ void write_netpbm(const std::string& path, const image<Pixel>& source) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

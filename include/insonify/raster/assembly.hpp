@@ -1,12 +1,20 @@
 // From mesh to screen: vertices placed and snapped, triangles culled, the few that need it clipped, all put into bins.
+//
+// Almost all triangles are compact: 32-bit coordinates, 64-bit decisions. The others go a slower way that no distance
+// and no number of clipping planes makes less exact.
 #pragma once
 
+#include <insonify/core/linear.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/raster/binning.hpp>
 #include <insonify/raster/clip.hpp>
+#include <insonify/raster/depth.hpp>
+#include <insonify/raster/fold.hpp>
 #include <insonify/raster/shader.hpp>
 
 #include <atomic>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -41,33 +49,47 @@ struct draw_stats {
 
 namespace detail {
 
-/// A piece of a clipped triangle, with the share of the whole triangle's vertices in each of its corners.
-struct clipped_triangle {
+/// A vertex inside all clipping planes and compact on the grid, as millions of them are kept.
+struct compact_vertex {
+    std::int32_t x, y;
+    double z, inverse_w;
+
+    static compact_vertex of(const screen_vertex& v) {
+        return {static_cast<std::int32_t>(v.x), static_cast<std::int32_t>(v.y), v.z, v.inverse_w};
+    }
+    operator screen_vertex() const { return {x, y, z, inverse_w}; }
+};
+
+/// A triangle with a vertex that isn't compact, or a piece of one that was clipped.
+struct wide_triangle {
     std::array<screen_vertex, 3> corners;
-    std::array<glm::vec3, 3> shares;
+    std::array<glm::dvec3, 3> shares;  ///< of the mesh triangle's vertices in each corner
     std::uint32_t triangle;
+    pixel_box run;  ///< if not empty, the pixels it covers, whatever the corners say
 };
 
 /// A triangle as bins refer to it: its corners in clockwise order on the screen.
 struct screen_triangle {
     screen_vertex a, b, c;
     bool front;
-    std::uint32_t triangle;           ///< of the mesh
-    const clipped_triangle* clipped;  ///< null for a whole one
+    std::uint32_t triangle;     ///< of the mesh
+    const wide_triangle* wide;  ///< null for a compact one
 
     /// Perspective-correct shares of the mesh triangle's three vertices at a pixel's centre; they sum to one.
-    glm::vec3 weights_at(int x, int y, const pixel_grid& grid) const {
+    glm::dvec3 weights_at(int x, int y, const pixel_grid& grid) const {
         const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
-            return static_cast<double>((std::int64_t{to.x} - from.x) * (grid.center(y) - from.y) -
-                                       (std::int64_t{to.y} - from.y) * (grid.center(x) - from.x));
+            const std::int64_t run = to.x - from.x, rise = to.y - from.y;
+            const std::int64_t right = grid.center(x) - from.x, down = grid.center(y) - from.y;
+            return wide == nullptr ? static_cast<double>(compact_side(run, rise, right, down))
+                                   : double_double::from(wide_side(run, rise, right, down)).high;
         };
-        const double wa = opposite(b, c) * static_cast<double>(a.inverse_w);
-        const double wb = opposite(c, a) * static_cast<double>(b.inverse_w);
-        const double wc = opposite(a, b) * static_cast<double>(c.inverse_w);
+        const double wa = opposite(b, c) * a.inverse_w;
+        const double wb = opposite(c, a) * b.inverse_w;
+        const double wc = opposite(a, b) * c.inverse_w;
         const double scale = 1.0 / (wa + wb + wc);
-        glm::vec3 w(static_cast<float>(wa * scale), static_cast<float>(wb * scale), static_cast<float>(wc * scale));
+        glm::dvec3 w(wa * scale, wb * scale, wc * scale);
         if (front) std::swap(w.y, w.z);  // b and c stand in the mesh's other order
-        return clipped == nullptr ? w : w.x * clipped->shares[0] + w.y * clipped->shares[1] + w.z * clipped->shares[2];
+        return wide == nullptr ? w : numeric::product(glm::dmat3(wide->shares[0], wide->shares[1], wide->shares[2]), w);
     }
 };
 
@@ -75,7 +97,7 @@ inline vertex mesh_vertex(const mesh& m, std::uint32_t index) {
     return {m.positions[index], m.normals.empty() ? glm::vec3(0) : m.normals[index], index};
 }
 
-/// A mesh on the screen: its vertices, the pieces that clipping made, and the bins that refer to both.
+/// A mesh on the screen: its vertices, the triangles that need more room, and the bins that refer to both.
 class screen_mesh {
   public:
     template <vertex_shader Shader, executor E>
@@ -91,15 +113,15 @@ class screen_mesh {
         });
         detail::require(bad_index == 0, "mesh.triangles", bad_index.load(), "an index of a position");
 
-        // Pieces of clipped triangles get names behind those of whole ones, in submission order.
+        // Wide triangles get names behind those of compact ones, in submission order.
         std::vector<tile_pairs> pairs;
         pairs.reserve(chunks.size());
         for (chunk& c : chunks) {
-            const auto offset = static_cast<std::uint32_t>(clipped_.size());
-            if (offset > 0 && !c.clipped.empty())
+            const auto offset = static_cast<std::uint32_t>(wide_.size());
+            if (offset > 0 && !c.wide.empty())
                 for (auto& pair : c.pairs.pairs)
                     if (pair.triangle >= whole()) pair.triangle += offset;
-            clipped_.insert(clipped_.end(), c.clipped.begin(), c.clipped.end());
+            wide_.insert(wide_.end(), c.wide.begin(), c.wide.end());
             pairs.push_back(std::move(c.pairs));
             stats_ += c.stats;
         }
@@ -115,34 +137,34 @@ class screen_mesh {
         if (name < whole()) {
             const glm::uvec3& index = mesh_.triangles[name];
             t = {vertices_[index.x], vertices_[index.y], vertices_[index.z], false, name, nullptr};
+            t.front = compact_area(t.a, t.b, t.c) < 0;  // counter-clockwise as seen, y being down
         } else {
-            const clipped_triangle& piece = clipped_[name - whole()];
-            t = {piece.corners[0], piece.corners[1], piece.corners[2], false, piece.triangle, &piece};
+            const wide_triangle& wide = wide_[name - whole()];
+            t = {wide.corners[0], wide.corners[1], wide.corners[2], false, wide.triangle, &wide};
+            t.front = wide_area(t.a, t.b, t.c).sign() < 0;
         }
-        if (doubled_area(t.a, t.b, t.c) < 0) {  // counter-clockwise as seen, y being down
-            t.front = true;
-            std::swap(t.b, t.c);
-        }
+        if (t.front) std::swap(t.b, t.c);
         return t;
     }
 
   private:
     struct chunk {
         tile_pairs pairs;
-        std::vector<clipped_triangle> clipped;
+        std::vector<wide_triangle> wide;
         draw_stats stats;
     };
     static constexpr std::int32_t off_grid = (std::numeric_limits<std::int32_t>::min)();
 
     std::uint32_t whole() const { return static_cast<std::uint32_t>(mesh_.triangles.size()); }
 
-    /// Fast path: vertices inside all clipping planes. The others are marked and seen to triangle by triangle.
+    /// Compact vertices. The others are marked and seen to triangle by triangle.
     template <vertex_shader Shader, executor E>
     void place_vertices(const Shader& shader, E& ex) {
         bulk_ranges(ex, vertices_.size(), 8192, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 const glm::dvec4 clip(clip_position(shader, mesh_vertex(mesh_, static_cast<std::uint32_t>(i))));
-                vertices_[i] = projection_.holds(clip) ? projection_.to_screen(clip) : screen_vertex{off_grid, 0, 0, 0};
+                vertices_[i] = projection_.is_compact(clip) ? compact_vertex::of(projection_.to_screen(clip))
+                                                            : compact_vertex{off_grid, 0, 0, 0};
             }
         });
     }
@@ -158,15 +180,14 @@ class screen_mesh {
                 bad_index = (std::max)({index.x, index.y, index.z});
                 return;
             }
-            const screen_vertex &a = vertices_[index.x], &b = vertices_[index.y], &c = vertices_[index.z];
+            const compact_vertex &a = vertices_[index.x], &b = vertices_[index.y], &c = vertices_[index.z];
             const auto name = static_cast<std::uint32_t>(i);
-            const bool on_grid = a.x != off_grid && b.x != off_grid && c.x != off_grid;
-            count(out.stats,
-                  on_grid ? bin_triangle(a, b, c, name, tiles, out) : clip_triangle(shader, name, tiles, out));
+            const bool compact = a.x != off_grid && b.x != off_grid && c.x != off_grid;
+            count(out.stats, compact ? bin_compact(a, b, c, name, tiles, out) : bin_wide(shader, name, tiles, out));
         }
     }
 
-    /// Counted in draw_stats under these names; of a clipped triangle's pieces the first of these counts.
+    /// Counted in draw_stats under these names.
     enum class fate { drawn, culled, missed, degenerate, not_finite };
 
     static void count(draw_stats& stats, fate f) {
@@ -179,21 +200,25 @@ class screen_mesh {
         }
     }
 
-    /// Notes a triangle or a piece of one in the bins, unless it can't be seen.
-    fate bin_triangle(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, std::uint32_t name,
-                      const tile_grid& tiles, chunk& out) const {
-        const std::int64_t area = doubled_area(a, b, c);
+    bool is_culled(bool front) const {
+        return (cull_ == cull_mode::back && !front) || (cull_ == cull_mode::front && front);
+    }
+
+    /// Notes a triangle in the bins, unless it can't be seen.
+    fate bin_compact(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, std::uint32_t name,
+                     const tile_grid& tiles, chunk& out) const {
+        const std::int64_t area = compact_area(a, b, c);
         if (area == 0) return fate::degenerate;
-        const bool front = area < 0;
-        if ((cull_ == cull_mode::back && !front) || (cull_ == cull_mode::front && front)) return fate::culled;
-        const pixel_box box = intersect(center_box(a, b, c, grid_), {0, 0, grid_.width - 1, grid_.height - 1});
+        if (is_culled(area < 0)) return fate::culled;
+        const pixel_box box = center_box(a, b, c, grid_);
         if (box.empty()) return fate::missed;
         out.pairs.add(name, box, tiles);
         return fate::drawn;
     }
 
+    /// The same for a triangle that may have to be clipped, or whose vertices only 128 bits can compare.
     template <vertex_shader Shader>
-    fate clip_triangle(const Shader& shader, std::uint32_t triangle, const tile_grid& tiles, chunk& out) const {
+    fate bin_wide(const Shader& shader, std::uint32_t triangle, const tile_grid& tiles, chunk& out) const {
         std::array<glm::dvec4, 3> clip;
         for (int i = 0; i < 3; ++i) {
             const glm::dvec4 p(clip_position(shader, mesh_vertex(mesh_, mesh_.triangles[triangle][i])));
@@ -202,35 +227,40 @@ class screen_mesh {
                 return fate::not_finite;
             clip[static_cast<std::size_t>(i)] = p;
         }
-        ++out.stats.clipped;
         const clip_polygon polygon = projection_.clip(clip);
-        const auto corner = [&](int i) -> const clip_corner& { return polygon.corners[static_cast<std::size_t>(i)]; };
-        fate whole_fate = polygon.count < 3 ? fate::missed : fate::degenerate;
-        for (int i = 1; i + 1 < polygon.count; ++i) {
-            const std::array<const clip_corner*, 3> fan{&corner(0), &corner(i), &corner(i + 1)};
-            clipped_triangle piece{};
+        if (polygon.cut) ++out.stats.clipped;
+        if (polygon.count < 3) return fate::missed;
+
+        const screen_polygon on_screen(polygon, projection_);
+        if (on_screen.area_sign() == 0) return fate::degenerate;
+        if (is_culled(on_screen.area_sign() < 0)) return fate::culled;
+        fate f = fate::missed;
+        on_screen.for_each_part(grid_, [&](std::array<int, 3> corners, const pixel_box& box, bool is_run) {
+            wide_triangle part{};
             for (std::size_t k = 0; k < 3; ++k) {
-                piece.corners[k] = projection_.to_screen(fan[k]->position);
-                piece.shares[k] = glm::vec3(fan[k]->shares);
+                part.corners[k] = on_screen.at(corners[k]);
+                part.shares[k] = polygon.corners[static_cast<std::size_t>(corners[k])].shares;
             }
-            piece.triangle = triangle;
-            const auto name = whole() + static_cast<std::uint32_t>(out.clipped.size());
-            const fate f = bin_triangle(piece.corners[0], piece.corners[1], piece.corners[2], name, tiles, out);
-            if (f == fate::drawn) out.clipped.push_back(piece);
-            whole_fate = (std::min)(whole_fate, f);
-        }
-        return whole_fate;
+            part.triangle = triangle;
+            part.run = is_run ? box : pixel_box{0, 0, -1, -1};
+            out.pairs.add(whole() + static_cast<std::uint32_t>(out.wide.size()), box, tiles);
+            out.wide.push_back(part);
+            f = fate::drawn;
+        });
+        return f;
     }
 
     const mesh& mesh_;
     pixel_grid grid_;
     projection projection_;
     cull_mode cull_;
-    std::vector<screen_vertex> vertices_;
-    std::vector<clipped_triangle> clipped_;
+    std::vector<compact_vertex> vertices_;
+    std::vector<wide_triangle> wide_;
     tile_bins bins_;
     draw_stats stats_;
 };
 
 }  // namespace detail
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

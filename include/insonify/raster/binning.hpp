@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::detail {
 
 /// The image cut into square tiles of 2^log2_size pixels.
@@ -86,3 +88,5 @@ class tile_bins {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END

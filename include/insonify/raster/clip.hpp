@@ -1,5 +1,5 @@
-// Clipping of the few triangles that need it: in front of the camera plane, beyond the depth range, or so far outside
-// the picture that fixed point can't hold them. Everything else is left to the rectangle of the image.
+// Clipping of the few triangles that need it: in front of the camera plane, beyond the depth range, or 2^50 sub-pixels
+// outside the picture. Everything else is left to the rectangle of the image.
 //
 // Where an edge crosses a plane, the new vertex is computed from the inner end to the outer one. Both triangles that
 // share the edge see the same two ends, hence get the same bits: no crack opens, however many planes cut.
@@ -8,9 +8,12 @@
 #include <insonify/raster/setup.hpp>
 
 #include <array>
+#include <limits>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
@@ -25,6 +28,7 @@ struct clip_polygon {
     static constexpr int planes = 7;
     std::array<clip_corner, 3 + planes> corners;
     int count = 0;
+    bool cut = false;  ///< by any plane
 };
 
 /// From clip space to the fixed-point grid.
@@ -34,8 +38,10 @@ class projection {
         : grid_(grid),
           half_width_(0.5 * grid.width),
           half_height_(0.5 * grid.height),
-          reach_x_(grid.guard_pixels() / half_width_),
-          reach_y_(grid.guard_pixels() / half_height_),
+          compact_x_(grid.reach(pixel_grid::compact_bits) / half_width_),
+          compact_y_(grid.reach(pixel_grid::compact_bits) / half_height_),
+          widest_x_(grid.reach(pixel_grid::widest_bits) / half_width_),
+          widest_y_(grid.reach(pixel_grid::widest_bits) / half_height_),
           sign_(keep == keep_depth::smaller ? 1.0 : -1.0) {}
 
     /// Distance to each clipping plane in clip space, >= 0 inside. The first keeps w away from zero.
@@ -44,25 +50,24 @@ class projection {
             case 0: return p.w - 1e-30;
             case 1: return p.z;
             case 2: return p.w - p.z;
-            case 3: return reach_x_ * p.w + p.x;
-            case 4: return reach_x_ * p.w - p.x;
-            case 5: return reach_y_ * p.w + p.y;
-            default: return reach_y_ * p.w - p.y;
+            case 3: return widest_x_ * p.w + p.x;
+            case 4: return widest_x_ * p.w - p.x;
+            case 5: return widest_y_ * p.w + p.y;
+            default: return widest_y_ * p.w - p.y;
         }
     }
 
-    /// Inside all planes; false for NaN and infinity too.
-    bool holds(const glm::dvec4& p) const {
+    /// Inside all planes and compact on the grid; false for NaN and infinity too.
+    bool is_compact(const glm::dvec4& p) const {
         const double x = p.x < 0 ? -p.x : p.x, y = p.y < 0 ? -p.y : p.y;
-        return p.w >= 1e-30 && p.z >= 0 && p.z <= p.w && x <= reach_x_ * p.w && y <= reach_y_ * p.w && p.w <= 1e38;
+        return p.w >= 1e-30 && p.z >= 0 && p.z <= p.w && x <= compact_x_ * p.w && y <= compact_y_ * p.w &&
+               p.w <= static_cast<double>((std::numeric_limits<float>::max)());
     }
 
     /// Internally smaller depth always wins; a target that keeps the larger one sees it negated.
     screen_vertex to_screen(const glm::dvec4& p) const {
-        const double inverse = 1.0 / p.w;
-        return {grid_.snap(p.x * inverse * half_width_, grid_.width),
-                grid_.snap(-(p.y * inverse) * half_height_, grid_.height), static_cast<float>(sign_ * (p.z * inverse)),
-                static_cast<float>(inverse)};
+        return {grid_.snap(p.x / p.w * half_width_, grid_.width), grid_.snap(-(p.y / p.w) * half_height_, grid_.height),
+                sign_ * (p.z / p.w), 1 / p.w};
     }
 
     /// The part of a triangle that lies inside all planes (Sutherland and Hodgman, 1974).
@@ -80,6 +85,7 @@ class projection {
   private:
     clip_polygon cut(const clip_polygon& whole, int plane) const {
         clip_polygon kept;
+        kept.cut = whole.cut;
         const auto keep = [&](const clip_corner& corner) {
             kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
         };
@@ -89,6 +95,7 @@ class projection {
             const double d_here = distance(plane, here.position), d_next = distance(plane, next.position);
             const bool here_inside = d_here >= 0, next_inside = d_next >= 0;
             if (here_inside) keep(here);
+            kept.cut |= !here_inside;
             if (here_inside != next_inside)
                 keep(here_inside ? crossing(here, d_here, next, d_next) : crossing(next, d_next, here, d_here));
         }
@@ -103,8 +110,11 @@ class projection {
 
     pixel_grid grid_;
     double half_width_, half_height_;
-    double reach_x_, reach_y_;
+    double compact_x_, compact_y_;  ///< |x| / w and |y| / w up to which vertices are compact
+    double widest_x_, widest_y_;    ///< and up to which they are not clipped
     double sign_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END

@@ -6,9 +6,11 @@
 
 #include <bit>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
-/// How to draw. None of these but `subpixel_bits`, `cull` and `keep` changes a single bit of the result.
+/// How to draw. `tile` and `level` never change a bit of the result.
 struct draw_options {
     cull_mode cull = cull_mode::none;
     keep_depth keep = keep_depth::smaller;
@@ -39,8 +41,16 @@ struct tile_triangles {
     std::uint32_t count() const { return static_cast<std::uint32_t>(names.size()); }
     INSONIFY_INLINE triangle_setup setup(std::uint32_t i) const {
         const screen_triangle t = screen[names[i]];
-        return triangle_setup::of(t.a, t.b, t.c, screen.grid(),
-                                  intersect(box, center_box(t.a, t.b, t.c, screen.grid())));
+        const bool is_run = t.wide != nullptr && !t.wide->run.empty();
+        const pixel_box whole = is_run ? t.wide->run : center_box(t.a, t.b, t.c, screen.grid());
+        triangle_setup s =
+            triangle_setup::of(t.a, t.b, t.c, screen.grid(), intersect(box, whole), tile_buffer<false>::slack);
+        if (is_run) s.cover_box();
+        return s;
+    }
+    float nearest_depth(std::uint32_t i, int x, int y) const {
+        const screen_triangle t = screen[names[i]];
+        return detail::nearest_depth(t.a, t.b, t.c, x, y, screen.grid());
     }
 };
 
@@ -64,9 +74,14 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
             const std::uint32_t* const winner = tile.winner(s.box.x0, y);
             for (int x = s.box.x0; x <= s.box.x1; ++x) {
                 if (winner[x - s.box.x0] != i) continue;
-                const auto weights = t.weights_at(x, y, grid);
-                const fragment<varyings> f{x,       y,       depth_sign * s.depth.at(x, y), t.triangle,
-                                           weights, t.front, weighted(va, vb, vc, weights)};
+                const glm::dvec3 weights = t.weights_at(x, y, grid);
+                const fragment<varyings> f{x,
+                                           y,
+                                           depth_sign * *tile.depth(x, y),
+                                           t.triangle,
+                                           glm::vec3(weights),
+                                           t.front,
+                                           weighted(va, vb, vc, weights)};
                 if constexpr (requires { target.color; })
                     target.color(x, y) = shader(f);
                 else
@@ -160,3 +175,5 @@ draw_stats draw(const mesh& m, const VertexShader& place, const FragmentShader& 
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -1,4 +1,4 @@
-// From three snapped vertices to what the pixel loop needs: three edge functions and a depth plane.
+// From three snapped vertices to what the pixel loop needs: three edge functions, and the pixels to try.
 //
 // Positions are snapped to fixed point first; everything after is decided with integers, so two triangles that share
 // an edge agree about every pixel on it. Fixed-point numbers count 2^-s pixels, s = subpixel bits (8 by default), from
@@ -12,6 +12,7 @@
 // Nicolas Capens. Advanced Rasterization. 2004
 #pragma once
 
+#include <insonify/core/int128.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/raster/framebuffer.hpp>
 
@@ -19,19 +20,23 @@
 #include <bit>
 #include <cstdint>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::detail {
 
 /// A vertex on the screen: position in fixed point, z / w and 1 / w.
 struct screen_vertex {
-    std::int32_t x, y;
-    float z;
-    float inverse_w;
+    std::int64_t x, y;
+    double z;
+    double inverse_w;
 };
 
 /// A pixel rectangle, ends included; empty if last < first.
 struct pixel_box {
     int x0, y0, x1, y1;
     bool empty() const { return x1 < x0 || y1 < y0; }
+    int width() const { return x1 - x0 + 1; }
+    int height() const { return y1 - y0 + 1; }
 };
 
 inline pixel_box intersect(const pixel_box& a, const pixel_box& b) {
@@ -43,94 +48,102 @@ struct pixel_grid {
     int subpixel_bits;
     int width, height;
 
-    std::int32_t half() const { return 1 << (subpixel_bits - 1); }
-    std::int64_t center(int pixel) const { return (std::int64_t{pixel} << subpixel_bits) + half(); }
-    /// First and last pixel whose centre is within [low, high].
-    int first_center(std::int32_t low) const {
-        return static_cast<int>((std::int64_t{low} + half() - 1) >> subpixel_bits);
-    }
-    int last_center(std::int32_t high) const {
-        return static_cast<int>((std::int64_t{high} - half()) >> subpixel_bits);
-    }
-    /// Fixed-point coordinates stay within +-2^29 of the image's centre, so that an edge function fits 64 bits.
-    double guard_pixels() const { return static_cast<double>(1 << (29 - subpixel_bits)); }
+    /// Coordinates within 2^29 of the image's centre are compact: 32 bits hold them and 64 bits an edge function.
+    /// Beyond 2^50 nothing is held, and triangles are clipped; between the two, 128 bits decide.
+    static constexpr int compact_bits = 29, widest_bits = 50;
 
-    /// Rounds a distance in pixels from the centre of an axis, to nearest, ties to even; |pixels| <= guard_pixels().
-    std::int32_t snap(double pixels, int extent) const {
+    std::int64_t unit() const { return std::int64_t{1} << subpixel_bits; }
+    std::int64_t half() const { return std::int64_t{1} << (subpixel_bits - 1); }
+    std::int64_t center(int pixel) const { return pixel * unit() + half(); }
+    /// First and last pixel of an axis whose centre is within [low, high], as far as it is one of [-1, extent].
+    int first_center(std::int64_t low, int extent) const {
+        return static_cast<int>(std::clamp<std::int64_t>((low + half() - 1) >> subpixel_bits, -1, extent));
+    }
+    int last_center(std::int64_t high, int extent) const {
+        return static_cast<int>(std::clamp<std::int64_t>((high - half()) >> subpixel_bits, -1, extent));
+    }
+    /// Pixels from the image's centre to where coordinates of so many bits end.
+    double reach(int bits) const { return static_cast<double>(std::int64_t{1} << bits) / static_cast<double>(unit()); }
+
+    /// Rounds a distance in pixels from the centre of an axis, to nearest, ties to even; |pixels| < reach(51).
+    std::int64_t snap(double pixels, int extent) const {
         // Adding 1.5 * 2^52 leaves the rounded integer in the low bits of the sum.
         constexpr double magic = 0x1.8p52;
-        const double scaled = pixels * static_cast<double>(1 << subpixel_bits);
+        const double scaled = pixels * static_cast<double>(unit());
         const auto rounded = std::bit_cast<std::int64_t>(scaled + magic) - std::bit_cast<std::int64_t>(magic);
-        return static_cast<std::int32_t>(rounded + (std::int64_t{extent} << (subpixel_bits - 1)));
+        return rounded + extent * half();
+    }
+    bool is_compact(const screen_vertex& v) const {
+        constexpr std::int64_t most = std::int64_t{1} << compact_bits;
+        const std::int64_t x = v.x - width * half(), y = v.y - height * half();
+        return -most <= x && x <= most && -most <= y && y <= most;
     }
 };
 
-/// Twice the signed area in squared fixed-point units; positive for triangles that run clockwise on the screen.
-inline std::int64_t doubled_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
-    return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) -
-           (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
+/// run * down - rise * right: positive for what lies on the inner side of an edge of a clockwise triangle.
+/// Compact differences stay within 2^30, so 64 bits hold the result.
+inline std::int64_t compact_side(std::int64_t run, std::int64_t rise, std::int64_t right, std::int64_t down) {
+    return run * down - rise * right;
+}
+inline int128 wide_side(std::int64_t run, std::int64_t rise, std::int64_t right, std::int64_t down) {
+    return int128::product(run, down) - int128::product(rise, right);
 }
 
-/// The pixels whose centres a triangle's bounding box holds.
+/// Twice the signed area in squared fixed-point units; positive for triangles that run clockwise on the screen.
+inline std::int64_t compact_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
+    return compact_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
+}
+inline int128 wide_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
+    return wide_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
+}
+
+/// The pixels of an image whose centres a triangle's bounding box holds.
 inline pixel_box center_box(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
                             const pixel_grid& grid) {
-    return {grid.first_center((std::min)({a.x, b.x, c.x})), grid.first_center((std::min)({a.y, b.y, c.y})),
-            grid.last_center((std::max)({a.x, b.x, c.x})), grid.last_center((std::max)({a.y, b.y, c.y}))};
+    const pixel_box box{grid.first_center((std::min)({a.x, b.x, c.x}), grid.width),
+                        grid.first_center((std::min)({a.y, b.y, c.y}), grid.height),
+                        grid.last_center((std::max)({a.x, b.x, c.x}), grid.width),
+                        grid.last_center((std::max)({a.y, b.y, c.y}), grid.height)};
+    return intersect(box, {0, 0, grid.width - 1, grid.height - 1});
 }
 
 /// E(x, y) >= 0 at the centre of pixel (x, y) exactly if the pixel is on the inner side, fill rule included.
 struct edge_function {
-    std::int64_t origin;  ///< E at pixel (0, 0) of the box it was set up for
+    std::int64_t origin;  ///< E at the first pixel of the box it was set up for
     std::int64_t dx, dy;  ///< per pixel to the right and down
 
     /// The edge from a to b of a clockwise triangle, at the pixels right of and below (x, y).
-    static edge_function through(const screen_vertex& a, const screen_vertex& b, const pixel_grid& grid, int x, int y) {
-        const std::int64_t run = std::int64_t{b.x} - a.x, rise = std::int64_t{b.y} - a.y;
+    static edge_function through(const screen_vertex& a, const screen_vertex& b, const pixel_grid& grid, int x, int y,
+                                 bool compact) {
+        const std::int64_t run = b.x - a.x, rise = b.y - a.y;
+        const std::int64_t right = grid.center(x) - a.x, down = grid.center(y) - a.y;
         const bool top_left = rise < 0 || (rise == 0 && run > 0);
-        const std::int64_t e = run * (grid.center(y) - a.y) - rise * (grid.center(x) - a.x) - (top_left ? 0 : 1);
+        const std::int64_t inner = top_left ? 0 : -1;
         // A pixel is 2^s units wide, so E changes by multiples of 2^s and its sign survives the shift.
-        return {e >> grid.subpixel_bits, -rise, run};
+        if (compact) return {(compact_side(run, rise, right, down) + inner) >> grid.subpixel_bits, -rise, run};
+        return {(wide_side(run, rise, right, down) + int128::from(inner)).shifted_down(grid.subpixel_bits), -rise, run};
     }
 
     /// Whether E fits 32 bits everywhere in a box of that size.
     bool is_narrow(int width, int height) const {
         const auto size = [](std::int64_t v) { return v < 0 ? -v : v; };
-        return size(origin) + size(dx) * width + size(dy) * height < (std::int64_t{1} << 31);
-    }
-};
-
-/// z(x, y) over a triangle, anchored at a pixel of its own, so that the value doesn't depend on tiles.
-/// Kept within the range of the three corners: slivers can't reach out.
-struct depth_plane {
-    float value, dx, dy;
-    int x, y;
-    float lowest, highest;
-
-    /// `area` is doubled_area(a, b, c), not zero.
-    static depth_plane through(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
-                               std::int64_t area, const pixel_grid& grid) {
-        const double unit = static_cast<double>(1 << grid.subpixel_bits);
-        const double scale = unit / static_cast<double>(area);
-        const double b_rise = static_cast<double>(b.z) - static_cast<double>(a.z);
-        const double c_rise = static_cast<double>(c.z) - static_cast<double>(a.z);
-        const auto difference = [](std::int32_t to, std::int32_t from) {
-            return static_cast<double>(std::int64_t{to} - from);
-        };
-        const double dx = scale * (b_rise * difference(c.y, a.y) - c_rise * difference(b.y, a.y));
-        const double dy = scale * (c_rise * difference(b.x, a.x) - b_rise * difference(c.x, a.x));
-        const int x = a.x >> grid.subpixel_bits, y = a.y >> grid.subpixel_bits;
-        const double value = static_cast<double>(a.z) + dx * (static_cast<double>(grid.center(x) - a.x) / unit) +
-                             dy * (static_cast<double>(grid.center(y) - a.y) / unit);
-        const auto [lowest, highest] = std::minmax({a.z, b.z, c.z});
-        return {static_cast<float>(value), static_cast<float>(dx), static_cast<float>(dy), x, y, lowest, highest};
+        constexpr std::int64_t most = std::int64_t{1} << 31;
+        return size(dx) < most && size(dy) < most && -most < origin && origin < most &&
+               size(origin) + size(dx) * width + size(dy) * height < most;
     }
 
-    /// The same sequence of operations as the pixel kernel's, hence the same bits.
-    float at(int px, int py) const {
-        const float z = (value + dy * static_cast<float>(py - y)) + dx * static_cast<float>(px - x);
-        const float raised = z > lowest ? z : lowest;
-        return raised < highest ? raised : highest;
+    /// The same decision for the pixels of a box of that size, in numbers as small as they can be: where E has one
+    /// sign, only the sign is kept. Else E is below 2^62 all over a tile, however far away the edge's ends are.
+    edge_function simplified(int width, int height) const {
+        const std::int64_t across = dx * (width - 1), along = dy * (height - 1);
+        const std::int64_t falls = (std::min<std::int64_t>)(across, 0) + (std::min<std::int64_t>)(along, 0);
+        const std::int64_t rises = (std::max<std::int64_t>)(across, 0) + (std::max<std::int64_t>)(along, 0);
+        if (origin >= -falls) return {0, 0, 0};
+        if (origin < -rises) return {-1, 0, 0};
+        return *this;
     }
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END

@@ -16,6 +16,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// What a vertex callable receives.
@@ -81,9 +83,9 @@ INSONIFY_INLINE auto varyings_at(const S& shader, const vertex& v) {
         return shader(v).varyings;
 }
 
-/// The mean of three values by weights, float by float.
+/// The mean of three values by weights, float by float, each rounded once.
 template <class V>
-INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::vec3& weights) {
+INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3& weights) {
     if constexpr (std::is_empty_v<V>) {
         return a;
     } else {
@@ -92,7 +94,10 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::vec3& 
         const auto fb = std::bit_cast<floats>(b);
         const auto fc = std::bit_cast<floats>(c);
         floats sum;
-        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = fa[i] * weights.x + fb[i] * weights.y + fc[i] * weights.z;
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] =
+                static_cast<float>(static_cast<double>(fa[i]) * weights.x + static_cast<double>(fb[i]) * weights.y +
+                                   static_cast<double>(fc[i]) * weights.z);
         return std::bit_cast<V>(sum);
     }
 }
@@ -121,3 +126,5 @@ concept fragment_shader = requires(const S& shader, const fragment<Varyings>& f)
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

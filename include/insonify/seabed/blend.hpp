@@ -6,6 +6,8 @@
 #include <insonify/seabed/ripples.hpp>
 #include <insonify/seabed/rock.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::seabed {
 
 /// The recipes of a single type.
@@ -116,3 +118,5 @@ class blend_sampler {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

@@ -11,6 +11,8 @@
 
 #include <array>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::seabed::detail {
 
 /// One size class of blocks. Continuous; walls no steeper than `steepness`.
@@ -104,3 +106,5 @@ class block_layer {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed::detail
+
+INSONIFY_ARITHMETIC_END

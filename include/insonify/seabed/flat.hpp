@@ -3,6 +3,8 @@
 
 #include <insonify/seabed/noise.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::seabed {
 
 class flat_sampler;
@@ -41,3 +43,5 @@ inline float flat::operator()(double x, double y) const {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

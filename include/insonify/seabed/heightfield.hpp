@@ -2,12 +2,14 @@
 #pragma once
 
 #include <insonify/core/image.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/seabed/recipe.hpp>
 
-#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
@@ -66,7 +68,8 @@ struct heightfield {
     /// Unit normal of the triangle at a world position; outside, that of the nearest one. NaN where there is no data.
     glm::vec3 normal_at(double x, double y) const {
         const detail::facet f = facet_at(x, y);
-        return glm::vec3(glm::normalize(glm::dvec3(-f.rise_x, -f.rise_y, spacing)));
+        const glm::dvec3 normal(-f.rise_x, -f.rise_y, spacing);
+        return glm::vec3(normal / numeric::square_root(numeric::dot(normal, normal)));
     }
 
     /// Type at the nearest vertex.
@@ -139,3 +142,5 @@ inline heightfield from_image(image_view<const float> picture, double spacing, f
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

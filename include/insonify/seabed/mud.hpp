@@ -3,6 +3,8 @@
 
 #include <insonify/seabed/noise.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::seabed {
 
 class mud_sampler;
@@ -92,3 +94,5 @@ inline float mud::operator()(double x, double y) const {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

@@ -15,6 +15,8 @@
 #include <cstdint>
 #include <vector>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::seabed {
 
 namespace detail {
@@ -223,3 +225,5 @@ class power_law_noise {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

@@ -14,6 +14,8 @@
 #include <utility>
 #include <variant>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::seabed {
 
 /// What the bottom is made of, as a label and for the backscatter law.
@@ -138,3 +140,5 @@ float height_at(const S& prepared, double x, double y) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

@@ -16,6 +16,8 @@
 
 #include <array>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::seabed {
 
 class ripples_sampler;
@@ -239,3 +241,5 @@ inline float ripples::operator()(double x, double y) const {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

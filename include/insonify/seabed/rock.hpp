@@ -3,6 +3,8 @@
 
 #include <insonify/seabed/blocks.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::seabed {
 
 class rock_sampler;
@@ -92,3 +94,5 @@ inline float rock::operator()(double x, double y) const {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

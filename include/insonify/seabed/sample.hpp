@@ -4,6 +4,8 @@
 #include <insonify/core/executor.hpp>
 #include <insonify/seabed/heightfield.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::seabed {
 
 /// Where to sample: vertex (i, j) at origin + spacing * (i, j), metres in the world.
@@ -59,3 +61,5 @@ heightfield sample(const Recipe& source, const grid& where, Executor&& ex = seri
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

@@ -5,6 +5,8 @@
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/seabed/heightfield.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::seabed {
 
 namespace detail {
@@ -96,3 +98,5 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

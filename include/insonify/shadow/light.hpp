@@ -11,6 +11,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::shadow {
 
 /// Light from infinitely far away.
@@ -53,3 +55,5 @@ class light_frame {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow
+
+INSONIFY_ARITHMETIC_END

@@ -12,7 +12,7 @@
 #include <insonify/shadow/map.hpp>
 #include <insonify/shadow/policy.hpp>
 
-#include <glm/geometric.hpp>
+INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::shadow {
 
@@ -35,7 +35,7 @@ struct receiver {
         const double along = facet.x * travel.x + facet.y * travel.y;
         const double across = facet.y * travel.x - facet.x * travel.y;
         const double facing = facet.z - along * frame.cot_elevation();
-        faces_light = facing > 0 && facing * facing > grazed * grazed * glm::dot(facet, facet);
+        faces_light = facing > 0 && facing * facing > grazed * grazed * numeric::dot(facet, facet);
         if (faces_light) {
             slope_u = -along / facing;
             slope_v = -across / facing;
@@ -100,3 +100,5 @@ inline float lit(const height_map& map, const receiver& r, const pcf& how) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow
+
+INSONIFY_ARITHMETIC_END

@@ -11,6 +11,8 @@
 
 #include <limits>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::shadow {
 
 /// A rectangle of the light's frame and the heights that count within it.
@@ -108,7 +110,7 @@ class height_map {
         glm::mat3 axes;
         for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame_(to_world.offset + to_world.linear[i])) - zero);
         const glm::vec3 start(zero);
-        const auto place = [=](const vertex& v) { return glm::vec4(axes * v.position + start, 1.0f); };
+        const auto place = [=](const vertex& v) { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); };
         return draw(m, place, depth_target{heights_}, {.keep = keep_depth::larger}, ex);
     }
 
@@ -137,3 +139,5 @@ class height_map {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow
+
+INSONIFY_ARITHMETIC_END

@@ -5,6 +5,8 @@
 
 #include <concepts>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// What a surface is made of, as far as a picture shows it.
@@ -30,3 +32,5 @@ struct lambert_backscatter {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -5,6 +5,8 @@
 #include <insonify/shadow/lookup.hpp>
 #include <insonify/sonar/labels.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI::detail {
 
 /// How much light arrives at a point, and who stops the rest.
@@ -27,7 +29,7 @@ struct placed_mesh {
     affine to_rig;
     glm::mat3 normals;  ///< takes normals along
 
-    placed_mesh(const mesh& m, const affine& map) : shape(&m), to_rig(map), normals(cofactors(map.linear)) {}
+    placed_mesh(const mesh& m, const affine& map) : shape(&m), to_rig(map), normals(numeric::cofactors(map.linear)) {}
 };
 
 /// The maps of all casters of a scene.
@@ -84,3 +86,5 @@ class shadow_maps {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdint>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// A rectangle of pixels: left, top, width and height, as COCO writes boxes.
@@ -107,3 +109,5 @@ inline void describe_targets(labels& l, const std::vector<target>& targets) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

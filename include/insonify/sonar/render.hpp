@@ -8,6 +8,8 @@
 #include <insonify/sonar/illumination.hpp>
 #include <insonify/sonar/rig.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// Asks for no labels: none are stored or computed.
@@ -93,29 +95,33 @@ class overhead_painter {
         // for what it misses.
         const double whole_picture = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
         const double farthest = std::is_same_v<Shadow, shadow::none> ? 0 : whole_picture;
-        include_heights(seabed::sample(scene_.seabed, footprint(0, 0, farthest, 4 * spacing), ex), 0.25f);
+        const auto sample = [&](seabed::grid grid) {
+            bottom_origin_ = grid.origin;
+            grid.origin += rig.position;
+            return seabed::sample(scene_.seabed, grid, ex);
+        };
+        include_heights(sample(footprint(0, 0, farthest, 4 * spacing)), 0.25f);
         const double reach = static_cast<double>(highest_ - lowest_) * view_.light().cot_elevation();
-        field_ = seabed::sample(scene_.seabed,
-                                footprint(static_cast<double>(lowest_), static_cast<double>(highest_),
-                                          (std::min)(reach, farthest), spacing),
-                                ex);
+        field_ = sample(footprint(static_cast<double>(lowest_), static_cast<double>(highest_),
+                                  (std::min)(reach, farthest), spacing));
         include_heights(field_, 0);
         bottom_ = seabed::tessellate(field_, ex);
         out_.stats.seabed_columns = field_.heights.width();
         out_.stats.seabed_rows = field_.heights.height();
     }
 
-    /// A grid under the picture of a bottom between two heights, longer by `reach` metres towards the light.
+    /// A grid under the picture of a bottom between two heights, longer by `reach` metres towards the light; its origin
+    /// is relative to the rig's position, so that far from the world's origin no bit of it changes.
     seabed::grid footprint(double low, double high, double reach, double spacing) const {
         const glm::dmat3& turn = view_.rig_from({}).linear;
         const glm::dvec2& travel = view_.light().travel();
-        const glm::dvec2 up_light = -reach * glm::dvec2(glm::dvec3(travel, 0) * turn);  // v * M turns back
-        glm::dvec2 first = view_.rig().position, last = first;
+        const glm::dvec2 up_light = -reach * glm::dvec2(numeric::product(glm::transpose(turn), glm::dvec3(travel, 0)));
+        glm::dvec2 first(0), last(0);
         for (int right : {-1, 1})
             for (int up : {-1, 1})
                 for (double height : {low, high})
                     for (const glm::dvec2& shift : {glm::dvec2(0), up_light}) {
-                        const glm::dvec2 p = view_.world_corner(height, right, up) + shift;
+                        const glm::dvec2 p = view_.corner(height, right, up) + shift;
                         first = {(std::min)(first.x, p.x), (std::min)(first.y, p.y)};
                         last = {(std::max)(last.x, p.x), (std::max)(last.y, p.y)};
                     }
@@ -140,7 +146,8 @@ class overhead_painter {
     }
 
     placed_mesh bottom_in_rig() const {
-        return {bottom_, view_.rig_from({glm::dmat3(1), glm::dvec3(field_.origin, 0)})};
+        const affine under_rig = view_.rig_from({glm::dmat3(1), glm::dvec3(view_.rig().position, 0)});
+        return {bottom_, compose(under_rig, {glm::dmat3(1), glm::dvec3(bottom_origin_, 0)})};
     }
 
     /// All rays of the light that reach something which the picture may show.
@@ -192,8 +199,9 @@ class overhead_painter {
         const glm::mat3 linear(object.to_rig.linear);
         const glm::vec3 offset(object.to_rig.offset);
         const auto place = [&, linear, offset](const vertex& v) {
-            const glm::vec3 position = linear * v.position + offset;
-            return placed_vertex<surface_point>{view_.clip(position), {position, object.normals * v.normal}};
+            const glm::vec3 position = numeric::product(linear, v.position) + offset;
+            return placed_vertex<surface_point>{view_.clip(position),
+                                                {position, numeric::product(object.normals, v.normal)}};
         };
         return draw(*object.shape, place, fragment_callable, framebuffer<void>{depth_},
                     {.keep = keep_depth::larger, .load = load, .tile = options_.tile, .level = options_.level}, ex);
@@ -211,7 +219,7 @@ class overhead_painter {
         const glm::uvec3& t = object.shape->triangles[f.triangle];
         const glm::vec3& a = object.shape->positions[t.x];
         const glm::vec3 ab = object.shape->positions[t.y] - a, ac = object.shape->positions[t.z] - a;
-        return object.normals * glm::cross(f.front ? ab : ac, f.front ? ac : ab);
+        return numeric::product(object.normals, numeric::cross(f.front ? ab : ac, f.front ? ac : ab));
     }
 
     template <class Shadows>
@@ -245,6 +253,7 @@ class overhead_painter {
     frame<Labels> out_;
     seabed::heightfield field_;
     mesh bottom_;
+    glm::dvec2 bottom_origin_{};      ///< of the field, from the rig's position
     float lowest_ = 0, highest_ = 0;  ///< of the bottom
     std::vector<placed_mesh> targets_;
 };
@@ -267,3 +276,5 @@ frame<Labels> render(const scene& s, const overhead& rig, const render_options<S
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -7,6 +7,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// Camera and light over a point of the sea floor. Image up is forward, image right is starboard; the light comes from
@@ -57,7 +59,7 @@ class overhead_geometry {
         const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
         right_ = {cosine, sine};
         rig_from_world_.linear = {{cosine, -sine, 0}, {sine, cosine, 0}, {0, 0, 1}};
-        rig_from_world_.offset = -(rig_from_world_.linear * glm::dvec3(rig.position, 0));
+        rig_from_world_.offset = -numeric::product(rig_from_world_.linear, glm::dvec3(rig.position, 0));
     }
 
     const overhead& rig() const { return rig_; }
@@ -66,7 +68,8 @@ class overhead_geometry {
     /// From world to rig frame. Applied to an object's own map first, it takes large coordinates away exactly.
     affine rig_from(const affine& world_from_object) const {
         const glm::dvec3 relative = world_from_object.offset - glm::dvec3(rig_.position, 0);
-        return {rig_from_world_.linear * world_from_object.linear, rig_from_world_.linear * relative};
+        return {numeric::product(rig_from_world_.linear, world_from_object.linear),
+                numeric::product(rig_from_world_.linear, relative)};
     }
 
     /// Half of what the picture shows at a height above the datum, metres.
@@ -77,11 +80,11 @@ class overhead_geometry {
     /// Metres on level ground at the datum from one pixel to the next.
     double ground_sampling() const { return 2 * half_extent(0).x / rig_.size.x; }
 
-    /// The picture's corners at a height, in the world.
-    glm::dvec2 world_corner(double height, int right, int up) const {
+    /// The picture's corners at a height, from the rig's position and along the world's axes.
+    glm::dvec2 corner(double height, int right, int up) const {
         const glm::dvec2 half = half_extent(height);
         const glm::dvec2 p{right * half.x, up * half.y};
-        return rig_.position + glm::dvec2(p.x * right_.x - p.y * right_.y, p.x * right_.y + p.y * right_.x);
+        return {p.x * right_.x - p.y * right_.y, p.x * right_.y + p.y * right_.x};
     }
 
     /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
@@ -105,3 +108,5 @@ class overhead_geometry {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

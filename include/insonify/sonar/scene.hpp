@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+INSONIFY_ARITHMETIC_BEGIN
+
 namespace insonify::inline INSONIFY_ABI {
 
 /// An object with a class of its own.
@@ -72,3 +74,5 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

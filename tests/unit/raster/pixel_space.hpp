@@ -13,6 +13,8 @@ namespace testing_raster {
 
 namespace in = insonify;
 
+__extension__ using wide_float = __float128;
+
 /// Vertices are (x, y, z): pixels from the top left corner, and depth. Exact where the size is a power of two.
 struct pixel_space {
     int width, height;
@@ -50,27 +52,71 @@ inline int most(const in::image<int>& count) {
     return largest;
 }
 
+/// Where a clip position lies, in pixels from the top left corner.
+inline glm::dvec2 on_screen(const glm::dvec4& clip, int width, int height) {
+    return {clip.x / clip.w * width / 2 + width / 2.0, -(clip.y / clip.w) * height / 2 + height / 2.0};
+}
+
 /// Whether a pixel's centre belongs to a triangle by the top-left rule: 128-bit integers on positions rounded to
 /// 2^-bits pixels (ties to even), every pixel tested by itself. Shares no code with the rasterizer.
-inline bool oracle_covers(const glm::dvec2 (&corner)[3], int px, int py, int bits) {
+class oracle {
+  public:
+    oracle(const glm::dvec2 (&corner)[3], int bits) : bits_(bits) {
+        for (int i = 0; i < 3; ++i) {
+            x_[i] = static_cast<wide>(std::nearbyint(std::ldexp(corner[i].x, bits)));
+            y_[i] = static_cast<wide>(std::nearbyint(std::ldexp(corner[i].y, bits)));
+        }
+        area_ = (x_[1] - x_[0]) * (y_[2] - y_[0]) - (y_[1] - y_[0]) * (x_[2] - x_[0]);
+    }
+
+    bool covers(int px, int py) const {
+        if (area_ == 0) return false;
+        const wide cx = static_cast<wide>(2 * px + 1) << (bits_ - 1), cy = static_cast<wide>(2 * py + 1) << (bits_ - 1);
+        for (int i = 0; i < 3; ++i) {
+            const int j = area_ > 0 ? (i + 1) % 3 : (i + 2) % 3;  // walk clockwise on the screen
+            const wide dx = x_[j] - x_[i], dy = y_[j] - y_[i];
+            const wide side = dx * (cy - y_[i]) - dy * (cx - x_[i]);
+            const bool top = dy == 0 && dx > 0, left = dy < 0;
+            if (side < 0 || (side == 0 && !top && !left)) return false;
+        }
+        return true;
+    }
+
+    /// z(px, py) of the plane through the corners, to 113 bits.
+    wide_float depth(int px, int py, const double (&z)[3]) const {
+        wide_float sum = 0;
+        for (int i = 0; i < 3; ++i) sum += share(i, px, py) * static_cast<wide_float>(z[i]);
+        return sum / static_cast<wide_float>(area_);
+    }
+
+    /// The same for a value that is linear in space: its mean, weighted by shares over w.
+    template <class Values>
+    wide_float varying(int px, int py, const Values& value, const wide_float (&inverse_w)[3]) const {
+        wide_float sum = 0, weights = 0;
+        for (int i = 0; i < 3; ++i) {
+            const wide_float weight = share(i, px, py) * inverse_w[i];
+            sum += weight * static_cast<wide_float>(value[static_cast<std::size_t>(i)]);
+            weights += weight;
+        }
+        return sum / weights;
+    }
+
+  private:
     __extension__ using wide = __int128;
-    const double unit = std::ldexp(1.0, bits);
-    wide x[3], y[3];
-    for (int i = 0; i < 3; ++i) {
-        x[i] = static_cast<wide>(std::nearbyint(corner[i].x * unit));
-        y[i] = static_cast<wide>(std::nearbyint(corner[i].y * unit));
+
+    /// The part of the area that is opposite to a corner.
+    wide_float share(int corner, int px, int py) const {
+        const wide cx = static_cast<wide>(2 * px + 1) << (bits_ - 1), cy = static_cast<wide>(2 * py + 1) << (bits_ - 1);
+        const int j = (corner + 1) % 3, k = (corner + 2) % 3;
+        return static_cast<wide_float>((x_[k] - x_[j]) * (cy - y_[j]) - (y_[k] - y_[j]) * (cx - x_[j]));
     }
-    const wide cx = (static_cast<wide>(2 * px + 1)) << (bits - 1), cy = (static_cast<wide>(2 * py + 1)) << (bits - 1);
-    const wide area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
-    if (area == 0) return false;
-    for (int i = 0; i < 3; ++i) {
-        const int j = area > 0 ? (i + 1) % 3 : (i + 2) % 3;  // walk clockwise on the screen
-        const wide dx = x[j] - x[i], dy = y[j] - y[i];
-        const wide side = dx * (cy - y[i]) - dy * (cx - x[i]);
-        const bool top = dy == 0 && dx > 0, left = dy < 0;
-        if (side < 0 || (side == 0 && !top && !left)) return false;
-    }
-    return true;
+
+    int bits_;
+    wide x_[3], y_[3], area_;
+};
+
+inline bool oracle_covers(const glm::dvec2 (&corner)[3], int px, int py, int bits) {
+    return oracle(corner, bits).covers(px, py);
 }
 
 }  // namespace testing_raster

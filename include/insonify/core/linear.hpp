@@ -1,0 +1,50 @@
+// The products of vectors and matrices, written out: GLM's may be compiled with fused multiply-add, which rounds
+// differently, and then a picture would depend on the user's flags. Storage, sums and scalings stay GLM's.
+#pragma once
+
+#include <insonify/config.hpp>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::numeric {
+
+template <class T>
+T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class T>
+glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+    return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+
+/// m v, as GLM stores matrices: by columns.
+template <class T>
+glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::vec<3, T>& v) {
+    return {m[0].x * v.x + m[1].x * v.y + m[2].x * v.z, m[0].y * v.x + m[1].y * v.y + m[2].y * v.z,
+            m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
+}
+
+/// a b: first b, then a.
+template <class T>
+glm::mat<3, 3, T> product(const glm::mat<3, 3, T>& a, const glm::mat<3, 3, T>& b) {
+    return {product(a, b[0]), product(a, b[1]), product(a, b[2])};
+}
+
+/// det(m) times the inverse transpose: the map of area vectors, of the cross product of two edges.
+template <class T>
+glm::mat<3, 3, T> cofactors(const glm::mat<3, 3, T>& m) {
+    return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
+}
+
+template <class T>
+T determinant(const glm::mat<3, 3, T>& m) {
+    return dot(m[0], cross(m[1], m[2]));
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::numeric
+
+INSONIFY_ARITHMETIC_END

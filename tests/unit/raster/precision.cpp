@@ -1,0 +1,176 @@
+// Depth and varyings against the planes through the snapped corners, computed to 113 bits.
+#include <insonify/core/random.hpp>
+
+#include <array>
+#include <cstdio>
+
+#include "../../catch.hpp"
+#include "pixel_space.hpp"
+
+namespace in = insonify;
+using namespace testing_raster;
+
+namespace {
+
+constexpr int size = 64;  // pixels a side
+
+/// A triangle in clip space with a varying.
+struct clip_triangle {
+    std::array<glm::vec4, 3> clip;
+    std::array<float, 3> varying;
+};
+
+/// What came out, and how far from the truth.
+struct errors {
+    std::uint64_t samples = 0;
+    std::uint64_t wrong_depths = 0;  ///< not the nearest float
+    double varying = 0;              ///< largest error, in units in the last place of the largest corner's value
+
+    void measure(const clip_triangle& t, int bits, in::keep_depth keep) {
+        const in::mesh m{std::vector<glm::vec3>(3), {}, {{0, 1, 2}}};
+        const auto place = [&](const in::vertex& v) {
+            return in::placed_vertex<float>{t.clip[v.index], t.varying[v.index]};
+        };
+        glm::dvec2 corner[3];
+        double z[3];
+        wide_float inverse_w[3];
+        float largest = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec4 clip(t.clip[i]);
+            corner[i] = on_screen(clip, size, size);
+            z[i] = clip.z / clip.w;
+            inverse_w[i] = 1 / static_cast<wide_float>(clip.w);
+            largest = (std::max)(largest, std::abs(t.varying[i]));
+        }
+        const oracle truth(corner, bits);
+        const double last_place = static_cast<double>(std::nextafter(largest, 2 * largest) - largest);
+        in::image<float> depth(size, size);
+        in::draw(m, place,
+                 [&](const in::fragment<float>& f) {
+                     ++samples;
+                     wrong_depths += f.depth != static_cast<float>(truth.depth(f.x, f.y, z));
+                     const wide_float off =
+                         static_cast<wide_float>(f.varyings) - truth.varying(f.x, f.y, t.varying, inverse_w);
+                     varying = (std::max)(varying, std::abs(static_cast<double>(off)) / last_place);
+                 },
+                 in::framebuffer<void>{depth}, {.keep = keep, .load = in::depth_load::clear, .subpixel_bits = bits});
+    }
+};
+
+/// Triangles of the classes in which depth goes wrong elsewhere.
+struct any_triangle {
+    in::random_sequence random;
+
+    glm::dvec2 ndc(double spread) {
+        const double x = random.uniform(-spread, spread);
+        return {x, random.uniform(-spread, spread)};
+    }
+    /// @param w_ratio  of the largest to the smallest w that may come up
+    clip_triangle operator()(int kind, double w_ratio) {
+        const glm::dvec2 base = ndc(1), along = ndc(1);
+        clip_triangle t;
+        for (std::size_t i = 0; i < 3; ++i) {
+            glm::dvec2 p = ndc(1.2);                                                   // large
+            if (kind == 1) p = base + ndc(0.12);                                       // a few pixels
+            if (kind == 2) p = base + random.uniform(-1.5, 1.5) * along + ndc(0.004);  // slivers
+            if (kind == 3) p = base + ndc(40);                                         // much larger than the picture
+            const double w = in::numeric::pow(w_ratio, random.uniform(-0.5, 0.5));
+            // Reversed depth of something at distance w; or anything, where w says nothing.
+            const double z = w_ratio > 1 ? 1e-6 : random.uniform();
+            t.clip[i] = glm::vec4(p.x * w, p.y * w, z, w);
+            t.varying[i] = static_cast<float>(random.uniform(-1, 1));
+        }
+        return t;
+    }
+};
+
+void check_precision(std::uint64_t seed, int count, bool print) {
+    static const char* const kinds[] = {"large", "of a few pixels", "slivers", "beyond the picture"};
+    for (const double w_ratio : {1.0, 10.0, 1e5, 1e9})  // 1e9: from a millimetre to a thousand kilometres
+        for (int kind = 0; kind < 4; ++kind) {
+            any_triangle triangle{in::random_sequence(seed, static_cast<std::uint32_t>(kind))};
+            errors found;
+            for (int i = 0; i < count * (kind == 1 || kind == 2 ? 16 : 1); ++i)
+                found.measure(triangle(kind, w_ratio), i % 2 == 0 ? 8 : 16,
+                              w_ratio > 1 ? in::keep_depth::larger : in::keep_depth::smaller);
+            INFO("seed " << seed << ", triangles " << kinds[kind] << ", w ratio " << w_ratio);
+            CHECK(found.samples > 500);
+            CHECK(found.wrong_depths == 0);
+            CHECK(found.varying <= 0.501);
+            if (print)
+                std::printf(
+                    "w ratio %-7g triangles %-20s %10llu pixels, %llu depths not the nearest, varying %.4f ulp\n",
+                    w_ratio, kinds[kind], static_cast<unsigned long long>(found.samples),
+                    static_cast<unsigned long long>(found.wrong_depths), found.varying);
+        }
+}
+
+}  // namespace
+
+TEST_CASE("Depth is the float nearest to the plane, varyings are within half a unit in the last place") {
+    check_precision(1, 120, false);
+}
+
+TEST_CASE("Ten million depths are the nearest floats", "[.slow]") {
+    check_precision(2, 3000, true);
+}
+
+TEST_CASE("Of two surfaces the nearer wins wherever their depths differ as floats") {
+    in::random_sequence random(3);
+    in::image<float> depth(size, size);
+    int wrong = 0, contested = 0;
+    for (int n = 0; n < 300; ++n) {
+        // Two sheets over the whole picture that cross each other under a tiny angle.
+        const double apart = in::numeric::pow(10, random.uniform(-9, -5));
+        in::mesh m{{}, {}, {{0, 1, 2}, {3, 4, 5}}};
+        const glm::dvec2 outline[3] = {{-80, -10}, {150, -20}, {20, 190}};
+        glm::dvec2 corner[2][3];
+        double z[2][3];
+        for (int sheet = 0; sheet < 2; ++sheet)
+            for (int i = 0; i < 3; ++i) {
+                const glm::dvec2 p = outline[i] + glm::dvec2(random.uniform(-5, 5), random.uniform(-5, 5));
+                const double height = 0.4 + 1e-3 * p.x - 5e-4 * p.y + (sheet == 1 ? apart * random.uniform(-1, 1) : 0);
+                m.positions.push_back(glm::vec3(p, height));
+                const glm::vec4 clip = pixel_space{size, size}({m.positions.back(), {}, 0});
+                corner[sheet][i] = on_screen(glm::dvec4(clip), size, size);
+                z[sheet][i] = static_cast<double>(clip.z);
+            }
+        const oracle first(corner[0], 8), second(corner[1], 8);
+        in::draw(m, pixel_space{size, size},
+                 [&](const auto& f) {
+                     const auto a = static_cast<float>(first.depth(f.x, f.y, z[0]));
+                     const auto b = static_cast<float>(second.depth(f.x, f.y, z[1]));
+                     wrong += f.triangle != (b < a ? 1u : 0u);
+                     contested += std::abs(a - b) <= 4e-7f;
+                 },
+                 in::framebuffer<void>{depth}, {.load = in::depth_load::clear});
+    }
+    CHECK(wrong == 0);
+    CHECK(contested > 1000);
+}
+
+TEST_CASE("A ground seen at a tenth of a degree keeps its depths in order") {
+    // 1 m above level ground that reaches from 1 m to 10 km, where it is seen at 0.006 degrees; reversed depth.
+    const auto along = [](const in::vertex& v) {
+        return in::placed_vertex<glm::vec2>{{v.position.x, v.position.z - 1, 0.01f, v.position.y},
+                                            {v.position.x, v.position.y}};
+    };
+    const in::mesh m{{{-2e4f, 1, 0}, {2e4f, 1, 0}, {-2e4f, 1e4f, 0}, {2e4f, 1e4f, 0}}, {}, {{0, 1, 3}, {0, 3, 2}}};
+    in::image<float> depth(3, 8192);
+    int seen = 0;
+    double worst = 0;
+    in::draw(m, along,
+             [&](const in::fragment<glm::vec2>& f) {
+                 ++seen;
+                 // z / w = 0.01 / y, and where a pixel's ray meets the ground: y = 1 / (its slope).
+                 const double slope = (f.y + 0.5) / 4096 - 1;
+                 worst = (std::max)({worst, std::abs(static_cast<double>(f.depth) / (0.01 * slope) - 1),
+                                     std::abs(static_cast<double>(f.varyings.y) * slope - 1)});
+             },
+             in::framebuffer<void>{depth},
+             {.keep = in::keep_depth::larger, .load = in::depth_load::clear, .subpixel_bits = 16});
+    CHECK(seen == 3 * 4096);  // all rows below the horizon
+    // The horizon's row is half a pixel below it; snapping moves an edge by 2^-17 pixels of that.
+    CHECK(worst < 1e-4);
+    for (int y = 4098; y < 8192; ++y) CHECK(depth(1, y) > depth(1, y - 1));
+}
