@@ -16,7 +16,8 @@
 #error "insonify needs C++20: compile with -std=c++20 (or /std:c++20) or newer."
 #endif
 
-#if defined(__FAST_MATH__)
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "insonify promises the same bytes everywhere and cannot keep that under -ffast-math: compile without it."
 #endif
 

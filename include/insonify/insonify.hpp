@@ -4,11 +4,14 @@
 #include <insonify/accuracy/metrics.hpp>
 #include <insonify/config.hpp>
 #include <insonify/core/dispatch.hpp>
+#include <insonify/core/double_double.hpp>
 #include <insonify/core/error.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/core/image.hpp>
 #include <insonify/core/image_view.hpp>
+#include <insonify/core/int128.hpp>
 #include <insonify/core/lanes.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/quantize.hpp>
 #include <insonify/core/random.hpp>
@@ -39,7 +42,9 @@
 #include <insonify/raster/assembly.hpp>
 #include <insonify/raster/binning.hpp>
 #include <insonify/raster/clip.hpp>
+#include <insonify/raster/depth.hpp>
 #include <insonify/raster/draw.hpp>
+#include <insonify/raster/fold.hpp>
 #include <insonify/raster/framebuffer.hpp>
 #include <insonify/raster/setup.hpp>
 #include <insonify/raster/shader.hpp>

@@ -47,7 +47,8 @@
 #error "insonify needs C++20: compile with -std=c++20 (or /std:c++20) or newer."
 #endif
 
-#if defined(__FAST_MATH__)
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "insonify promises the same bytes everywhere and cannot keep that under -ffast-math: compile without it."
 #endif
 
@@ -620,6 +621,142 @@ void dispatch(const Kernel& kernel, isa level) {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/core/int128.hpp ------------------------------------------------------------------
+// Integers of 128 bits, as far as exact geometry far from the picture needs them: products of two 64-bit numbers, their
+// sums, and what can be asked of those. Two's complement in two halves, so that every compiler has them.
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+struct int128 {
+    std::int64_t high = 0;
+    std::uint64_t low = 0;
+
+    static constexpr int128 from(std::int64_t value) { return {value < 0 ? -1 : 0, static_cast<std::uint64_t>(value)}; }
+
+    static constexpr int128 product(std::int64_t a, std::int64_t b) {
+        const bool negative = (a < 0) != (b < 0);
+        const std::uint64_t x = size(a), y = size(b);
+        const std::uint64_t x0 = x & half, x1 = x >> 32, y0 = y & half, y1 = y >> 32;
+        const std::uint64_t middle = x1 * y0 + ((x0 * y0) >> 32);
+        const std::uint64_t carry = x0 * y1 + (middle & half);
+        const int128 result{static_cast<std::int64_t>(x1 * y1 + (middle >> 32) + (carry >> 32)), x * y};
+        return negative ? -result : result;
+    }
+
+    constexpr int128 operator-() const {
+        const std::uint64_t flipped = ~low + 1;
+        return {static_cast<std::int64_t>(~static_cast<std::uint64_t>(high) + (flipped == 0 ? 1u : 0u)), flipped};
+    }
+    friend constexpr int128 operator+(const int128& a, const int128& b) {
+        const std::uint64_t sum = a.low + b.low;
+        return {static_cast<std::int64_t>(static_cast<std::uint64_t>(a.high) + static_cast<std::uint64_t>(b.high) +
+                                          (sum < a.low ? 1u : 0u)),
+                sum};
+    }
+    friend constexpr int128 operator-(const int128& a, const int128& b) { return a + -b; }
+
+    /// -1, 0 or 1.
+    constexpr int sign() const { return high < 0 ? -1 : (high > 0 || low > 0) ? 1 : 0; }
+
+    /// Divided by 2^bits, 0 < bits < 64, rounded down; what does not fit 64 bits becomes the end of their range.
+    constexpr std::int64_t shifted_down(int bits) const {
+        constexpr auto top = (std::numeric_limits<std::int64_t>::max)();
+        constexpr auto bottom = (std::numeric_limits<std::int64_t>::min)();
+        const std::int64_t rest = high >> (bits - 1);
+        if (rest > 0) return top;
+        if (rest < -1) return bottom;
+        return static_cast<std::int64_t>((static_cast<std::uint64_t>(high) << (64 - bits)) | (low >> bits));
+    }
+
+  private:
+    static constexpr std::uint64_t half = 0xFFFFFFFFu;
+    static constexpr std::uint64_t size(std::int64_t v) {
+        return v < 0 ? ~static_cast<std::uint64_t>(v) + 1 : static_cast<std::uint64_t>(v);
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+// ------------ insonify/core/double_double.hpp -----------------------------------------------------------
+// Numbers of twice a double's precision, as the unevaluated sum of two: for the few pixels whose depth a double can't
+// round with certainty. Relative error of each operation below 2^-100.
+//
+// This work is based on:
+// T. J. Dekker. A Floating-Point Technique for Extending the Available Precision. 1971
+// Jonathan R. Shewchuk. Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates. 1997
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+struct double_double {
+    double high = 0, low = 0;
+
+    /// a + b exactly.
+    static double_double sum(double a, double b) {
+        const double s = a + b, part = s - a;
+        return {s, (a - (s - part)) + (b - part)};
+    }
+    /// a b exactly, |a|, |b| < 2^995.
+    static double_double product(double a, double b) {
+        const double p = a * b;
+        const auto [a1, a0] = halves(a);
+        const auto [b1, b0] = halves(b);
+        return {p, ((a1 * b1 - p) + a1 * b0 + a0 * b1) + a0 * b0};
+    }
+    static double_double from(const int128& value) {
+        constexpr double word = 0x1p32;
+        const auto part = [](std::uint64_t bits) { return static_cast<double>(bits & 0xFFFFFFFFu); };
+        const double_double upper = sum(static_cast<double>(value.high >> 32) * (word * word * word),
+                                        part(static_cast<std::uint64_t>(value.high)) * (word * word));
+        return upper + (sum(part(value.low >> 32) * word, part(value.low)));
+    }
+
+    friend double_double operator+(const double_double& a, const double_double& b) {
+        const double_double s = sum(a.high, b.high), t = sum(a.low, b.low);
+        const double_double u = quick_sum(s.high, s.low + t.high);
+        return quick_sum(u.high, u.low + t.low);
+    }
+    friend double_double operator*(const double_double& a, double b) {
+        const double_double p = product(a.high, b);
+        return quick_sum(p.high, p.low + a.low * b);
+    }
+    friend double_double operator/(const double_double& a, const double_double& b) {
+        const double q1 = a.high / b.high;
+        const double_double r1 = a + b * -q1;
+        const double q2 = r1.high / b.high;
+        const double_double r2 = r1 + b * -q2;
+        return quick_sum(q1, q2) + double_double{r2.high / b.high, 0};
+    }
+
+    /// The nearest float. Rounding the upper half to odd first keeps the lower one's say in ties.
+    float to_float() const {
+        auto bits = std::bit_cast<std::uint64_t>(high);
+        if (low != 0 && (bits & 1) == 0) bits += (low > 0) == (high > 0) ? 1u : ~std::uint64_t{0};
+        return static_cast<float>(std::bit_cast<double>(bits));
+    }
+
+  private:
+    /// a + b exactly if |a| >= |b|.
+    static double_double quick_sum(double a, double b) {
+        const double s = a + b;
+        return {s, b - (s - a)};
+    }
+    struct parts {
+        double upper, lower;
+    };
+    /// Twenty-six bits each, so that products of halves are exact.
+    static parts halves(double a) {
+        const double c = 134217729.0 * a;
+        const double upper = c - (c - a);
+        return {upper, a - upper};
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/core/executor.hpp ----------------------------------------------------------------
 // Who runs the loops. An executor is an argument, serial by default; the library starts no thread of its own.
 
@@ -853,6 +990,55 @@ INSONIFY_INLINE void count_up(lanes<T, N>& into) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/core/linear.hpp ------------------------------------------------------------------
+// The products of vectors and matrices, written out: GLM's may be compiled with fused multiply-add, which rounds
+// differently, and then a picture would depend on the user's flags. Storage, sums and scalings stay GLM's.
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::numeric {
+
+template <class T>
+T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class T>
+glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+    return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+
+/// m v, as GLM stores matrices: by columns.
+template <class T>
+glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::vec<3, T>& v) {
+    return {m[0].x * v.x + m[1].x * v.y + m[2].x * v.z, m[0].y * v.x + m[1].y * v.y + m[2].y * v.z,
+            m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
+}
+
+/// a b: first b, then a.
+template <class T>
+glm::mat<3, 3, T> product(const glm::mat<3, 3, T>& a, const glm::mat<3, 3, T>& b) {
+    return {product(a, b[0]), product(a, b[1]), product(a, b[2])};
+}
+
+/// det(m) times the inverse transpose: the map of area vectors, of the cross product of two edges.
+template <class T>
+glm::mat<3, 3, T> cofactors(const glm::mat<3, 3, T>& m) {
+    return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
+}
+
+template <class T>
+T determinant(const glm::mat<3, 3, T>& m) {
+    return dot(m[0], cross(m[1], m[2]));
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::numeric
 
 INSONIFY_ARITHMETIC_END
 
@@ -2127,8 +2313,6 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/geometry/mesh.hpp ----------------------------------------------------------------
 // Triangles as plain data: what builders and importers make, and what everything downstream draws.
 
-#include <glm/vec3.hpp>
-
 namespace insonify::inline INSONIFY_ABI {
 
 /// An indexed triangle mesh. Counter-clockwise triangles face the viewer; positions are metres in the mesh's own frame.
@@ -2470,54 +2654,6 @@ inline mesh to_mesh(const capsule& shape) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/core/linear.hpp ------------------------------------------------------------------
-// The products of vectors and matrices, written out: GLM's may be compiled with fused multiply-add, which rounds
-// differently, and then a picture would depend on the user's flags. Storage, sums and scalings stay GLM's.
-
-#include <glm/mat3x3.hpp>
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::numeric {
-
-template <class T>
-T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-template <class T>
-glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
-    return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
-}
-
-/// m v, as GLM stores matrices: by columns.
-template <class T>
-glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::vec<3, T>& v) {
-    return {m[0].x * v.x + m[1].x * v.y + m[2].x * v.z, m[0].y * v.x + m[1].y * v.y + m[2].y * v.z,
-            m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
-}
-
-/// a b: first b, then a.
-template <class T>
-glm::mat<3, 3, T> product(const glm::mat<3, 3, T>& a, const glm::mat<3, 3, T>& b) {
-    return {product(a, b[0]), product(a, b[1]), product(a, b[2])};
-}
-
-/// det(m) times the inverse transpose: the map of area vectors, of the cross product of two edges.
-template <class T>
-glm::mat<3, 3, T> cofactors(const glm::mat<3, 3, T>& m) {
-    return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
-}
-
-template <class T>
-T determinant(const glm::mat<3, 3, T>& m) {
-    return dot(m[0], cross(m[1], m[2]));
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::numeric
 
 INSONIFY_ARITHMETIC_END
 
@@ -3691,62 +3827,6 @@ void write_netpbm(const std::string& path, const image<Pixel>& source) {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/core/int128.hpp ------------------------------------------------------------------
-// Integers of 128 bits, as far as exact geometry far from the picture needs them: products of two 64-bit numbers, their
-// sums, and what can be asked of those. Two's complement in two halves, so that every compiler has them.
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-struct int128 {
-    std::int64_t high = 0;
-    std::uint64_t low = 0;
-
-    static constexpr int128 from(std::int64_t value) { return {value < 0 ? -1 : 0, static_cast<std::uint64_t>(value)}; }
-
-    static constexpr int128 product(std::int64_t a, std::int64_t b) {
-        const bool negative = (a < 0) != (b < 0);
-        const std::uint64_t x = size(a), y = size(b);
-        const std::uint64_t x0 = x & half, x1 = x >> 32, y0 = y & half, y1 = y >> 32;
-        const std::uint64_t middle = x1 * y0 + ((x0 * y0) >> 32);
-        const std::uint64_t carry = x0 * y1 + (middle & half);
-        const int128 result{static_cast<std::int64_t>(x1 * y1 + (middle >> 32) + (carry >> 32)), x * y};
-        return negative ? -result : result;
-    }
-
-    constexpr int128 operator-() const {
-        const std::uint64_t flipped = ~low + 1;
-        return {static_cast<std::int64_t>(~static_cast<std::uint64_t>(high) + (flipped == 0 ? 1u : 0u)), flipped};
-    }
-    friend constexpr int128 operator+(const int128& a, const int128& b) {
-        const std::uint64_t sum = a.low + b.low;
-        return {static_cast<std::int64_t>(static_cast<std::uint64_t>(a.high) + static_cast<std::uint64_t>(b.high) +
-                                          (sum < a.low ? 1u : 0u)),
-                sum};
-    }
-    friend constexpr int128 operator-(const int128& a, const int128& b) { return a + -b; }
-
-    /// -1, 0 or 1.
-    constexpr int sign() const { return high < 0 ? -1 : (high > 0 || low > 0) ? 1 : 0; }
-
-    /// Divided by 2^bits, 0 < bits < 64, rounded down; what does not fit 64 bits becomes the end of their range.
-    constexpr std::int64_t shifted_down(int bits) const {
-        constexpr auto top = (std::numeric_limits<std::int64_t>::max)();
-        constexpr auto bottom = (std::numeric_limits<std::int64_t>::min)();
-        const std::int64_t rest = high >> (bits - 1);
-        if (rest > 0) return top;
-        if (rest < -1) return bottom;
-        return static_cast<std::int64_t>((static_cast<std::uint64_t>(high) << (64 - bits)) | (low >> bits));
-    }
-
-  private:
-    static constexpr std::uint64_t half = 0xFFFFFFFFu;
-    static constexpr std::uint64_t size(std::int64_t v) {
-        return v < 0 ? ~static_cast<std::uint64_t>(v) + 1 : static_cast<std::uint64_t>(v);
-    }
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
-
 // ------------ insonify/raster/framebuffer.hpp -----------------------------------------------------------
 // Where a draw leaves its results. The type says which attachments there are; what is absent is not compiled.
 
@@ -3918,8 +3998,9 @@ struct edge_function {
     /// sign, only the sign is kept. Else E is below 2^62 all over a tile, however far away the edge's ends are.
     edge_function simplified(int width, int height) const {
         const std::int64_t across = dx * (width - 1), along = dy * (height - 1);
-        const std::int64_t falls = (std::min<std::int64_t>)(across, 0) + (std::min<std::int64_t>)(along, 0);
-        const std::int64_t rises = (std::max<std::int64_t>)(across, 0) + (std::max<std::int64_t>)(along, 0);
+        constexpr std::int64_t none = 0;
+        const std::int64_t falls = (std::min)(across, none) + (std::min)(along, none);
+        const std::int64_t rises = (std::max)(across, none) + (std::max)(along, none);
         if (origin >= -falls) return {0, 0, 0};
         if (origin < -rises) return {-1, 0, 0};
         return *this;
@@ -4126,86 +4207,6 @@ class projection {
     double compact_x_, compact_y_;  ///< |x| / w and |y| / w up to which vertices are compact
     double widest_x_, widest_y_;    ///< and up to which they are not clipped
     double sign_;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/core/double_double.hpp -----------------------------------------------------------
-// Numbers of twice a double's precision, as the unevaluated sum of two: for the few pixels whose depth a double can't
-// round with certainty. Relative error of each operation below 2^-100.
-//
-// This work is based on:
-// T. J. Dekker. A Floating-Point Technique for Extending the Available Precision. 1971
-// Jonathan R. Shewchuk. Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates. 1997
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-struct double_double {
-    double high = 0, low = 0;
-
-    /// a + b exactly.
-    static double_double sum(double a, double b) {
-        const double s = a + b, part = s - a;
-        return {s, (a - (s - part)) + (b - part)};
-    }
-    /// a b exactly, |a|, |b| < 2^995.
-    static double_double product(double a, double b) {
-        const double p = a * b;
-        const auto [a1, a0] = halves(a);
-        const auto [b1, b0] = halves(b);
-        return {p, ((a1 * b1 - p) + a1 * b0 + a0 * b1) + a0 * b0};
-    }
-    static double_double from(const int128& value) {
-        constexpr double word = 0x1p32;
-        const auto part = [](std::uint64_t bits) { return static_cast<double>(bits & 0xFFFFFFFFu); };
-        const double_double upper = sum(static_cast<double>(value.high >> 32) * (word * word * word),
-                                        part(static_cast<std::uint64_t>(value.high)) * (word * word));
-        return upper + (sum(part(value.low >> 32) * word, part(value.low)));
-    }
-
-    friend double_double operator+(const double_double& a, const double_double& b) {
-        const double_double s = sum(a.high, b.high), t = sum(a.low, b.low);
-        const double_double u = quick_sum(s.high, s.low + t.high);
-        return quick_sum(u.high, u.low + t.low);
-    }
-    friend double_double operator*(const double_double& a, double b) {
-        const double_double p = product(a.high, b);
-        return quick_sum(p.high, p.low + a.low * b);
-    }
-    friend double_double operator/(const double_double& a, const double_double& b) {
-        const double q1 = a.high / b.high;
-        const double_double r1 = a + b * -q1;
-        const double q2 = r1.high / b.high;
-        const double_double r2 = r1 + b * -q2;
-        return quick_sum(q1, q2) + double_double{r2.high / b.high, 0};
-    }
-
-    /// The nearest float. Rounding the upper half to odd first keeps the lower one's say in ties.
-    float to_float() const {
-        auto bits = std::bit_cast<std::uint64_t>(high);
-        if (low != 0 && (bits & 1) == 0) bits += (low > 0) == (high > 0) ? 1u : ~std::uint64_t{0};
-        return static_cast<float>(std::bit_cast<double>(bits));
-    }
-
-  private:
-    /// a + b exactly if |a| >= |b|.
-    static double_double quick_sum(double a, double b) {
-        const double s = a + b;
-        return {s, b - (s - a)};
-    }
-    struct parts {
-        double upper, lower;
-    };
-    /// Twenty-six bits each, so that products of halves are exact.
-    static parts halves(double a) {
-        const double c = 134217729.0 * a;
-        const double upper = c - (c - a);
-        return {upper, a - upper};
-    }
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail

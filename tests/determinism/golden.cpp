@@ -1,11 +1,11 @@
-// Hashes of everything the library computes, printed one line each: every build of this program must print the same.
-// `golden [executor threads]...` adds the same scenes drawn on a pool of that many threads.
+// Hashes of what the library computes, one line each: golden.txt holds them, and every build of this program must print
+// the same. Within a build, a scene has one hash for every number of threads, tile size and instruction set; the
+// program says which differ and fails.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 
 #include <cstdio>
-#include <cstdlib>
-#include <string>
+#include <limits>
 
 namespace in = insonify;
 using namespace in::literals;
@@ -33,6 +33,8 @@ struct hash {
     }
 };
 
+bool all_equal = true;
+
 void print(const char* name, const hash& h) {
     std::printf("%-24s %016llx\n", name, static_cast<unsigned long long>(h.value));
 }
@@ -47,35 +49,40 @@ in::scene scene_over(in::seabed::any seabed) {
     return scene;
 }
 
-in::seabed::any blended() {
-    return in::seabed::blend{};
-}
-
 template <class Shadow, class E>
-void render(const char* name, const in::scene& scene, const in::overhead& rig, E& executor) {
-    for (const int tile : {16, 64, 128})
-        for (const in::isa level : {in::isa::scalar, in::isa::baseline, in::best_isa()}) {
-            in::render_options<Shadow> options;
-            options.tile = tile;
-            options.level = level;
-            const auto frame = in::render(scene, rig, options, executor);
-            hash h;
-            h.add(frame.image);
-            h.add(frame.labels.instance);
-            h.add(frame.labels.shadow);
-            h.add(frame.labels.seabed);
-            print(name, h);
-        }
+hash hash_of(const in::scene& scene, const in::overhead& rig, int tile, in::isa level, E& executor) {
+    in::render_options<Shadow> options;
+    options.tile = tile;
+    options.level = level;
+    const auto frame = in::render(scene, rig, options, executor);
+    hash h;
+    h.add(frame.image);
+    h.add(frame.labels.instance);
+    h.add(frame.labels.shadow);
+    h.add(frame.labels.seabed);
+    return h;
 }
 
-template <class E>
-void render_all(E& executor) {
+/// One scene by every way there is to draw it.
+template <class Shadow>
+void render(const char* name, const in::seabed::any& seabed) {
     const in::overhead rig{.position = {3.7, -1.2}, .altitude = 5, .yaw = 0.4f, .size = {200, 150}, .grazing = 7_deg};
-    render<in::shadow::pcf>("flat, pcf", scene_over(in::seabed::flat{}), rig, executor);
-    render<in::shadow::map>("ripples, map", scene_over(in::seabed::ripples{}), rig, executor);
-    render<in::shadow::none>("mud, no shadow", scene_over(in::seabed::mud{}), rig, executor);
-    render<in::shadow::pcf>("rock, pcf", scene_over(in::seabed::rock{}), rig, executor);
-    render<in::shadow::pcf>("blend, pcf", scene_over(blended()), rig, executor);
+    const in::scene scene = scene_over(seabed);
+    in::serial_executor serial;
+    const hash expected = hash_of<Shadow>(scene, rig, 64, in::isa::scalar, serial);
+    print(name, expected);
+    const auto compare = [&](int threads, int tile, in::isa level, auto& executor) {
+        if (hash_of<Shadow>(scene, rig, tile, level, executor).value == expected.value) return;
+        std::fprintf(stderr, "%s differs with %d threads, tiles of %d, instruction set %d\n", name, threads, tile,
+                     static_cast<int>(level));
+        all_equal = false;
+    };
+    for (const in::isa level : {in::isa::scalar, in::isa::baseline, in::best_isa()})
+        for (const int tile : {8, 16, 64, 256}) compare(0, tile, level, serial);
+    for (const int threads : {1, 2, 3, 8, 16}) {
+        in::thread_pool pool(threads);
+        compare(threads, 32, in::best_isa(), pool);
+    }
 }
 
 void geometry() {
@@ -106,15 +113,44 @@ void filters() {
     show("copper", in::colormap::copper);
 }
 
+/// A heap of triangles of all sizes, some of them far outside, behind the camera or not finite.
+void triangles() {
+    in::random_sequence random(9);
+    in::mesh m;
+    for (std::uint32_t i = 0; i < 600; ++i) {
+        const double size = in::numeric::pow(10, random.uniform(-3, random.below(8) == 0 ? 7 : 0));
+        const glm::dvec3 middle{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.2, 3)};
+        for (int k = 0; k < 3; ++k)
+            m.positions.emplace_back(
+                middle + size * glm::dvec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+        m.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    }
+    m.positions[77].y = std::numeric_limits<float>::quiet_NaN();
+    const auto place = [](const in::vertex& v) {
+        return in::placed_vertex<glm::vec3>{{v.position.x, v.position.y, 0.05f, v.position.z}, v.position};
+    };
+    for (const int bits : {8, 16}) {
+        in::image<glm::vec3> color(160, 120);
+        in::image<float> depth(160, 120);
+        in::draw(m, place, [](const auto& f) { return f.varyings; }, in::framebuffer<glm::vec3>{color, depth},
+                 {.keep = in::keep_depth::larger, .load = in::depth_load::clear, .subpixel_bits = bits});
+        hash h;
+        h.add(color);
+        h.add(depth);
+        print(bits == 8 ? "triangles, 8 bits" : "triangles, 16 bits", h);
+    }
+}
+
 }  // namespace
 
-int main(int argc, char** argv) {
+int main() {
     geometry();
     filters();
-    in::serial_executor serial;
-    render_all(serial);
-    for (int i = 1; i < argc; ++i) {
-        in::thread_pool pool(static_cast<unsigned>(std::atoi(argv[i])));
-        render_all(pool);
-    }
+    triangles();
+    render<in::shadow::pcf>("flat, pcf", in::seabed::flat{});
+    render<in::shadow::map>("ripples, map", in::seabed::ripples{});
+    render<in::shadow::none>("mud, no shadow", in::seabed::mud{});
+    render<in::shadow::pcf>("rock, pcf", in::seabed::rock{});
+    render<in::shadow::pcf>("blend, pcf", in::seabed::blend{});
+    return all_equal ? 0 : 1;
 }

@@ -33,7 +33,16 @@ BANNED_NAMES = {
     r"\b(min|max)\b(?!\))": "is a macro in somebody's headers: write (std::min)(a, b)",
     r"\b(?:std|glm)::(?:a?(?:sin|cos|tan)h?|atan2|exp2?|expm1|log(?:2|10|1p)?|pow|hypot|cbrt|erfc?|[tl]gamma)\b":
         "differs between C libraries: use insonify::numeric",
+    r"\bglm::(?:dot|cross|length|distance|normalize|determinant|inverse|mix|reflect)\b":
+        "may be compiled with fused multiply-add: use insonify::numeric",
     r"\bglm::(?:perspective|ortho|frustum|lookAt)\w*\b": "changes its meaning with the user's macros",
+}
+
+# Headers that compute nothing with floats; all others forbid fused multiply-add.
+NO_ARITHMETIC = {
+    UMBRELLA, "version.hpp", "config.hpp", "core/error.hpp", "core/executor.hpp", "core/image.hpp", "core/image_view.hpp",
+    "core/int128.hpp", "core/thread_pool.hpp", "geometry/mesh.hpp", "io/file.hpp", "io/manifest.hpp", "io/png.hpp",
+    "raster/framebuffer.hpp", "seabed/any.hpp", "shadow/policy.hpp",
 }
 
 MOST_LINES = 400
@@ -91,6 +100,9 @@ def faults(header, path):
         yield 1, "the first line says what the file is for"
     if "#pragma once" not in lines:
         yield 1, "no #pragma once"
+    brackets = [line for line in lines if re.fullmatch("INSONIFY_ARITHMETIC_(BEGIN|END)", line)]
+    if brackets != ([] if header in NO_ARITHMETIC else ["INSONIFY_ARITHMETIC_BEGIN", "INSONIFY_ARITHMETIC_END"]):
+        yield len(lines), "INSONIFY_ARITHMETIC_BEGIN and _END stand around whatever computes with floats, and only there"
     if len(lines) > MOST_LINES:
         yield len(lines), f"{len(lines)} lines, at most {MOST_LINES}: one concept per file"
     for number, (line, code) in enumerate(zip(lines, code_of(text).splitlines()), 1):

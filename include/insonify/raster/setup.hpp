@@ -136,8 +136,9 @@ struct edge_function {
     /// sign, only the sign is kept. Else E is below 2^62 all over a tile, however far away the edge's ends are.
     edge_function simplified(int width, int height) const {
         const std::int64_t across = dx * (width - 1), along = dy * (height - 1);
-        const std::int64_t falls = (std::min<std::int64_t>)(across, 0) + (std::min<std::int64_t>)(along, 0);
-        const std::int64_t rises = (std::max<std::int64_t>)(across, 0) + (std::max<std::int64_t>)(along, 0);
+        constexpr std::int64_t none = 0;
+        const std::int64_t falls = (std::min)(across, none) + (std::min)(along, none);
+        const std::int64_t rises = (std::max)(across, none) + (std::max)(along, none);
         if (origin >= -falls) return {0, 0, 0};
         if (origin < -rises) return {-1, 0, 0};
         return *this;

@@ -1,0 +1,102 @@
+// The arithmetic behind exact geometry: 128-bit integers, numbers of twice a double's precision, products of vectors.
+#include <insonify/core/double_double.hpp>
+#include <insonify/core/linear.hpp>
+#include <insonify/core/random.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+using in::detail::double_double;
+using in::detail::int128;
+
+namespace {
+
+__extension__ using wide = __int128;
+__extension__ using wide_float = __float128;
+
+wide value(const int128& v) {
+    return static_cast<wide>(v.high) * (static_cast<wide>(1) << 64) + static_cast<wide>(v.low);
+}
+wide_float value(const double_double& v) {
+    return static_cast<wide_float>(v.high) + static_cast<wide_float>(v.low);
+}
+
+/// Integers of all sizes up to 2^62, and the ends of their range.
+struct any_integer {
+    in::random_sequence random{1};
+    std::int64_t operator()() {
+        const std::uint64_t bits =
+            (static_cast<std::uint64_t>(random.below(0xFFFFFFFFu)) << 32) | random.below(0xFFFFFFFFu);
+        const auto shifted = static_cast<std::int64_t>(bits) >> (1 + random.below(63));
+        return random.below(50) == 0 ? (shifted < 0 ? -(std::int64_t{1} << 62) : std::int64_t{1} << 62) : shifted;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("128-bit integers are the compiler's") {
+    any_integer any;
+    for (int n = 0; n < 100000; ++n) {
+        const std::int64_t a = any(), b = any(), c = any(), d = any();
+        const wide expected = static_cast<wide>(a) * b - static_cast<wide>(c) * d;
+        const int128 got = int128::product(a, b) - int128::product(c, d);
+        const int bits = 1 + static_cast<int>(any.random.below(63));
+        const wide shifted = expected >> bits;
+        constexpr wide top = (std::numeric_limits<std::int64_t>::max)(),
+                       bottom = (std::numeric_limits<std::int64_t>::min)();
+        const bool same = value(got) == expected && value(-got) == -expected && value(int128::from(a)) == a &&
+                          got.sign() == (expected > 0) - (expected < 0) &&
+                          got.shifted_down(bits) == (shifted > top      ? top
+                                                     : shifted < bottom ? bottom
+                                                                        : shifted);
+        INFO(a << " * " << b << " - " << c << " * " << d << ", shifted by " << bits);
+        if (!same) FAIL("differs");
+    }
+}
+
+TEST_CASE("Double doubles keep a hundred bits") {
+    any_integer any;
+    double worst = 0;
+    for (int n = 0; n < 100000; ++n) {
+        const int128 numerator = int128::product(any(), any()), denominator = int128::product(any(), 1 + (any() >> 40));
+        if (denominator.sign() == 0) continue;
+        const double factor = any.random.uniform(-1, 1);
+        const double_double quotient =
+            (double_double::from(numerator) * factor + double_double{factor, 0}) / double_double::from(denominator);
+        const wide_float expected = (static_cast<wide_float>(value(numerator)) * static_cast<wide_float>(factor) +
+                                     static_cast<wide_float>(factor)) /
+                                    static_cast<wide_float>(value(denominator));
+        if (expected == 0) continue;
+        worst = (std::max)(worst, std::abs(static_cast<double>((value(quotient) - expected) / expected)));
+        if (quotient.to_float() != static_cast<float>(expected)) FAIL("rounds differently");
+    }
+    CHECK(worst < 0x1p-98);
+}
+
+TEST_CASE("A double double rounds to the float that both halves say") {
+    // 1 + 2^-24 is the middle between two floats; a double alone would round to even.
+    const double middle = 1 + 0x1p-24;
+    CHECK(double_double{middle, 0}.to_float() == 1.0f);
+    CHECK(double_double{middle, 0x1p-60}.to_float() == 1.0f + 0x1p-23f);
+    CHECK(double_double{middle, -0x1p-60}.to_float() == 1.0f);
+    const double odd_middle = 1 + 0x1p-23 + 0x1p-24;
+    CHECK(double_double{odd_middle, 0}.to_float() == 1.0f + 0x1p-22f);
+    CHECK(double_double{odd_middle, -0x1p-60}.to_float() == 1.0f + 0x1p-23f);
+    CHECK(double_double{-middle, -0x1p-60}.to_float() == -1.0f - 0x1p-23f);
+}
+
+TEST_CASE("Products of vectors and matrices are GLM's, but for the last bit") {
+    const glm::dmat3 m(2, 0.5, -1, 3, 1, 4, -2, 7, 0.25);
+    const glm::dvec3 a(1, -2, 3), b(0.5, 4, -1);
+    CHECK(in::numeric::dot(a, b) == -10.5);
+    CHECK(in::numeric::cross(a, b) == glm::dvec3(-10, 2.5, 5));
+    CHECK(in::numeric::product(m, a) == glm::dvec3(-10, 19.5, -8.25));
+    CHECK(in::numeric::product(m, glm::dmat3(1)) == m);
+    CHECK(in::numeric::product(m, in::numeric::product(m, a)) == in::numeric::product(in::numeric::product(m, m), a));
+    CHECK(in::numeric::determinant(m) == -82.875);
+    const glm::dmat3 cofactors = in::numeric::cofactors(m);
+    for (int i = 0; i < 3; ++i) CHECK(in::numeric::dot(m[i], cofactors[i]) == in::numeric::determinant(m));
+}

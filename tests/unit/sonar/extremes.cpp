@@ -1,0 +1,119 @@
+// Rigs at the ends of their ranges: the picture is the one of ordinary dimensions, or changes as geometry says.
+#include <insonify/insonify.hpp>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+using namespace in::literals;
+
+namespace {
+
+in::scene level_bottom() {
+    in::scene scene;
+    scene.seabed = in::seabed::flat{.surface = {.rms = 0}};
+    return scene;
+}
+
+in::scene scene_at(const glm::dvec3& offset, double scale = 1) {
+    in::scene scene = level_bottom();
+    const auto size = static_cast<float>(scale);
+    scene.add(in::cylinder{.radius = 0.25f * size, .length = 2 * size},
+              {.position = offset + scale * glm::dvec3(-2, 0.5, 0.25), .yaw = 30_deg, .roll = 90_deg}, "cylinder");
+    scene.add(in::cube{.size = glm::vec3(0.8f * size)},
+              {.position = offset + scale * glm::dvec3(1, -2, 0.4), .yaw = 0.3f}, "cube");
+    return scene;
+}
+
+/// All pixels in which two frames differ by more than `tolerance`, or in a label.
+template <class Frame>
+int differences(const Frame& a, const Frame& b, float tolerance) {
+    int count = 0;
+    for (std::size_t i = 0; i < a.image.size(); ++i) {
+        const float off = a.image.pixels()[i] - b.image.pixels()[i];
+        count += !(off <= tolerance && off >= -tolerance) ||
+                 a.labels.instance.pixels()[i] != b.labels.instance.pixels()[i] ||
+                 a.labels.shadow.pixels()[i] != b.labels.shadow.pixels()[i];
+    }
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE("However far from the world's origin, the picture is the same to the bit") {
+    const in::overhead rig{.altitude = 5, .yaw = 0.4f, .size = {160, 120}};
+    const auto here = in::render(scene_at({0, 0, 0}), rig);
+    for (const double away : {1e3, 1e6, 1e7}) {
+        // Offsets in steps that doubles have at 1e7 m, so that the scene itself isn't rounded.
+        const glm::dvec3 offset(away, -0.75 * away, 0);
+        in::overhead there = rig;
+        there.position = glm::dvec2(offset);
+        const auto moved = in::render(scene_at(offset), there);
+        CHECK(moved.image == here.image);
+        CHECK(moved.labels.instance == here.labels.instance);
+        CHECK(moved.labels.shadow == here.labels.shadow);
+    }
+}
+
+TEST_CASE("From a millimetre and from ten kilometres up, a scene of that size looks the same") {
+    const in::overhead rig{.altitude = 5, .size = {160, 120}};
+    const auto ordinary = in::render(scene_at({0, 0, 0}), rig);
+    REQUIRE(ordinary.labels.targets.size() == 2);
+    for (const double altitude : {1e-3, 1e4}) {
+        in::overhead other = rig;
+        other.altitude = static_cast<float>(altitude);
+        const auto scaled = in::render(scene_at({0, 0, 0}, altitude / 5), other);
+        // The size of a target is rounded to float, which moves an edge by 1e-7 of a pixel.
+        INFO("altitude " << altitude);
+        CHECK(differences(ordinary, scaled, 1e-4f) <= 8);
+    }
+}
+
+TEST_CASE("Fields of view of a tenth of a degree and of 179 degrees") {
+    for (const double degrees : {0.1, 1.0, 90.0, 170.0, 179.0}) {
+        const in::overhead rig{
+            .altitude = 10, .field_of_view = static_cast<float>(in::numeric::to_radians(degrees)), .size = {128, 96}};
+        // A cube a quarter of the picture wide, right below.
+        const double half = in::overhead_geometry(rig).half_extent(0).x;
+        in::scene scene = level_bottom();
+        const auto side = static_cast<float>(half / 2);
+        const float height = (std::min)(0.01f * side, 1.0f);
+        scene.add(in::cube{.size = {side, side, height}}, {.position = {0, 0, height / 2}}, "cube");
+        const auto frame = in::render(scene, rig);
+        INFO("field of view " << degrees);
+        REQUIRE(frame.labels.targets.size() == 1);
+        // As wide as it is, but for what perspective adds to its top.
+        const double expected = 128.0 / 4 * 10 / (10 - static_cast<double>(height));
+        CHECK(static_cast<double>(frame.labels.targets[0].box.width) == Approx(expected).margin(1.01));
+        for (const float value : frame.image.pixels()) REQUIRE((value >= 0 && value <= 1));
+    }
+    CHECK_THROWS_AS(in::render({}, in::overhead{.field_of_view = 180_deg}), in::invalid_input);
+    CHECK_THROWS_AS(in::render({}, in::overhead{.field_of_view = 0}), in::invalid_input);
+}
+
+TEST_CASE("Light from a tenth of a degree to straight above") {
+    for (const double degrees : {0.1, 1.0, 45.0, 89.9, 90.0}) {
+        const in::overhead rig{
+            .altitude = 5, .size = {160, 120}, .grazing = static_cast<float>(in::numeric::to_radians(degrees))};
+        const auto frame = in::render(scene_at({0, 0, 0}), rig);
+        INFO("grazing " << degrees);
+        int dark = 0;
+        for (std::size_t i = 0; i < frame.image.size(); ++i) {
+            REQUIRE((frame.image.pixels()[i] >= 0 && frame.image.pixels()[i] <= 1));
+            dark += frame.labels.shadow.pixels()[i] != in::labels::is_lit;
+        }
+        // A shadow of h / tan(grazing), up to the picture's end.
+        if (degrees <= 1) CHECK(dark > 500);
+        if (degrees > 89) CHECK(dark < 120);
+    }
+}
+
+TEST_CASE("Pictures of any shape, of any scene") {
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(1, 300), glm::ivec2(300, 1), glm::ivec2(2047, 3)}) {
+        const auto frame = in::render(scene_at({0, 0, 0}), in::overhead{.altitude = 5, .size = size});
+        CHECK(frame.image.width() == size.x);
+        CHECK(frame.image.height() == size.y);
+        for (const float value : frame.image.pixels()) REQUIRE((value >= 0 && value <= 1));
+    }
+    const auto empty = in::render(level_bottom(), in::overhead{.size = {64, 64}});
+    for (const float value : empty.image.pixels()) CHECK(value == empty.image(0, 0));
+}
