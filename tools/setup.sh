@@ -18,6 +18,10 @@ stb           header:stb/stb_image_write.h|stb_image_write.h  libstb-dev    stb-
 cli11         header:CLI/CLI.hpp                      libcli11-dev          cli11-devel         cli11
 json          header:nlohmann/json.hpp                nlohmann-json3-dev    json-devel          nlohmann-json
 clang         command:clang++                         clang                 clang               llvm
+fuzzer        clang:-fsanitize=fuzzer                 libclang-rt-dev       compiler-rt         llvm
+egl           header:EGL/egl.h                        libegl-dev            mesa-libEGL-devel   mesa
+gles          header:GLES3/gl3.h                      libgles-dev           mesa-libGLES-devel  mesa
+llvmpipe      library:dri/swrast_dri.so               libgl1-mesa-dri       mesa-dri-drivers    mesa
 clang-format  command:clang-format                    clang-format          clang-tools-extra   clang-format
 '
 
@@ -25,13 +29,22 @@ clang-format  command:clang-format                    clang-format          clan
 present() {
     local kind=${1%%:*} candidates=${1#*:} candidate prefix
     for candidate in ${candidates//|/ }; do
-        if [ "$kind" = command ]; then
-            command -v "$candidate" >/dev/null && return 0
-        else
-            for prefix in /usr /usr/local /opt/homebrew /opt/local ${CMAKE_PREFIX_PATH:+${CMAKE_PREFIX_PATH//[:;]/ }}; do
-                [ -e "$prefix/include/$candidate" ] && return 0
-            done
-        fi
+        case $kind in
+            command) command -v "$candidate" >/dev/null && return 0 ;;
+            clang) # a flag, and the library behind it; the fuzzer brings main()
+                echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
+                    clang++ "$candidate" -x c++ - -o /dev/null 2>/dev/null && return 0
+                ;;
+            library)
+                compgen -G "/usr/lib*/$candidate" >/dev/null && return 0
+                compgen -G "/usr/lib*/*/$candidate" >/dev/null && return 0
+                ;;
+            *)
+                for prefix in /usr /usr/local /opt/homebrew /opt/local ${CMAKE_PREFIX_PATH:+${CMAKE_PREFIX_PATH//[:;]/ }}; do
+                    [ -e "$prefix/include/$candidate" ] && return 0
+                done
+                ;;
+        esac
     done
     return 1
 }

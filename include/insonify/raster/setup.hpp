@@ -55,12 +55,13 @@ struct pixel_grid {
     std::int64_t unit() const { return std::int64_t{1} << subpixel_bits; }
     std::int64_t half() const { return std::int64_t{1} << (subpixel_bits - 1); }
     std::int64_t center(int pixel) const { return pixel * unit() + half(); }
-    /// First and last pixel of an axis whose centre is within [low, high], as far as it is one of [-1, extent].
+    /// First and last pixel of an axis whose centre is within [low, high), as far as it is one of [-1, extent]: by the
+    /// fill rule no centre at the high end belongs.
     int first_center(std::int64_t low, int extent) const {
         return static_cast<int>(std::clamp<std::int64_t>((low + half() - 1) >> subpixel_bits, -1, extent));
     }
     int last_center(std::int64_t high, int extent) const {
-        return static_cast<int>(std::clamp<std::int64_t>((high - half()) >> subpixel_bits, -1, extent));
+        return static_cast<int>(std::clamp<std::int64_t>((high - half() - 1) >> subpixel_bits, -1, extent));
     }
     /// Pixels from the image's centre to where coordinates of so many bits end.
     double reach(int bits) const { return static_cast<double>(std::int64_t{1} << bits) / static_cast<double>(unit()); }

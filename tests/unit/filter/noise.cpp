@@ -193,6 +193,8 @@ TEMPLATE_TEST_CASE("the noise of a pixel depends on its place alone, not on the 
             if (y != 3 || (x != 3 && x != 4)) CHECK(cut(x, y) == large(x, y));
         }
     }
+    const auto column = in::image<float>(1, 29, 0.4f) | noise;
+    for (int y = 0; y < 29; ++y) CHECK(column(0, y) == large(0, y));
 }
 
 TEST_CASE("noise without variance clips and does no more") {

@@ -46,10 +46,11 @@ struct any_triangle {
             case 4: return on_grid(0.5);       // on the centres and corners of pixels
             case 5: return on_grid(1.0 / 16);  // on edges of each other
             case 6: return spread(-2000, 2000);
-            default: return past_the_picture(kind == 7 ? 1e5 : kind == 8 ? 1e7 : 3e9);
+            case 7: return through_centres();
+            default: return past_the_picture(kind == 8 ? 1e5 : kind == 9 ? 1e7 : 3e9);
         }
     }
-    static constexpr int kinds = 10;
+    static constexpr int kinds = 11;
 
   private:
     std::array<glm::dvec2, 3> around_a_point(std::array<glm::dvec2, 3> corners) {
@@ -63,6 +64,19 @@ struct any_triangle {
         for (glm::dvec2& corner : corners)
             corner = random.uniform(-length, length) * direction + pair_of([&] { return random.uniform(-0.2, 0.2); });
         return around_a_point(corners);
+    }
+    /// An edge exactly through the centres of pixels, its ends up to half a million pixels away.
+    std::array<glm::dvec2, 3> through_centres() {
+        const auto whole = [&](int low, int high) {
+            return static_cast<double>(low +
+                                       static_cast<int>(random.below(static_cast<std::uint32_t>(high - low + 1))));
+        };
+        const glm::dvec2 centre = 0.5 + pair_of([&] { return whole(0, size - 1); });
+        const glm::dvec2 step = pair_of([&] { return whole(-5, 5); });
+        const double away = random.below(2) == 0 ? 100 : 100000;
+        const glm::dvec2 third = 0.5 + pair_of([&] { return whole(-static_cast<int>(away), static_cast<int>(away)); });
+        return {centre + std::floor(random.uniform(0, away)) * step,
+                centre - std::floor(random.uniform(0, away)) * step, third};
     }
     /// Corners at most so far away, with an edge or two that pass through the picture.
     std::array<glm::dvec2, 3> past_the_picture(double distance) {

@@ -212,6 +212,28 @@ TEST_CASE("Every triangle is accounted for once") {
     CHECK(stats.drawn >= 2);  // {0, 2, 1}, and what is left of the clipped one
 }
 
+TEST_CASE("Clipped triangles keep their numbers, however many there are before them") {
+    // 20000 triangles in 200 x 100 cells of two pixels; every third one reaches behind the far plane, outside its cell.
+    const int width = 400, height = 200;
+    in::mesh m;
+    for (int cell = 0; cell < 20000; ++cell) {
+        const auto x = static_cast<float>(cell % 200 * 2), y = static_cast<float>(cell / 200 * 2);
+        const auto first = static_cast<std::uint32_t>(m.positions.size());
+        const float end = cell % 3 == 0 ? 3.0f : 0.5f;  // depth of the corner that may be cut off
+        m.positions.insert(m.positions.end(), {{x, y, 0.5f}, {x + 2, y, 0.5f}, {x, y + 2 * (end + 0.5f), end}});
+        m.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    in::image<std::uint32_t> winner(width, height);
+    in::image<float> depth(width, height);
+    const auto stats = in::draw(m, pixel_space{width, height}, [](const auto& f) { return f.triangle; },
+                                in::framebuffer<std::uint32_t>{winner, depth}, {.load = in::depth_load::clear});
+    CHECK(stats.clipped == 6667);
+    std::size_t wrong = 0;
+    for (std::uint32_t cell = 0; cell < 20000; ++cell)
+        wrong += winner(static_cast<int>(cell % 200 * 2), static_cast<int>(cell / 200 * 2)) != cell;
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("Facing follows the winding") {
     const in::mesh m{{{1, 1, 0}, {1, 6, 0}, {6, 1, 0}}, {}, {{0, 1, 2}}};  // counter-clockwise, y being down
     in::mesh back = m;
@@ -247,6 +269,13 @@ TEST_CASE("What can't be right is refused before a pixel changes") {
     REQUIRE_THROWS_WITH(in::draw(fine, place_only, in::depth_target{depth}, {.tile = 48}), ContainsSubstring("tile"));
     REQUIRE_THROWS_WITH(in::draw(fine, place_only, in::depth_target{depth}, {.subpixel_bits = 3}),
                         ContainsSubstring("subpixel_bits is 3"));
+    // A view of that many pixels which aren't there: nobody looks at them.
+    const auto wide = [&](int width) {
+        return in::depth_target{in::image_view<float>(depth.pixels().data(), width, 1)};
+    };
+    REQUIRE_THROWS_WITH(in::draw(fine, place_only, wide(16385), {.subpixel_bits = 16}),
+                        ContainsSubstring("target width is 16385"));
+    REQUIRE_THROWS_WITH(in::draw(fine, place_only, wide((1 << 22) + 1)), ContainsSubstring("target width is 4194305"));
     in::image<float> color(4, 5);
     REQUIRE_THROWS_WITH(in::draw(
                             fine, place_only, [](const auto&) { return 0.0f; }, in::framebuffer<float>{color, depth}),

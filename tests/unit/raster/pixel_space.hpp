@@ -82,6 +82,8 @@ class oracle {
         return true;
     }
 
+    bool is_clockwise() const { return area_ > 0; }
+
     /// z(px, py) of the plane through the corners, to 113 bits.
     wide_float depth(int px, int py, const double (&z)[3]) const {
         wide_float sum = 0;

@@ -65,15 +65,30 @@ struct any_triangle {
         const double x = random.uniform(-spread, spread);
         return {x, random.uniform(-spread, spread)};
     }
+    /// A few thousandths of a pixel wide and up to 10^5 pixels long, along a line through the centres of pixels.
+    std::array<glm::dvec2, 3> needle_through_centres() {
+        const auto whole = [&](int low, int high) {
+            return static_cast<double>(low +
+                                       static_cast<int>(random.below(static_cast<std::uint32_t>(high - low + 1))));
+        };
+        const glm::dvec2 centre(whole(0, size - 1) + 0.5, whole(0, size - 1) + 0.5), step(whole(-2, 2), whole(-2, 2));
+        const double away = in::numeric::pow(10, random.uniform(1, 5));
+        const auto on_line = [&] { return centre + std::floor(random.uniform(-away, away)) * step; };
+        const glm::dvec2 beside = centre + glm::dvec2(whole(-3, 3) / 256, whole(-3, 3) / 256);
+        const auto to_ndc = [](glm::dvec2 p) { return glm::dvec2(p.x / size * 2 - 1, 1 - p.y / size * 2); };
+        return {to_ndc(on_line()), to_ndc(on_line()), to_ndc(beside)};
+    }
     /// @param w_ratio  of the largest to the smallest w that may come up
     clip_triangle operator()(int kind, double w_ratio) {
         const glm::dvec2 base = ndc(1), along = ndc(1);
+        const std::array<glm::dvec2, 3> needle = needle_through_centres();
         clip_triangle t;
         for (std::size_t i = 0; i < 3; ++i) {
             glm::dvec2 p = ndc(1.2);                                                   // large
             if (kind == 1) p = base + ndc(0.12);                                       // a few pixels
             if (kind == 2) p = base + random.uniform(-1.5, 1.5) * along + ndc(0.004);  // slivers
             if (kind == 3) p = base + ndc(40);                                         // much larger than the picture
+            if (kind == 4) p = needle[i];
             const double w = in::numeric::pow(w_ratio, random.uniform(-0.5, 0.5));
             // Reversed depth of something at distance w; or anything, where w says nothing.
             const double z = w_ratio > 1 ? 1e-6 : random.uniform();
@@ -85,12 +100,12 @@ struct any_triangle {
 };
 
 void check_precision(std::uint64_t seed, int count, bool print) {
-    static const char* const kinds[] = {"large", "of a few pixels", "slivers", "beyond the picture"};
+    static const char* const kinds[] = {"large", "of a few pixels", "slivers", "beyond the picture", "needles"};
     for (const double w_ratio : {1.0, 10.0, 1e5, 1e9})  // 1e9: from a millimetre to a thousand kilometres
-        for (int kind = 0; kind < 4; ++kind) {
+        for (int kind = 0; kind < 5; ++kind) {
             any_triangle triangle{in::random_sequence(seed, static_cast<std::uint32_t>(kind))};
             errors found;
-            for (int i = 0; i < count * (kind == 1 || kind == 2 ? 16 : 1); ++i)
+            for (int i = 0; i < count * (kind == 1 || kind == 2 || kind == 4 ? 16 : 1); ++i)
                 found.measure(triangle(kind, w_ratio), i % 2 == 0 ? 8 : 16,
                               w_ratio > 1 ? in::keep_depth::larger : in::keep_depth::smaller);
             INFO("seed " << seed << ", triangles " << kinds[kind] << ", w ratio " << w_ratio);

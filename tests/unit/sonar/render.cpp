@@ -266,3 +266,36 @@ TEST_CASE("Pictures of one pixel and of odd shapes are drawn") {
         for (const float v : picture.image.pixels()) CHECK((v >= 0 && v <= 1));
     }
 }
+
+TEST_CASE("Where shadows of two targets overlap, the label is the first one's, and a dark side stays its neighbour's") {
+    in::scene s;
+    s.seabed = plane;
+    s.add(in::cube{.size = glm::vec3(0.4f)}, {.position = {-1.5, 0, 0.2}}, "near the light");
+    s.add(in::cube{.size = glm::vec3(0.2f)}, {.position = {0, 0, 0.1}}, "in its shadow");
+    const in::overhead rig{.altitude = 6, .field_of_view = 60_deg, .size = {400, 400}};
+    const auto labels = in::render(s, rig).labels;
+    const auto pixel = [&](double x, double z) {
+        const glm::dvec2 p = in::overhead_geometry(rig).pixel({x, 0, z});
+        return glm::ivec2(p);
+    };
+    const auto shadow_at = [&](double x, double z) { return labels.shadow(pixel(x, z).x, pixel(x, z).y); };
+    REQUIRE(shadow_at(-1, 0) == 1);
+    REQUIRE(labels.instance(pixel(0, 0.2).x, pixel(0, 0.2).y) == 2);
+    CHECK(shadow_at(0, 0.2) == 1);       // the second one's top
+    CHECK(shadow_at(0.4, 0) == 1);       // both keep this dark
+    CHECK(shadow_at(0.101, 0.05) == 1);  // its far side, which would be dark without the first
+}
+
+TEST_CASE("A sheet is as bright from behind as one that was wound the other way") {
+    const auto seen = [](std::vector<glm::uvec3> triangles) {
+        in::scene s;
+        s.seabed = plane;
+        s.add(in::mesh{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0.6f}, {-1, 1, 0.6f}}, {}, std::move(triangles)},
+              {.position = {0, 0, 0.5}, .yaw = 1}, "sheet");
+        return in::render(s, in::overhead{.altitude = 4, .field_of_view = 60_deg, .size = {64, 64}});
+    };
+    const auto front = seen({{0, 1, 2}, {0, 2, 3}}), back = seen({{0, 2, 1}, {0, 3, 2}});
+    CHECK(front.image == back.image);
+    CHECK(front.labels.instance == back.labels.instance);
+    CHECK(front.labels.targets[0].area > 500);
+}

@@ -1,0 +1,54 @@
+// What the fuzz targets share: bytes taken apart into numbers, and an end for whoever breaks a promise.
+#pragma once
+
+#include <insonify/core/image.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <span>
+
+namespace fuzzing {
+
+/// Takes numbers off the front. Past the end all are zero, so every prefix of an input is an input.
+class byte_reader {
+  public:
+    byte_reader(const std::uint8_t* data, std::size_t size) : rest_(data, size) {}
+
+    template <class T>
+    T take() {
+        T value{};
+        const std::size_t size = (std::min)(sizeof value, rest_.size());
+        std::copy_n(rest_.begin(), size, reinterpret_cast<std::uint8_t*>(&value));
+        rest_ = rest_.subspan(size);
+        return value;
+    }
+    /// 0 to count - 1, for count up to 256.
+    int below(int count) { return take<std::uint8_t>() % count; }
+
+  private:
+    std::span<const std::uint8_t> rest_;
+};
+
+/// Ends the program, which is how a fuzzer learns that it has found something.
+[[noreturn]] inline void fail(const char* promise) {
+    std::fprintf(stderr, "Broken promise: %s\n", promise);
+    std::abort();
+}
+inline void demand(bool holds, const char* promise) {
+    if (!holds) fail(promise);
+}
+
+/// NaN equals itself here, and zero isn't minus zero.
+template <class T>
+bool same_bytes(const insonify::image<T>& a, const insonify::image<T>& b) {
+    return a.width() == b.width() && a.height() == b.height() &&
+           (a.empty() || std::memcmp(a.pixels().data(), b.pixels().data(), a.size() * sizeof(T)) == 0);
+}
+
+}  // namespace fuzzing
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

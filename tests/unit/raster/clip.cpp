@@ -1,0 +1,95 @@
+// Triangles that are cut: what is left is what a ray would meet, and neighbours agree where their common edge is cut.
+#include <insonify/core/random.hpp>
+
+#include <bit>
+
+#include "../../catch.hpp"
+#include "pixel_space.hpp"
+
+namespace in = insonify;
+using namespace testing_raster;
+
+namespace {
+
+using in::detail::clip_polygon;
+
+const in::detail::projection to_screen(in::detail::pixel_grid{8, 64, 64}, in::keep_depth::smaller);
+
+glm::dvec4 any_position(in::random_sequence& random) {
+    const auto at = [&] { return random.uniform(-3, 3); };
+    glm::dvec4 p{at(), at(), at(), at()};
+    if (random.below(4) == 0) p *= 1e15;  // beyond the widest plane, too
+    return p;
+}
+
+/// The new corners that cutting left on the edge from vertex 0 to vertex 1 of a triangle.
+std::vector<glm::dvec4> cuts_of_first_edge(const clip_polygon& polygon) {
+    std::vector<glm::dvec4> cuts;
+    for (int i = 0; i < polygon.count; ++i) {
+        const auto& corner = polygon.corners[static_cast<std::size_t>(i)];
+        const bool is_new = corner.shares.x < 1 && corner.shares.y < 1;
+        if (corner.shares.z == 0 && is_new) cuts.push_back(corner.position);
+    }
+    return cuts;
+}
+
+}  // namespace
+
+TEST_CASE("Two triangles get the same bits where the edge that they share is cut, by however many planes") {
+    in::random_sequence random(3);
+    int cut_once = 0, cut_twice = 0;
+    for (int n = 0; n < 20000; ++n) {
+        const glm::dvec4 a = any_position(random), b = any_position(random);
+        const auto left = cuts_of_first_edge(to_screen.clip({a, b, any_position(random)}));
+        const auto right = cuts_of_first_edge(to_screen.clip({b, a, any_position(random)}));
+        if (left.size() != right.size()) continue;  // a plane has cut the edge away together with one third corner
+        cut_once += left.size() == 1;
+        cut_twice += left.size() == 2;
+        for (const glm::dvec4& cut : left) {
+            bool found = false;
+            for (const glm::dvec4& other : right) found |= cut == other;
+            if (!found) FAIL("pair " << n);
+        }
+    }
+    CHECK(cut_once > 1000);
+    CHECK(cut_twice > 300);
+}
+
+TEST_CASE("What is cut keeps its varyings, weights and depths") {
+    // Looking along y from the origin over a tilted plane z = 0.2 y - 1 that goes on behind the eye.
+    const auto along = [](const in::vertex& v) {
+        const glm::vec3& p = v.position;
+        return in::placed_vertex<glm::vec3>{{p.x, p.z, (p.y - 0.5f) * 1.25f, p.y}, p};
+    };
+    const in::mesh m{{{-40, -30, -7}, {45, -20, -5}, {3, 60, 11}}, {}, {{0, 1, 2}}};
+    in::image<float> depth(64, 64);
+    double worst = 0;
+    const auto stats = in::draw(
+        m, along,
+        [&](const in::fragment<glm::vec3>& f) {
+            const double right = (f.x + 0.5) / 32 - 1, up = 1 - (f.y + 0.5) / 32;
+            const double y = 1 / (0.2 - up);  // where the ray (right, 1, up) y meets the plane
+            const glm::dvec3 hit(right * y, y, up * y), off = glm::dvec3(f.varyings) - hit;
+            glm::dvec3 mean(0);
+            for (int i = 0; i < 3; ++i)
+                mean += static_cast<double>(f.weights[i]) * glm::dvec3(m.positions[static_cast<std::size_t>(i)]);
+            worst = (std::max)({worst, std::abs(off.x) / y, std::abs(off.y) / y, std::abs(mean.y - hit.y) / y,
+                                std::abs(static_cast<double>(f.depth) - (y - 0.5) * 1.25 / y)});
+        },
+        in::framebuffer<void>{depth}, {.load = in::depth_load::clear, .subpixel_bits = 16});
+    CHECK(stats.clipped == 1);
+    CHECK(stats.pixels > 500);
+    CHECK(worst < 3e-5);
+}
+
+TEST_CASE("Depth 0 and depth 1 are still visible, far corners or not") {
+    const float z = GENERATE(0.0f, 1.0f);
+    const float reach = GENERATE(1e2f, 1e8f);
+    const in::mesh m{{{-reach, -reach, z}, {reach, -reach, z}, {0, reach, z}}, {}, {{0, 1, 2}}};
+    const auto place = [](const in::vertex& v) { return glm::vec4(v.position, 1); };
+    in::image<float> depth(8, 8);
+    const auto stats = in::draw(m, place, in::depth_target{depth}, {.load = in::depth_load::clear});
+    CHECK(stats.drawn == 1);
+    CHECK(stats.clipped == 0);
+    for (const float d : depth.pixels()) CHECK(d == z);
+}

@@ -1,0 +1,111 @@
+// Polygons that rounding has folded over themselves, against a sum of triangles that an exact oracle has judged.
+#include <insonify/core/random.hpp>
+#include <insonify/raster/fold.hpp>
+
+#include "../../catch.hpp"
+#include "pixel_space.hpp"
+
+namespace in = insonify;
+using namespace testing_raster;
+
+namespace {
+
+constexpr int size = 24, bits = 4;  // a coarse grid folds often
+
+in::detail::clip_polygon polygon_of(const std::vector<glm::dvec2>& pixels) {
+    in::detail::clip_polygon polygon;
+    for (const glm::dvec2& p : pixels)
+        polygon.corners[static_cast<std::size_t>(polygon.count++)].position = {p.x / size * 2 - 1, 1 - p.y / size * 2,
+                                                                               0.5, 1};
+    return polygon;
+}
+
+/// A thin convex polygon: points in order around a flat ellipse.
+std::vector<glm::dvec2> thin_polygon(in::random_sequence& random) {
+    const int n = 4 + static_cast<int>(random.below(4));
+    const auto [sine, cosine] = in::numeric::sin_cos_turns(random.uniform());
+    const glm::dvec2 middle(random.uniform(4, 20), random.uniform(4, 20)),
+        along = random.uniform(2, 20) * glm::dvec2(cosine, sine),
+        across = random.uniform(0, 0.3) * glm::dvec2(-sine, cosine);
+    std::vector<glm::dvec2> points;
+    for (int i = 0; i < n; ++i) {
+        const auto [s, c] = in::numeric::sin_cos_turns((i + random.uniform()) / n);
+        points.push_back(middle + c * along + s * across);
+    }
+    return points;
+}
+
+}  // namespace
+
+TEST_CASE("The parts of a polygon cover what winds around more often one way than the other") {
+    in::random_sequence random(6);
+    const in::detail::pixel_grid grid{bits, size, size};
+    const in::detail::projection to_screen(grid, in::keep_depth::smaller);
+    int folded = 0, covered = 0;
+    for (int n = 0; n < 4000; ++n) {
+        const auto points = thin_polygon(random);
+        const in::detail::screen_polygon polygon(polygon_of(points), to_screen);
+        in::image<int> count(size, size), winding(size, size);
+        bool runs = false;
+        polygon.for_each_part(grid, [&](std::array<int, 3> corners, const in::detail::pixel_box& box, bool is_run) {
+            runs |= is_run;
+            glm::dvec2 corner[3];
+            for (std::size_t k = 0; k < 3; ++k) corner[k] = points[static_cast<std::size_t>(corners[k])];
+            const oracle part(corner, bits);
+            for (int y = box.y0; y <= box.y1; ++y)
+                for (int x = box.x0; x <= box.x1; ++x) count(x, y) += is_run || part.covers(x, y) ? 1 : 0;
+        });
+        for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+            const oracle part({points[0], points[i], points[i + 1]}, bits);
+            for (int y = 0; y < size; ++y)
+                for (int x = 0; x < size; ++x)
+                    if (part.covers(x, y)) winding(x, y) += part.is_clockwise() ? 1 : -1;
+        }
+        folded += runs;
+        covered += total(count);
+        for (std::size_t i = 0; i < count.size(); ++i)
+            if (count.pixels()[i] != (winding.pixels()[i] * polygon.area_sign() > 0 ? 1 : 0)) FAIL("polygon " << n);
+    }
+    CHECK(folded > 200);
+    CHECK(covered > 1000);
+}
+
+TEST_CASE("A run of a folded polygon is drawn to its ends and no further") {
+    // What a tile does with the runs: a needle cut by two planes, coarse enough to fold, drawn in tiles of any size.
+    in::random_sequence random(7);
+    int folded = 0;
+    for (int n = 0; n < 3000; ++n) {
+        const auto points = thin_polygon(random);
+        // The same outline as a triangle that reaches behind the camera, where it is cut off.
+        in::mesh m{{}, {}, {{0, 1, 2}}};
+        for (const std::size_t i : {0u, 1u, 3u})
+            m.positions.emplace_back(points[i], i == 3 ? -0.4 : 0.5 + 0.3 * static_cast<double>(i));
+        const auto place = [](const in::vertex& v) {
+            const glm::vec4 p = pixel_space{size, size}({{v.position.x, v.position.y, 0}, {}, 0});
+            return glm::vec4(p.x * v.position.z, p.y * v.position.z, v.position.z * 0.9f - 0.05f, v.position.z);
+        };
+        const in::detail::pixel_grid grid{bits, size, size};
+        const in::detail::projection to_screen(grid, in::keep_depth::smaller);
+        std::array<glm::dvec4, 3> clip;
+        for (std::uint32_t i = 0; i < 3; ++i) clip[i] = glm::dvec4(place({m.positions[i], {}, i}));
+        const auto cut = to_screen.clip(clip);
+        in::image<int> expected(size, size);
+        if (cut.count >= 3) {
+            std::vector<glm::dvec2> corners;
+            for (int i = 0; i < cut.count; ++i)
+                corners.push_back(on_screen(cut.corners[static_cast<std::size_t>(i)].position, size, size));
+            for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+                const oracle part({corners[0], corners[i], corners[i + 1]}, bits);
+                for (int y = 0; y < size; ++y)
+                    for (int x = 0; x < size; ++x)
+                        if (part.covers(x, y)) expected(x, y) += part.is_clockwise() ? 1 : -1;
+            }
+            const in::detail::screen_polygon polygon(cut, to_screen);
+            polygon.for_each_part(grid, [&](const auto&, const auto&, bool is_run) { folded += is_run; });
+            for (int& winding : expected.pixels()) winding = winding * polygon.area_sign() > 0 ? 1 : 0;
+        }
+        for (const int tile : {8, 32})
+            if (hits(m, size, size, place, {.subpixel_bits = bits, .tile = tile}) != expected) FAIL("needle " << n);
+    }
+    CHECK(folded > 5);
+}
