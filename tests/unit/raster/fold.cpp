@@ -104,8 +104,15 @@ TEST_CASE("A run of a folded polygon is drawn to its ends and no further") {
             polygon.for_each_part(grid, [&](const auto&, const auto&, bool is_run) { folded += is_run; });
             for (int& winding : expected.pixels()) winding = winding * polygon.area_sign() > 0 ? 1 : 0;
         }
-        for (const int tile : {8, 32})
-            if (hits(m, size, size, place, {.subpixel_bits = bits, .tile = tile}) != expected) FAIL("needle " << n);
+        for (const int tile : {8, 32}) {
+            // A pixel has a fragment and a depth where the needle is, and neither elsewhere.
+            in::image<int> count(size, size), deep(size, size);
+            in::image<float> depth(size, size);
+            in::draw(m, place, [&](const auto& f) { ++count(f.x, f.y); }, in::framebuffer<void>{depth},
+                     {.load = in::depth_load::clear, .subpixel_bits = bits, .tile = tile});
+            for (std::size_t i = 0; i < deep.size(); ++i) deep.pixels()[i] = depth.pixels()[i] <= 1;
+            if (count != expected || deep != expected) FAIL("needle " << n);
+        }
     }
     CHECK(folded > 5);
 }
