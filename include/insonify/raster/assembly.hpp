@@ -75,6 +75,9 @@ struct screen_triangle {
     std::uint32_t triangle;     ///< of the mesh
     const wide_triangle* wide;  ///< null for a compact one
 
+    /// Its pixels are listed, not computed.
+    bool is_run() const { return wide != nullptr && !wide->run.empty(); }
+
     /// Perspective-correct shares of the mesh triangle's three vertices at a pixel's centre; they sum to one.
     glm::dvec3 weights_at(int x, int y, const pixel_grid& grid) const {
         const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {

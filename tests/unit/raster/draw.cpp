@@ -232,6 +232,18 @@ TEST_CASE("Clipped triangles keep their numbers, however many there are before t
     for (std::uint32_t cell = 0; cell < 20000; ++cell)
         wrong += winner(static_cast<int>(cell % 200 * 2), static_cast<int>(cell / 200 * 2)) != cell;
     CHECK(wrong == 0);
+
+    // The same picture from slices of the mesh, one after the other.
+    in::image<std::uint32_t> sliced(width, height);
+    for (std::size_t first = 0; first < m.triangles.size(); first += 1000) {
+        in::mesh slice{m.positions, {}, {}};
+        for (std::size_t i = first; i < first + 1000; ++i) slice.triangles.push_back(m.triangles[i]);
+        in::draw(slice, pixel_space{width, height},
+                 [=](const auto& f) { return f.triangle + static_cast<std::uint32_t>(first); },
+                 in::framebuffer<std::uint32_t>{sliced, depth},
+                 {.load = first == 0 ? in::depth_load::clear : in::depth_load::keep});
+    }
+    CHECK(winner == sliced);
 }
 
 TEST_CASE("Facing follows the winding") {
