@@ -4573,6 +4573,9 @@ struct screen_triangle {
     std::uint32_t triangle;     ///< of the mesh
     const wide_triangle* wide;  ///< null for a compact one
 
+    /// Its pixels are listed, not computed.
+    bool is_run() const { return wide != nullptr && !wide->run.empty(); }
+
     /// Perspective-correct shares of the mesh triangle's three vertices at a pixel's centre; they sum to one.
     glm::dvec3 weights_at(int x, int y, const pixel_grid& grid) const {
         const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
@@ -4946,6 +4949,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/raster/draw.hpp ------------------------------------------------------------------
 // The public entry of the rasterizer: a mesh, what to do with vertices and pixels, and where to leave the result.
 
+#include <optional>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
@@ -4979,19 +4984,32 @@ struct tile_triangles {
     pixel_box box;
 
     std::uint32_t count() const { return static_cast<std::uint32_t>(names.size()); }
+    INSONIFY_INLINE screen_triangle operator[](std::uint32_t i) const { return screen[names[i]]; }
     INSONIFY_INLINE triangle_setup setup(std::uint32_t i) const {
-        const screen_triangle t = screen[names[i]];
-        const bool is_run = t.wide != nullptr && !t.wide->run.empty();
-        const pixel_box whole = is_run ? t.wide->run : center_box(t.a, t.b, t.c, screen.grid());
-        triangle_setup s =
-            triangle_setup::of(t.a, t.b, t.c, screen.grid(), intersect(box, whole), tile_buffer<false>::slack);
-        if (is_run) s.cover_box();
+        const screen_triangle t = (*this)[i];
+        triangle_setup s = triangle_setup::of(t.a, t.b, t.c, screen.grid(), box_of(t), tile_buffer<false>::slack);
+        if (t.is_run()) s.cover_box();
         return s;
     }
+    /// The pixels of the tile that a triangle may cover.
+    pixel_box box_of(const screen_triangle& t) const {
+        return intersect(box, t.is_run() ? t.wide->run : center_box(t.a, t.b, t.c, screen.grid()));
+    }
     float nearest_depth(std::uint32_t i, int x, int y) const {
-        const screen_triangle t = screen[names[i]];
+        const screen_triangle t = (*this)[i];
         return detail::nearest_depth(t.a, t.b, t.c, x, y, screen.grid());
     }
+};
+
+/// What the vertex callable gives the pixels between a triangle's corners, in the mesh's order.
+template <class VertexShader>
+struct corner_varyings {
+    varyings_of<VertexShader> a, b, c;
+
+    corner_varyings(const VertexShader& place, const mesh& m, const glm::uvec3& index)
+        : a(varyings_at(place, mesh_vertex(m, index.x))),
+          b(varyings_at(place, mesh_vertex(m, index.y))),
+          c(varyings_at(place, mesh_vertex(m, index.z))) {}
 };
 
 /// Calls the fragment callable for every pixel of a tile that shows a triangle of this draw.
@@ -5002,18 +5020,14 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
     const pixel_grid& grid = triangles.screen.grid();
     std::uint64_t shaded = 0;
     for (std::uint32_t i = 0; i < triangles.count(); ++i) {
-        const screen_triangle t = triangles.screen[triangles.names[i]];
-        const triangle_setup s = triangles.setup(i);
-
-        // The corners may stand in mirrored order on the screen; weights go back to the mesh's order.
-        const glm::uvec3 index = m.triangles[t.triangle];
-        const auto corner = [&](std::uint32_t v) { return varyings_at(place, mesh_vertex(m, v)); };
-        const varyings va = corner(index.x), vb = corner(index.y), vc = corner(index.z);
-
-        for (int y = s.box.y0; y <= s.box.y1; ++y) {
-            const std::uint32_t* const winner = tile.winner(s.box.x0, y);
-            for (int x = s.box.x0; x <= s.box.x1; ++x) {
-                if (winner[x - s.box.x0] != i) continue;
+        const screen_triangle t = triangles[i];
+        const pixel_box box = triangles.box_of(t);
+        std::optional<corner_varyings<VertexShader>> corners;  // most triangles of a fine mesh win no pixel
+        for (int y = box.y0; y <= box.y1; ++y) {
+            const std::uint32_t* const winner = tile.winner(box.x0, y);
+            for (int x = box.x0; x <= box.x1; ++x) {
+                if (winner[x - box.x0] != i) continue;
+                if (!corners) corners.emplace(place, m, m.triangles[t.triangle]);
                 const glm::dvec3 weights = t.weights_at(x, y, grid);
                 const fragment<varyings> f{x,
                                            y,
@@ -5021,7 +5035,7 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
                                            t.triangle,
                                            glm::vec3(weights),
                                            t.front,
-                                           weighted(va, vb, vc, weights)};
+                                           weighted(corners->a, corners->b, corners->c, weights)};
                 if constexpr (requires { target.color; })
                     target.color(x, y) = shader(f);
                 else
