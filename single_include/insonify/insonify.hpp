@@ -4510,7 +4510,7 @@ INSONIFY_ARITHMETIC_END
 // Almost all triangles are compact: 32-bit coordinates, 64-bit decisions. The others go a slower way that no distance
 // and no number of clipping planes makes less exact.
 
-#include <atomic>
+#include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -4608,11 +4608,11 @@ class screen_mesh {
         place_vertices(shader, ex);
         const std::size_t grain = (std::max)(std::size_t{4096}, m.triangles.size() / 64 + 1);
         std::vector<chunk> chunks((m.triangles.size() + grain - 1) / grain);
-        std::atomic<std::uint32_t> bad_index{0};
         bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
-            assemble(shader, tiles, first, last, chunks[first / grain], bad_index);
+            assemble(shader, tiles, first, last, chunks[first / grain]);
         });
-        detail::require(bad_index == 0, "mesh.triangles", bad_index.load(), "an index of a position");
+        for (const chunk& c : chunks)
+            if (c.bad_index) detail::refuse("mesh.triangles", *c.bad_index, "an index of a position");
 
         // Wide triangles get names behind those of compact ones, in submission order.
         std::vector<tile_pairs> pairs;
@@ -4653,6 +4653,7 @@ class screen_mesh {
         tile_pairs pairs;
         std::vector<wide_triangle> wide;
         draw_stats stats;
+        std::optional<std::uint32_t> bad_index;
     };
     static constexpr std::int32_t off_grid = (std::numeric_limits<std::int32_t>::min)();
 
@@ -4671,14 +4672,13 @@ class screen_mesh {
     }
 
     template <vertex_shader Shader>
-    void assemble(const Shader& shader, const tile_grid& tiles, std::size_t first, std::size_t last, chunk& out,
-                  std::atomic<std::uint32_t>& bad_index) const {
+    void assemble(const Shader& shader, const tile_grid& tiles, std::size_t first, std::size_t last, chunk& out) const {
         const std::size_t vertices = vertices_.size();
         out.stats.triangles = last - first;
         for (std::size_t i = first; i < last; ++i) {
             const glm::uvec3& index = mesh_.triangles[i];
             if (index.x >= vertices || index.y >= vertices || index.z >= vertices) {
-                bad_index = (std::max)({index.x, index.y, index.z});
+                out.bad_index = (std::max)({index.x, index.y, index.z});
                 return;
             }
             const compact_vertex &a = vertices_[index.x], &b = vertices_[index.y], &c = vertices_[index.z];
@@ -4948,8 +4948,6 @@ INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/draw.hpp ------------------------------------------------------------------
 // The public entry of the rasterizer: a mesh, what to do with vertices and pixels, and where to leave the result.
-
-#include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
 

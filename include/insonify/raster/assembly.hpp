@@ -12,7 +12,7 @@
 #include <insonify/raster/fold.hpp>
 #include <insonify/raster/shader.hpp>
 
-#include <atomic>
+#include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -110,11 +110,11 @@ class screen_mesh {
         place_vertices(shader, ex);
         const std::size_t grain = (std::max)(std::size_t{4096}, m.triangles.size() / 64 + 1);
         std::vector<chunk> chunks((m.triangles.size() + grain - 1) / grain);
-        std::atomic<std::uint32_t> bad_index{0};
         bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
-            assemble(shader, tiles, first, last, chunks[first / grain], bad_index);
+            assemble(shader, tiles, first, last, chunks[first / grain]);
         });
-        detail::require(bad_index == 0, "mesh.triangles", bad_index.load(), "an index of a position");
+        for (const chunk& c : chunks)
+            if (c.bad_index) detail::refuse("mesh.triangles", *c.bad_index, "an index of a position");
 
         // Wide triangles get names behind those of compact ones, in submission order.
         std::vector<tile_pairs> pairs;
@@ -155,6 +155,7 @@ class screen_mesh {
         tile_pairs pairs;
         std::vector<wide_triangle> wide;
         draw_stats stats;
+        std::optional<std::uint32_t> bad_index;
     };
     static constexpr std::int32_t off_grid = (std::numeric_limits<std::int32_t>::min)();
 
@@ -173,14 +174,13 @@ class screen_mesh {
     }
 
     template <vertex_shader Shader>
-    void assemble(const Shader& shader, const tile_grid& tiles, std::size_t first, std::size_t last, chunk& out,
-                  std::atomic<std::uint32_t>& bad_index) const {
+    void assemble(const Shader& shader, const tile_grid& tiles, std::size_t first, std::size_t last, chunk& out) const {
         const std::size_t vertices = vertices_.size();
         out.stats.triangles = last - first;
         for (std::size_t i = first; i < last; ++i) {
             const glm::uvec3& index = mesh_.triangles[i];
             if (index.x >= vertices || index.y >= vertices || index.z >= vertices) {
-                bad_index = (std::max)({index.x, index.y, index.z});
+                out.bad_index = (std::max)({index.x, index.y, index.z});
                 return;
             }
             const compact_vertex &a = vertices_[index.x], &b = vertices_[index.y], &c = vertices_[index.z];

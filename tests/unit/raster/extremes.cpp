@@ -161,6 +161,8 @@ TEST_CASE("Indices out of range are refused wherever they stand, and nothing is 
     in::image<float> depth(8, 8, 7.0f);
     CHECK_THROWS_AS(in::draw(m, pixel_space{8, 8}, in::depth_target{depth}, {.load = in::depth_load::clear}),
                     in::invalid_input);
+    const in::mesh nothing_to_point_at{{}, {}, {{0, 0, 0}}};
+    CHECK_THROWS_AS(in::draw(nothing_to_point_at, pixel_space{8, 8}, in::depth_target{depth}), in::invalid_input);
     for (const float d : depth.pixels()) CHECK(d == 7.0f);
 }
 
