@@ -4198,9 +4198,9 @@ class projection {
     }
 
     static clip_corner crossing(const clip_corner& inner, double d_inner, const clip_corner& outer, double d_outer) {
-        const double t = d_inner / (d_inner - d_outer);
-        return {inner.position + t * (outer.position - inner.position),
-                inner.shares + t * (outer.shares - inner.shares)};
+        // Both shares are positive, so a crossing next to the eye doesn't cancel out beside an end that is far away.
+        const double span = d_inner - d_outer, t = d_inner / span, u = -d_outer / span;
+        return {u * inner.position + t * outer.position, u * inner.shares + t * outer.shares};
     }
 
     pixel_grid grid_;
@@ -4581,8 +4581,10 @@ struct screen_triangle {
         const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
             const std::int64_t run = to.x - from.x, rise = to.y - from.y;
             const std::int64_t right = grid.center(x) - from.x, down = grid.center(y) - from.y;
-            return wide == nullptr ? static_cast<double>(compact_side(run, rise, right, down))
-                                   : double_double::from(wide_side(run, rise, right, down)).high;
+            if (wide == nullptr) return static_cast<double>(compact_side(run, rise, right, down));
+            // A run may reach out of the corners' plane by a hair, where a share would be negative.
+            const double share = double_double::from(wide_side(run, rise, right, down)).high;
+            return share > 0 ? share : 0.0;
         };
         const double wa = opposite(b, c) * a.inverse_w;
         const double wb = opposite(c, a) * b.inverse_w;

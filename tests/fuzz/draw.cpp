@@ -2,8 +2,10 @@
 //
 // Half of the drawings are placed in pixels, with w a power of two, so that where a vertex lies can be told exactly and
 // the oracle can judge. The other half are any clip coordinates, for which only the promises are checked.
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "../unit/raster/pixel_space.hpp"
@@ -127,7 +129,7 @@ struct depth_range {
         lowest = (std::min)({a.z / a.w, b.z / b.w, c.z / c.w});
         highest = (std::max)({a.z / a.w, b.z / b.w, c.z / c.w});
         if (d.in_pixels) return;
-        // The library may divide by multiplying with a rounded inverse.
+        // Quotients may have been rounded once more.
         lowest = (std::max)(0.0f, std::nextafter(lowest, -1.0f));
         highest = (std::min)(1.0f, std::nextafter(highest, 2.0f));
     }
@@ -184,7 +186,7 @@ void check_stats(const drawing& d, const in::draw_stats& s) {
     demand(d, s.triangles == s.drawn + s.culled + s.missed + s.degenerate + s.not_finite, "each is counted once");
     std::uint64_t broken = 0;
     for (const glm::uvec3& t : d.mesh.triangles)
-        broken += is_finite(d.clip[t.x]) && is_finite(d.clip[t.y]) && is_finite(d.clip[t.z]) ? 0 : 1;
+        broken += is_finite(d.clip[t.x]) && is_finite(d.clip[t.y]) && is_finite(d.clip[t.z]) ? 0u : 1u;
     demand(d, s.not_finite == broken, "triangles that are not finite are counted as such");
 }
 

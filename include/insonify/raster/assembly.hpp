@@ -83,8 +83,10 @@ struct screen_triangle {
         const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
             const std::int64_t run = to.x - from.x, rise = to.y - from.y;
             const std::int64_t right = grid.center(x) - from.x, down = grid.center(y) - from.y;
-            return wide == nullptr ? static_cast<double>(compact_side(run, rise, right, down))
-                                   : double_double::from(wide_side(run, rise, right, down)).high;
+            if (wide == nullptr) return static_cast<double>(compact_side(run, rise, right, down));
+            // A run may reach out of the corners' plane by a hair, where a share would be negative.
+            const double share = double_double::from(wide_side(run, rise, right, down)).high;
+            return share > 0 ? share : 0.0;
         };
         const double wa = opposite(b, c) * a.inverse_w;
         const double wb = opposite(c, a) * b.inverse_w;

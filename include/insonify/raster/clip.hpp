@@ -103,9 +103,9 @@ class projection {
     }
 
     static clip_corner crossing(const clip_corner& inner, double d_inner, const clip_corner& outer, double d_outer) {
-        const double t = d_inner / (d_inner - d_outer);
-        return {inner.position + t * (outer.position - inner.position),
-                inner.shares + t * (outer.shares - inner.shares)};
+        // Both shares are positive, so a crossing next to the eye doesn't cancel out beside an end that is far away.
+        const double span = d_inner - d_outer, t = d_inner / span, u = -d_outer / span;
+        return {u * inner.position + t * outer.position, u * inner.shares + t * outer.shares};
     }
 
     pixel_grid grid_;
