@@ -7,6 +7,7 @@
 
 #include <insonify/raster/setup.hpp>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -47,7 +48,7 @@ class projection {
     /// Distance to each clipping plane in clip space, >= 0 inside. The first keeps w away from zero.
     double distance(int plane, const glm::dvec4& p) const {
         switch (plane) {
-            case 0: return p.w - 1e-30;
+            case 0: return p.w - smallest_w;
             case 1: return p.z;
             case 2: return p.w - p.z;
             case 3: return widest_x_ * p.w + p.x;
@@ -60,7 +61,7 @@ class projection {
     /// Inside all planes and compact on the grid; false for NaN and infinity too.
     bool is_compact(const glm::dvec4& p) const {
         const double x = p.x < 0 ? -p.x : p.x, y = p.y < 0 ? -p.y : p.y;
-        return p.w >= 1e-30 && p.z >= 0 && p.z <= p.w && x <= compact_x_ * p.w && y <= compact_y_ * p.w &&
+        return p.w >= smallest_w && p.z >= 0 && p.z <= p.w && x <= compact_x_ * p.w && y <= compact_y_ * p.w &&
                p.w <= static_cast<double>((std::numeric_limits<float>::max)());
     }
 
@@ -79,10 +80,22 @@ class projection {
         }
         piece.count = 3;
         for (int plane = 0; plane < clip_polygon::planes && piece.count > 0; ++plane) piece = cut(piece, plane);
+        for (int i = 0; i < piece.count; ++i) move_inside(piece.corners[static_cast<std::size_t>(i)].position);
         return piece;
     }
 
   private:
+    static constexpr double smallest_w = 1e-30;
+
+    /// What rounding has left outside of a plane, by a little or, next to the eye, by a lot. It depends on the position
+    /// alone, so neighbours go on sharing their corners.
+    void move_inside(glm::dvec4& p) const {
+        p.w = (std::max)(p.w, smallest_w);
+        p.x = std::clamp(p.x, -widest_x_ * p.w, widest_x_ * p.w);
+        p.y = std::clamp(p.y, -widest_y_ * p.w, widest_y_ * p.w);
+        p.z = std::clamp(p.z, 0.0, p.w);
+    }
+
     clip_polygon cut(const clip_polygon& whole, int plane) const {
         clip_polygon kept;
         kept.cut = whole.cut;
@@ -96,8 +109,11 @@ class projection {
             const bool here_inside = d_here >= 0, next_inside = d_next >= 0;
             if (here_inside) keep(here);
             kept.cut |= !here_inside;
-            if (here_inside != next_inside)
-                keep(here_inside ? crossing(here, d_here, next, d_next) : crossing(next, d_next, here, d_here));
+            if (here_inside == next_inside) continue;
+            clip_corner crossed =
+                here_inside ? crossing(here, d_here, next, d_next) : crossing(next, d_next, here, d_here);
+            if (plane == 0) crossed.position.w = smallest_w;  // not what is left of two large numbers
+            keep(crossed);
         }
         return kept;
     }
