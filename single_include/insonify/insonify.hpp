@@ -4103,8 +4103,8 @@ INSONIFY_ARITHMETIC_END
 // Clipping of the few triangles that need it: in front of the camera plane, beyond the depth range, or 2^50 sub-pixels
 // outside the picture. Everything else is left to the rectangle of the image.
 //
-// Where an edge crosses a plane, the new vertex is computed from the inner end to the outer one. Both triangles that
-// share the edge see the same two ends, hence get the same bits: no crack opens, however many planes cut.
+// Where an edge crosses a plane, the new vertex is the same to the bit from whichever end it is computed. Both
+// triangles that share the edge get it: no crack opens, however many planes cut.
 
 #include <glm/vec4.hpp>
 
@@ -4204,18 +4204,18 @@ class projection {
             if (here_inside) keep(here);
             kept.cut |= !here_inside;
             if (here_inside == next_inside) continue;
-            clip_corner crossed =
-                here_inside ? crossing(here, d_here, next, d_next) : crossing(next, d_next, here, d_here);
+            clip_corner crossed = crossing(here, d_here, next, d_next);
             if (plane == 0) crossed.position.w = smallest_w;  // not what is left of two large numbers
             keep(crossed);
         }
         return kept;
     }
 
-    static clip_corner crossing(const clip_corner& inner, double d_inner, const clip_corner& outer, double d_outer) {
-        // Both shares are positive, so a crossing next to the eye doesn't cancel out beside an end that is far away.
-        const double span = d_inner - d_outer, t = d_inner / span, u = -d_outer / span;
-        return {u * inner.position + t * outer.position, u * inner.shares + t * outer.shares};
+    /// Where the edge between two corners on either side of a plane meets it. Both shares are positive, so a crossing
+    /// next to the eye doesn't cancel out beside an end that is far away; and exchanging the corners changes no bit.
+    static clip_corner crossing(const clip_corner& a, double d_a, const clip_corner& b, double d_b) {
+        const double share_a = d_b / (d_b - d_a), share_b = d_a / (d_a - d_b);
+        return {share_a * a.position + share_b * b.position, share_a * a.shares + share_b * b.shares};
     }
 
     pixel_grid grid_;
