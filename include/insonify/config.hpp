@@ -58,8 +58,10 @@
 
 #if defined(__GNUC__)
 #define INSONIFY_INLINE inline __attribute__((always_inline))
+#define INSONIFY_INLINE_LAMBDA __attribute__((always_inline))
 #else
 #define INSONIFY_INLINE inline
+#define INSONIFY_INLINE_LAMBDA
 #endif
 
 #define INSONIFY_JOIN_RAW(a, b) a##b

@@ -48,6 +48,8 @@
 #include <insonify/raster/framebuffer.hpp>
 #include <insonify/raster/setup.hpp>
 #include <insonify/raster/shader.hpp>
+#include <insonify/raster/small.hpp>
+#include <insonify/raster/small_depth.hpp>
 #include <insonify/raster/tile.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/blend.hpp>

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -75,6 +76,15 @@ INSONIFY_INLINE void set_lane(Lanes& lanes, int i, T value) {
         lanes = value;
     else
         lanes[i] = value;
+}
+
+/// Lane i is from(i).
+template <int N, class Lanes, class From>
+INSONIFY_INLINE void gather(Lanes& into, const From& from) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        into = Lanes{from(I)...};
+    }
+    (std::make_integer_sequence<int, N>{});
 }
 
 /// 0, 1, ... N - 1.

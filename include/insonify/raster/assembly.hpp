@@ -4,6 +4,7 @@
 // and no number of clipping planes makes less exact.
 #pragma once
 
+#include <insonify/core/dispatch.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/raster/binning.hpp>
@@ -11,8 +12,14 @@
 #include <insonify/raster/depth.hpp>
 #include <insonify/raster/fold.hpp>
 #include <insonify/raster/shader.hpp>
+#include <insonify/raster/small.hpp>
 
 #include <optional>
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -47,17 +54,35 @@ struct draw_stats {
     friend bool operator==(const draw_stats&, const draw_stats&) = default;
 };
 
+/// How to draw. `tile` and `level` never change a bit of the result.
+struct draw_options {
+    cull_mode cull = cull_mode::none;
+    keep_depth keep = keep_depth::smaller;
+    depth_load load = depth_load::keep;
+    int subpixel_bits = 8;   ///< 4 to 16: vertices are rounded to 2^-bits pixels
+    int tile = 64;           ///< pixels, a power of two from 8 to 256
+    isa level = best_isa();  ///< the widest instruction set to use
+};
+
 namespace detail {
 
-/// A vertex inside all clipping planes and compact on the grid, as millions of them are kept.
-struct compact_vertex {
-    std::int32_t x, y;
-    double z, inverse_w;
+/// Vertices on the screen. Those that aren't compact are marked and seen to triangle by triangle.
+template <class Real>
+struct screen_vertices {
+    std::vector<grid_place> places;
+    std::vector<Real> depths;
+    std::vector<double> inverse_w;  ///< where pixels are shaded
 
-    static compact_vertex of(const screen_vertex& v) {
-        return {static_cast<std::int32_t>(v.x), static_cast<std::int32_t>(v.y), v.z, v.inverse_w};
+    screen_vertices(std::size_t count, bool shaded) : places(count), depths(count), inverse_w(shaded ? count : 0) {}
+
+    void set(std::size_t i, const screen_vertex& v) {
+        places[i] = {static_cast<std::int32_t>(v.x), static_cast<std::int32_t>(v.y)};
+        depths[i] = static_cast<Real>(v.z);
+        if (!inverse_w.empty()) inverse_w[i] = v.inverse_w;
     }
-    operator screen_vertex() const { return {x, y, z, inverse_w}; }
+    screen_vertex operator[](std::size_t i) const {
+        return {places[i].x, places[i].y, depths[i], inverse_w.empty() ? 1 : inverse_w[i]};
+    }
 };
 
 /// A triangle with a vertex that isn't compact, or a piece of one that was clipped.
@@ -102,40 +127,61 @@ inline vertex mesh_vertex(const mesh& m, std::uint32_t index) {
     return {m.positions[index], m.normals.empty() ? glm::vec3(0) : m.normals[index], index};
 }
 
+/// Names the triangles of a chunk that can be seen, and counts the others.
+struct assembled_chunk {
+    tile_runs runs;
+    std::vector<wide_triangle> wide;
+    draw_stats stats;
+    std::optional<std::uint32_t> bad_index;
+};
+
+template <class Screen, class Shader>
+struct assembly_kernel;
+
 /// A mesh on the screen: its vertices, the triangles that need more room, and the bins that refer to both.
+/// Depths are kept as Real: double where they are to be exact.
+template <class Real>
 class screen_mesh {
   public:
+    /// @param shaded  whether weights_at will be asked for
     template <vertex_shader Shader, executor E>
-    screen_mesh(const mesh& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles, cull_mode cull,
-                keep_depth keep, E& ex)
-        : mesh_(m), grid_(grid), projection_(grid, keep), cull_(cull), vertices_(m.positions.size()) {
+    screen_mesh(const mesh& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
+                const draw_options& options, bool shaded, E& ex)
+        : mesh_(m),
+          grid_(grid),
+          projection_(grid, options.keep),
+          cull_(options.cull),
+          vertices_(m.positions.size(), shaded) {
         place_vertices(shader, ex);
-        const std::size_t grain = (std::max)(std::size_t{4096}, m.triangles.size() / 64 + 1);
-        std::vector<chunk> chunks((m.triangles.size() + grain - 1) / grain);
+        const std::size_t grain = (std::max)(std::size_t{4096}, (m.triangles.size() / 64 + 16) / 16 * 16);
+        std::vector<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
         bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
-            assemble(shader, tiles, first, last, chunks[first / grain]);
+            assembled_chunk& chunk = chunks[first / grain];
+            chunk.bad_index = bad_index(first, last);
+            if (chunk.bad_index) return;
+            chunk.stats.triangles = last - first;
+            chunk.runs.reserve(last - first);
+            dispatch(assembly_kernel<screen_mesh, Shader>{*this, shader, tiles, first, last, chunk}, options.level);
         });
-        for (const chunk& c : chunks)
+        for (const assembled_chunk& c : chunks)
             if (c.bad_index) detail::refuse("mesh.triangles", *c.bad_index, "an index of a position");
 
         // Wide triangles get names behind those of compact ones, in submission order.
-        std::vector<tile_pairs> pairs;
-        pairs.reserve(chunks.size());
-        for (chunk& c : chunks) {
+        std::vector<tile_runs> runs;
+        runs.reserve(chunks.size());
+        for (assembled_chunk& c : chunks) {
             const auto offset = static_cast<std::uint32_t>(wide_.size());
-            if (offset > 0 && !c.wide.empty())
-                for (auto& pair : c.pairs.pairs)
-                    if (pair.triangle >= whole()) pair.triangle += offset;
+            if (offset > 0 && !c.wide.empty()) c.runs.rename(whole(), offset);
             wide_.insert(wide_.end(), c.wide.begin(), c.wide.end());
-            pairs.push_back(std::move(c.pairs));
+            runs.push_back(std::move(c.runs));
             stats_ += c.stats;
         }
-        bins_ = tile_bins(pairs, tiles.count(), ex);
+        bins_ = tile_bins(std::move(runs), tiles, ex);
     }
 
     const draw_stats& stats() const { return stats_; }
     const pixel_grid& grid() const { return grid_; }
-    std::span<const std::uint32_t> bin(std::size_t tile) const { return bins_[tile]; }
+    std::span<const triangle_run> bin(std::size_t tile) const { return bins_[tile]; }
 
     screen_triangle operator[](std::uint32_t name) const {
         screen_triangle t{};
@@ -152,44 +198,42 @@ class screen_mesh {
         return t;
     }
 
+    /// Of a triangle that isn't wide, corner by corner in the mesh's order.
+    INSONIFY_INLINE grid_place place(std::size_t triangle, int corner) const {
+        return vertices_.places[mesh_.triangles[triangle][corner]];
+    }
+    INSONIFY_INLINE Real depth(std::size_t triangle, int corner) const {
+        return vertices_.depths[mesh_.triangles[triangle][corner]];
+    }
+
   private:
-    struct chunk {
-        tile_pairs pairs;
-        std::vector<wide_triangle> wide;
-        draw_stats stats;
-        std::optional<std::uint32_t> bad_index;
-    };
-    static constexpr std::int32_t off_grid = (std::numeric_limits<std::int32_t>::min)();
+    template <class Screen, class Shader>
+    friend struct assembly_kernel;
 
     std::uint32_t whole() const { return static_cast<std::uint32_t>(mesh_.triangles.size()); }
 
-    /// Compact vertices. The others are marked and seen to triangle by triangle.
     template <vertex_shader Shader, executor E>
     void place_vertices(const Shader& shader, E& ex) {
-        bulk_ranges(ex, vertices_.size(), 8192, [&](std::size_t first, std::size_t last) {
+        bulk_ranges(ex, mesh_.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 const glm::dvec4 clip(clip_position(shader, mesh_vertex(mesh_, static_cast<std::uint32_t>(i))));
-                vertices_[i] = projection_.is_compact(clip) ? compact_vertex::of(projection_.to_screen(clip))
-                                                            : compact_vertex{off_grid, 0, 0, 0};
+                if (projection_.is_compact(clip))
+                    vertices_.set(i, projection_.to_screen(clip));
+                else
+                    vertices_.places[i] = grid_place::off_grid();
             }
         });
     }
 
-    template <vertex_shader Shader>
-    void assemble(const Shader& shader, const tile_grid& tiles, std::size_t first, std::size_t last, chunk& out) const {
-        const std::size_t vertices = vertices_.size();
-        out.stats.triangles = last - first;
+    /// The first index without a position among some triangles.
+    std::optional<std::uint32_t> bad_index(std::size_t first, std::size_t last) const {
+        const std::size_t vertices = mesh_.positions.size();
         for (std::size_t i = first; i < last; ++i) {
-            const glm::uvec3& index = mesh_.triangles[i];
-            if (index.x >= vertices || index.y >= vertices || index.z >= vertices) {
-                out.bad_index = (std::max)({index.x, index.y, index.z});
-                return;
-            }
-            const compact_vertex &a = vertices_[index.x], &b = vertices_[index.y], &c = vertices_[index.z];
-            const auto name = static_cast<std::uint32_t>(i);
-            const bool compact = a.x != off_grid && b.x != off_grid && c.x != off_grid;
-            count(out.stats, compact ? bin_compact(a, b, c, name, tiles, out) : bin_wide(shader, name, tiles, out));
+            const glm::uvec3& t = mesh_.triangles[i];
+            const std::uint32_t largest = (std::max)({t.x, t.y, t.z});
+            if (largest >= vertices) return largest;
         }
+        return std::nullopt;
     }
 
     /// Counted in draw_stats under these names.
@@ -209,21 +253,27 @@ class screen_mesh {
         return (cull_ == cull_mode::back && !front) || (cull_ == cull_mode::front && front);
     }
 
-    /// Notes a triangle in the bins, unless it can't be seen.
-    fate bin_compact(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, std::uint32_t name,
-                     const tile_grid& tiles, chunk& out) const {
+    /// Notes one triangle in the runs, unless it can't be seen.
+    template <vertex_shader Shader>
+    fate assemble(const Shader& shader, std::size_t triangle, const tile_grid& tiles, assembled_chunk& out) const {
+        const auto name = static_cast<std::uint32_t>(triangle);
+        for (int corner = 0; corner < 3; ++corner)
+            if (place(triangle, corner).is_off_grid()) return assemble_wide(shader, name, tiles, out);
+        const glm::uvec3& index = mesh_.triangles[triangle];
+        const screen_vertex a = vertices_[index.x], b = vertices_[index.y], c = vertices_[index.z];
         const std::int64_t area = compact_area(a, b, c);
         if (area == 0) return fate::degenerate;
         if (is_culled(area < 0)) return fate::culled;
         const pixel_box box = center_box(a, b, c, grid_);
         if (box.empty()) return fate::missed;
-        out.pairs.add(name, box, tiles);
+        out.runs.add(name, tiles.touched(box), false);
         return fate::drawn;
     }
 
     /// The same for a triangle that may have to be clipped, or whose vertices only 128 bits can compare.
     template <vertex_shader Shader>
-    fate bin_wide(const Shader& shader, std::uint32_t triangle, const tile_grid& tiles, chunk& out) const {
+    fate assemble_wide(const Shader& shader, std::uint32_t triangle, const tile_grid& tiles,
+                       assembled_chunk& out) const {
         std::array<glm::dvec4, 3> clip;
         for (int i = 0; i < 3; ++i) {
             const glm::dvec4 p(clip_position(shader, mesh_vertex(mesh_, mesh_.triangles[triangle][i])));
@@ -248,7 +298,7 @@ class screen_mesh {
             }
             part.triangle = triangle;
             part.run = is_run ? box : pixel_box{0, 0, -1, -1};
-            out.pairs.add(whole() + static_cast<std::uint32_t>(out.wide.size()), box, tiles);
+            out.runs.add(whole() + static_cast<std::uint32_t>(out.wide.size()), tiles.touched(box), false);
             out.wide.push_back(part);
             f = fate::drawn;
         });
@@ -259,13 +309,80 @@ class screen_mesh {
     pixel_grid grid_;
     projection projection_;
     cull_mode cull_;
-    std::vector<compact_vertex> vertices_;
+    screen_vertices<Real> vertices_;
     std::vector<wide_triangle> wide_;
     tile_bins bins_;
     draw_stats stats_;
 };
 
+/// Goes through the triangles of a chunk, as many small ones at a time as there are lanes.
+template <class Screen, class Shader>
+struct assembly_kernel {
+    const Screen& screen;
+    const Shader& shader;
+    const tile_grid& tiles;
+    std::size_t first, last;
+    assembled_chunk& out;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        std::size_t i = first;
+        for (; i + N <= last; i += N)
+            if (!assemble_small<N>(i))
+                for (std::size_t k = i; k < i + N; ++k) assemble_one(k);
+        for (; i < last; ++i) assemble_one(i);
+    }
+
+  private:
+    void assemble_one(std::size_t triangle) const {
+        Screen::count(out.stats, screen.assemble(shader, triangle, tiles, out));
+    }
+
+    /// Gives up if one of them isn't small.
+    template <int N>
+    INSONIFY_INLINE bool assemble_small(std::size_t triangle) const {
+        using ints = lanes<std::int32_t, N>;
+        const corner_lanes<N> at(
+            [&](int k, int corner) { return screen.place(triangle + static_cast<std::size_t>(k), corner); });
+        if (!at.are_small()) return false;
+        const pixel_box picture{0, 0, screen.grid_.width - 1, screen.grid_.height - 1};
+        ints area, x0, y0, x1, y1;
+        at.area(area);
+        at.centers(screen.grid_, picture, x0, y0, x1, y1);
+        const ints degenerate = ints(area == 0);
+        ints culled = ints{};
+        if (screen.cull_ == cull_mode::back) culled = ints(area > 0);
+        if (screen.cull_ == cull_mode::front) culled = ints(area < 0);
+        const ints missed = ints((x1 < x0) | (y1 < y0));
+
+        std::int32_t fates[static_cast<unsigned>(N)], tile[4][static_cast<unsigned>(N)];
+        store(fates, ints((degenerate & 1) | (culled & 2) | (missed & 4)));
+        store(tile[0], ints(x0 >> tiles.log2_size));
+        store(tile[1], ints(y0 >> tiles.log2_size));
+        store(tile[2], ints(x1 >> tiles.log2_size));
+        store(tile[3], ints(y1 >> tiles.log2_size));
+        for (int k = 0; k < N; ++k) {
+            if (fates[k] == 0) {
+                ++out.stats.drawn;
+                out.runs.add(static_cast<std::uint32_t>(triangle) + static_cast<std::uint32_t>(k),
+                             {tile[0][k], tile[1][k], tile[2][k], tile[3][k]}, true);
+            } else if (fates[k] & 1) {
+                ++out.stats.degenerate;
+            } else if (fates[k] & 2) {
+                ++out.stats.culled;
+            } else {
+                ++out.stats.missed;
+            }
+        }
+        return true;
+    }
+};
+
 }  // namespace detail
 }  // namespace insonify::inline INSONIFY_ABI
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 INSONIFY_ARITHMETIC_END

@@ -1,8 +1,9 @@
 // Which triangles each tile has to look at, in the order in which they were submitted.
 //
-// Triangles go through in chunks, in parallel; each chunk notes (tile, triangle) pairs. Counting the pairs of every
-// chunk and tile gives each its place, and a second parallel pass puts the triangles there: an order-preserving
-// counting sort whose result doesn't depend on who ran which chunk.
+// Triangles go through in chunks, in parallel. Neighbours in a mesh are mostly neighbours on the screen, so a chunk
+// notes runs: consecutive triangles that touch the same tiles. Counting the runs of every chunk and tile gives each its
+// place, and a second parallel pass puts them there: an order-preserving counting sort whose result doesn't depend on
+// who ran which chunk.
 #pragma once
 
 #include <insonify/core/executor.hpp>
@@ -26,44 +27,84 @@ struct tile_grid {
           rows((height + (1 << log2_tile) - 1) >> log2_tile) {}
 
     std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
-};
-
-/// The pairs of one chunk.
-struct tile_pairs {
-    struct pair {
-        std::uint32_t tile;
-        std::uint32_t triangle;
-    };
-    std::vector<pair> pairs;
-
-    /// Notes the triangle in every tile that its box touches.
-    void add(std::uint32_t triangle, const pixel_box& box, const tile_grid& tiles) {
-        const int first_column = box.x0 >> tiles.log2_size, last_column = box.x1 >> tiles.log2_size;
-        const int first_row = box.y0 >> tiles.log2_size, last_row = box.y1 >> tiles.log2_size;
-        for (int row = first_row; row <= last_row; ++row)
-            for (int column = first_column; column <= last_column; ++column)
-                pairs.push_back({static_cast<std::uint32_t>(row * tiles.columns + column), triangle});
+    /// The tiles that a box of pixels touches.
+    pixel_box touched(const pixel_box& box) const {
+        return {box.x0 >> log2_size, box.y0 >> log2_size, box.x1 >> log2_size, box.y1 >> log2_size};
     }
 };
 
-/// Triangles by tile.
+/// Consecutive triangles by name, all drawn the same way.
+struct triangle_run {
+    std::span<const std::uint32_t> names;
+    bool is_small;  ///< eight go through the set-up at a time
+};
+
+/// The runs of one chunk.
+class tile_runs {
+  public:
+    /// @param most  triangles that may come
+    void reserve(std::size_t most) { names_.reserve(most); }
+
+    /// The next triangle, and the tiles that it touches.
+    void add(std::uint32_t triangle, const pixel_box& tiles, bool is_small) {
+        if (runs_.empty() || !runs_.back().goes_on(tiles, is_small))
+            runs_.push_back({tiles, names_.size(), 0, is_small});
+        names_.push_back(triangle);
+        ++runs_.back().count;
+    }
+
+    /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.
+    template <class Visit>
+    void for_each(const tile_grid& grid, const Visit& visit) const {
+        for (const noted& run : runs_)
+            for (int row = run.tiles.y0; row <= run.tiles.y1; ++row)
+                for (int column = run.tiles.x0; column <= run.tiles.x1; ++column)
+                    visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
+                              static_cast<std::size_t>(column),
+                          triangle_run{std::span(names_).subspan(run.first, run.count), run.is_small});
+    }
+
+    /// Adds `offset` to all names from `first` on.
+    void rename(std::uint32_t first, std::uint32_t offset) {
+        for (std::uint32_t& name : names_)
+            if (name >= first) name += offset;
+    }
+
+  private:
+    struct noted {
+        pixel_box tiles;
+        std::size_t first, count;
+        bool is_small;
+
+        bool goes_on(const pixel_box& next, bool next_is_small) const {
+            return next.x0 == tiles.x0 && next.y0 == tiles.y0 && next.x1 == tiles.x1 && next.y1 == tiles.y1 &&
+                   next_is_small == is_small;
+        }
+    };
+    std::vector<std::uint32_t> names_;
+    std::vector<noted> runs_;
+};
+
+/// Runs by tile.
 class tile_bins {
   public:
     tile_bins() = default;
 
-    /// @param chunks  the pairs of all chunks, in submission order; they are used up
+    /// @param chunks  the runs of all chunks, in submission order
     template <executor E>
-    tile_bins(std::vector<tile_pairs>& chunks, std::size_t tiles, E& ex) : first_(tiles + 1, 0) {
+    tile_bins(std::vector<tile_runs> chunks, const tile_grid& grid, E& ex)
+        : chunks_(std::move(chunks)), first_(grid.count() + 1, 0) {
         // Count, then turn the counts into places: by tile first, by chunk within a tile.
-        std::vector<std::uint32_t> places(chunks.size() * tiles, 0);
+        const std::size_t tiles = grid.count();
+        std::vector<std::uint32_t> places(chunks_.size() * tiles, 0);
         const auto of_chunk = [&](std::size_t chunk) { return std::span(places).subspan(chunk * tiles, tiles); };
-        ex.bulk(chunks.size(), [&](std::size_t chunk) {
-            for (const auto& pair : chunks[chunk].pairs) ++of_chunk(chunk)[pair.tile];
+        ex.bulk(chunks_.size(), [&](std::size_t chunk) {
+            chunks_[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
         });
         std::uint32_t place = 0;
         for (std::size_t tile = 0; tile < tiles; ++tile) {
             first_[tile] = place;
-            for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
+            for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
                 const std::uint32_t count = of_chunk(chunk)[tile];
                 of_chunk(chunk)[tile] = place;
                 place += count;
@@ -71,20 +112,21 @@ class tile_bins {
         }
         first_[tiles] = place;
 
-        triangles_.resize(place);
-        ex.bulk(chunks.size(), [&](std::size_t chunk) {
-            for (const auto& pair : chunks[chunk].pairs) triangles_[of_chunk(chunk)[pair.tile]++] = pair.triangle;
-            chunks[chunk] = {};
+        runs_.resize(place);
+        ex.bulk(chunks_.size(), [&](std::size_t chunk) {
+            chunks_[chunk].for_each(
+                grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });
         });
     }
 
-    std::span<const std::uint32_t> operator[](std::size_t tile) const {
-        return std::span(triangles_).subspan(first_[tile], first_[tile + 1] - first_[tile]);
+    std::span<const triangle_run> operator[](std::size_t tile) const {
+        return std::span(runs_).subspan(first_[tile], first_[tile + 1] - first_[tile]);
     }
 
   private:
+    std::vector<tile_runs> chunks_;  ///< runs refer to their names
     std::vector<std::uint32_t> first_;
-    std::vector<std::uint32_t> triangles_;
+    std::vector<triangle_run> runs_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail

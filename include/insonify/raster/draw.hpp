@@ -11,16 +11,6 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// How to draw. `tile` and `level` never change a bit of the result.
-struct draw_options {
-    cull_mode cull = cull_mode::none;
-    keep_depth keep = keep_depth::smaller;
-    depth_load load = depth_load::keep;
-    int subpixel_bits = 8;   ///< 4 to 16: vertices are rounded to 2^-bits pixels
-    int tile = 64;           ///< pixels, a power of two from 8 to 256
-    isa level = best_isa();  ///< the widest instruction set to use
-};
-
 namespace detail {
 
 inline void check(const draw_options& options, image_view<const float> depth) {
@@ -34,26 +24,30 @@ inline void check(const draw_options& options, image_view<const float> depth) {
 }
 
 /// The triangles of one tile, as the pixel kernel asks for them.
+template <class Real>
 struct tile_triangles {
-    const screen_mesh& screen;
-    std::span<const std::uint32_t> names;
+    const screen_mesh<Real>& screen;
+    std::span<const triangle_run> bin;
     pixel_box box;
 
-    std::uint32_t count() const { return static_cast<std::uint32_t>(names.size()); }
-    INSONIFY_INLINE screen_triangle operator[](std::uint32_t i) const { return screen[names[i]]; }
-    INSONIFY_INLINE triangle_setup setup(std::uint32_t i) const {
-        const screen_triangle t = (*this)[i];
-        triangle_setup s = triangle_setup::of(t.a, t.b, t.c, screen.grid(), box_of(t), tile_buffer<false>::slack);
+    std::span<const triangle_run> runs() const { return bin; }
+    const pixel_grid& grid() const { return screen.grid(); }
+    INSONIFY_INLINE grid_place place(std::uint32_t name, int corner) const { return screen.place(name, corner); }
+    INSONIFY_INLINE Real depth(std::uint32_t name, int corner) const { return screen.depth(name, corner); }
+
+    INSONIFY_INLINE triangle_setup setup(std::uint32_t name) const {
+        const screen_triangle t = screen[name];
+        triangle_setup s = triangle_setup::of(t.a, t.b, t.c, grid(), box_of(t), tile_buffer<false>::slack);
         if (t.is_run()) s.cover_box();
         return s;
     }
     /// The pixels of the tile that a triangle may cover.
     pixel_box box_of(const screen_triangle& t) const {
-        return intersect(box, t.is_run() ? t.wide->run : center_box(t.a, t.b, t.c, screen.grid()));
+        return intersect(box, t.is_run() ? t.wide->run : center_box(t.a, t.b, t.c, grid()));
     }
-    float nearest_depth(std::uint32_t i, int x, int y) const {
-        const screen_triangle t = (*this)[i];
-        return detail::nearest_depth(t.a, t.b, t.c, x, y, screen.grid());
+    float nearest_depth(std::uint32_t name, int x, int y) const {
+        const screen_triangle t = screen[name];
+        return detail::nearest_depth(t.a, t.b, t.c, x, y, grid());
     }
 };
 
@@ -69,20 +63,20 @@ struct corner_varyings {
 };
 
 /// Calls the fragment callable for every pixel of a tile that shows a triangle of this draw.
-template <class Target, class VertexShader, class FragmentShader>
+template <class Target, class Real, class VertexShader, class FragmentShader>
 std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShader& shader, const Target& target,
-                    const tile_triangles& triangles, tile_buffer<true>& tile, float depth_sign) {
+                    const tile_triangles<Real>& triangles, tile_buffer<true>& tile, float depth_sign) {
     using varyings = varyings_of<VertexShader>;
     const pixel_grid& grid = triangles.screen.grid();
     std::uint64_t shaded = 0;
-    for (std::uint32_t i = 0; i < triangles.count(); ++i) {
-        const screen_triangle t = triangles[i];
+    const auto shade_one = [&](std::uint32_t name) {
+        const screen_triangle t = triangles.screen[name];
         const pixel_box box = triangles.box_of(t);
         std::optional<corner_varyings<VertexShader>> corners;  // most triangles of a fine mesh win no pixel
         for (int y = box.y0; y <= box.y1; ++y) {
             const std::uint32_t* const winner = tile.winner(box.x0, y);
             for (int x = box.x0; x <= box.x1; ++x) {
-                if (winner[x - box.x0] != i) continue;
+                if (winner[x - box.x0] != name) continue;
                 if (!corners) corners.emplace(place, m, m.triangles[t.triangle]);
                 const glm::dvec3 weights = t.weights_at(x, y, grid);
                 const fragment<varyings> f{x,
@@ -99,12 +93,14 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
                 ++shaded;
             }
         }
-    }
+    };
+    for (const triangle_run& run : triangles.runs())
+        for (const std::uint32_t name : run.names) shade_one(name);
     return shaded;
 }
 
 /// Everything but the shading, which `finish(tile triangles, tile buffer)` does; it returns the pixels it shaded.
-template <bool Winners, vertex_shader VertexShader, executor E, class Finish>
+template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Finish>
 draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float> depth, const draw_options& options,
                       E& ex, Finish&& finish) {
     check(options, depth);
@@ -113,7 +109,7 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
     if (depth.empty()) return {};
     const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
     const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));
-    const screen_mesh screen(m, place, grid, tiles, options.cull, options.keep, ex);
+    const screen_mesh<Real> screen(m, place, grid, tiles, options, Winners, ex);
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
     // A few tiles share a buffer; how many doesn't matter to the result.
@@ -126,17 +122,11 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
             const int y = static_cast<int>(tile / static_cast<std::size_t>(tiles.columns)) * options.tile;
             const pixel_box box =
                 intersect({x, y, x + options.tile - 1, y + options.tile - 1}, {0, 0, grid.width - 1, grid.height - 1});
-            const tile_triangles triangles{screen, screen.bin(tile), box};
-            if (triangles.names.empty() && options.load == depth_load::keep) continue;
-
-            buffer.restart(x, y);
-            if (options.load == depth_load::keep)
-                for (int row = y; row <= box.y1; ++row)
-                    for (int column = x; column <= box.x1; ++column)
-                        *buffer.depth(column, row) = sign * depth(column, row);
-            dispatch(tile_kernel<tile_triangles, Winners>{triangles, buffer}, options.level);
-            for (int row = y; row <= box.y1; ++row)
-                for (int column = x; column <= box.x1; ++column) depth(column, row) = sign * *buffer.depth(column, row);
+            const tile_triangles<Real> triangles{screen, screen.bin(tile), box};
+            const bool keep = options.load == depth_load::keep;
+            if (triangles.bin.empty() && keep) continue;
+            dispatch(tile_kernel<tile_triangles<Real>, Winners, Real>{triangles, buffer, depth, box, sign, keep},
+                     options.level);
             shaded[first / run] += finish(triangles, buffer, sign);
         }
     });
@@ -160,7 +150,16 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh& m, const VertexShader& place, const depth_target& target, const draw_options& options = {},
                 E&& ex = {}) {
-    return detail::draw_tiles<false>(m, place, target.depth, options, ex, [](auto&&...) { return std::uint64_t{0}; });
+    return detail::draw_tiles<false, double>(m, place, target.depth, options, ex,
+                                             [](auto&&...) { return std::uint64_t{0}; });
+}
+
+/// The same with quick depths.
+template <vertex_shader VertexShader, executor_argument E = serial_executor>
+draw_stats draw(const mesh& m, const VertexShader& place, const quick_depth_target& target,
+                const draw_options& options = {}, E&& ex = {}) {
+    return detail::draw_tiles<false, float>(m, place, target.depth, options, ex,
+                                            [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// Draws depth and shades every pixel that this draw won, once.
@@ -178,10 +177,10 @@ draw_stats draw(const mesh& m, const VertexShader& place, const FragmentShader& 
         detail::require(target.color.height() == target.depth.height(), "color height", target.color.height(),
                         "the depth image's");
     }
-    return detail::draw_tiles<true>(m, place, target.depth, options, ex,
-                                    [&](const detail::tile_triangles& triangles, auto& tile, float sign) {
-                                        return detail::shade(m, place, shader, target, triangles, tile, sign);
-                                    });
+    return detail::draw_tiles<true, double>(m, place, target.depth, options, ex,
+                                            [&](const auto& triangles, auto& tile, float sign) {
+                                                return detail::shade(m, place, shader, target, triangles, tile, sign);
+                                            });
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

@@ -5,8 +5,11 @@
 #pragma once
 
 #include <insonify/core/dispatch.hpp>
+#include <insonify/core/image_view.hpp>
 #include <insonify/core/lanes.hpp>
+#include <insonify/raster/binning.hpp>
 #include <insonify/raster/depth.hpp>
+#include <insonify/raster/small_depth.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -21,7 +24,8 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// A triangle ready for the pixels of a box: its corners run clockwise on the screen, edges are named by their ends.
+/// A triangle of any size, ready for the pixels of a box: its corners run clockwise on the screen, edges are named by
+/// their ends.
 struct triangle_setup {
     edge_function bc, ca, ab;
     depth_plane depth;
@@ -63,7 +67,7 @@ struct triangle_setup {
     }
 };
 
-/// Depth of a tile's pixels and, where Winners, which of the tile's triangles each shows.
+/// Depth of a tile's pixels and, where Winners, the name of the triangle that each shows.
 template <bool Winners>
 class tile_buffer {
   public:
@@ -83,8 +87,9 @@ class tile_buffer {
         std::fill(winner_.begin(), winner_.end(), nobody);
     }
 
+    std::ptrdiff_t stride() const { return stride_; }
     float* depth(int x, int y) { return depth_.data() + index(x, y); }
-    std::uint32_t* winner(int x, int y) { return winner_.data() + index(x, y); }
+    std::uint32_t* winner(int x, int y) { return Winners ? winner_.data() + index(x, y) : nullptr; }
 
   private:
     std::ptrdiff_t index(int x, int y) const { return static_cast<std::ptrdiff_t>(y - y_) * stride_ + (x - x_); }
@@ -95,9 +100,27 @@ class tile_buffer {
     std::vector<std::uint32_t> winner_;
 };
 
-/// Draws one triangle into a tile, N pixels of a row at a time; a tie in depth stays with whoever came first.
-/// Depths that a double can't round with certainty are asked of `nearest(x, y)`.
-template <int N, class Int, bool Winners, class Nearest>
+/// Keeps the nearer of what is there and what comes; a tie stays with whoever came first. `winner` may be null if
+/// nobody's name is kept.
+template <int N, bool Winners>
+INSONIFY_INLINE void keep_nearer(float* depth, std::uint32_t* winner, const lanes<std::int32_t, N>& covered,
+                                 const lanes<float, N>& z, const lanes<std::uint32_t, N>& name) {
+    using floats = lanes<float, N>;
+    using names = lanes<std::uint32_t, N>;
+    floats old;
+    load(old, depth);
+    const lanes<std::int32_t, N> visible = covered & lanes<std::int32_t, N>(z < old);
+    store(depth, floats(visible ? z : old));
+    if constexpr (Winners) {
+        names before;
+        load(before, winner);
+        store(winner, names(visible ? name : before));
+    }
+}
+
+/// Draws one triangle of any size into a tile, N pixels of a row at a time. Depths that a double can't round with
+/// certainty are asked of `nearest(x, y)`, if Exact.
+template <int N, class Int, bool Winners, bool Exact, class Nearest>
 INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<Winners>& tile, std::uint32_t name,
                           const Nearest& nearest) {
     using ints = lanes<Int, N>;
@@ -127,27 +150,18 @@ INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<Winners>& tile, s
             const doubles plane = row_z + t.depth.dx * (column_x + (static_cast<double>(x) - t.depth.x));
             floats z;
             convert(z, plane);
-            floats below, above;
-            convert(below, doubles(plane - error));
-            convert(above, doubles(plane + error));
-            const masks doubtful = covered & masks(below != above);
-            if (any(doubtful))
-                for (int i = 0; i < N; ++i)
-                    if (lane(doubtful, i) != 0) set_lane(z, i, nearest(x + i, y));
+            if constexpr (Exact) {
+                floats below, above;
+                convert(below, doubles(plane - error));
+                convert(above, doubles(plane + error));
+                const masks doubtful = covered & masks(below != above);
+                if (any(doubtful))
+                    for (int i = 0; i < N; ++i)
+                        if (lane(doubtful, i) != 0) set_lane(z, i, nearest(x + i, y));
+            }
             z = z > lowest ? z : lowest;
             z = z < highest ? z : highest;
-
-            float* const stored = tile.depth(x, y);
-            floats old;
-            load(old, stored);
-            const masks visible = covered & masks(z < old);
-            store(stored, floats(visible ? z : old));
-            if constexpr (Winners) {
-                std::uint32_t* const winner = tile.winner(x, y);
-                names before;
-                load(before, winner);
-                store(winner, names(visible ? drawn : before));
-            }
+            keep_nearer<N, Winners>(tile.depth(x, y), tile.winner(x, y), covered, z, drawn);
             bc += static_cast<Int>(N * t.bc.dx);
             ca += static_cast<Int>(N * t.ca.dx);
             ab += static_cast<Int>(N * t.ab.dx);
@@ -158,23 +172,146 @@ INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<Winners>& tile, s
     }
 }
 
-/// All triangles of one tile. `Triangles` gives `setup(i)` for i in [0, count()), with an empty box for none, and
-/// `nearest_depth(i, x, y)`.
-template <class Triangles, bool Winners>
+/// The same for triangle k of N small ones, whose rows are rarely longer than N pixels.
+template <int N, class Real, bool Winners, class Nearest>
+INSONIFY_INLINE void fill_small(const small_setup<N>& t, const small_planes<N, Real>& planes, int k, int unit,
+                                tile_buffer<Winners>& tile, std::uint32_t name, const Nearest& nearest) {
+    using ints = lanes<std::int32_t, N>;
+    using floats = lanes<float, N>;
+    using reals = lanes<Real, N>;
+    ints column;
+    count_up<std::int32_t, N>(column);
+    const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + name;
+    const floats lowest = floats{} + planes.lowest[k], highest = floats{} + planes.highest[k];
+    for (int x = t.x0[k]; x <= t.x1[k]; x += N) {
+        const ints at = column + (x - t.x0[k]);
+        ints bc = t.bc.origin[k] + at * t.bc.dx[k];
+        ints ca = t.ca.origin[k] + at * t.ca.dx[k];
+        ints ab = t.ab.origin[k] + at * t.ab.dx[k];
+        reals right;
+        convert(right, ints(at * unit + t.right[k]));
+        const reals rise = right * planes.dx[k];
+        int down = t.down[k];
+        float* depth = tile.depth(x, t.y0[k]);
+        std::uint32_t* winner = tile.winner(x, t.y0[k]);
+        const std::ptrdiff_t stride = tile.stride();
+        for (int y = t.y0[k]; y <= t.y1[k]; ++y, down += unit) {
+            const ints covered = ints((bc | ca | ab) >= 0);
+            const reals plane = rise + (planes.z[k] + planes.dy[k] * static_cast<Real>(down));
+            floats z;
+            if constexpr (small_planes<N, Real>::exact) {
+                floats above;
+                convert(z, reals(plane - planes.error[k]));
+                convert(above, reals(plane + planes.error[k]));
+                const ints doubtful = covered & ints(z != above);
+                if (any(doubtful))
+                    for (int i = 0; i < N; ++i)
+                        if (lane(doubtful, i) != 0) set_lane(z, i, nearest(x + i, y));
+            } else {
+                z = plane;
+            }
+            z = z > lowest ? z : lowest;
+            z = z < highest ? z : highest;
+            keep_nearer<N, Winners>(depth, winner, covered, z, drawn);
+            depth += stride;
+            if constexpr (Winners) winner += stride;
+            bc += t.bc.dy[k];
+            ca += t.ca.dy[k];
+            ab += t.ab.dy[k];
+        }
+    }
+}
+
+/// All triangles of one tile, between reading and writing the image. `Triangles` has the runs of the tile, and for a
+/// name its corners' places, its set-up and its nearest depth.
+template <class Triangles, bool Winners, class Real>
 struct tile_kernel {
+    static constexpr bool exact = std::is_same_v<Real, double>;
     const Triangles& triangles;
     tile_buffer<Winners>& tile;
+    image_view<float> image;
+    pixel_box box;
+    float sign;  ///< a smaller internal depth wins
+    bool load_image;
+
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        // As many as fit a vector of depths.
+        constexpr int N = exact && Width > 1 ? Width / 2 : Width;
+        tile.restart(box.x0, box.y0);
+        if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
+        for (const triangle_run& run : triangles.runs()) {
+            if (run.is_small)
+                for (std::size_t i = 0; i < run.names.size(); i += N)
+                    draw_small<N>(run.names.data() + i, (std::min)(static_cast<int>(run.names.size() - i), N));
+            else
+                for (const std::uint32_t name : run.names) draw_one<N>(name);
+        }
+        copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
+    }
+
+  private:
+    /// Between tile and image; `ends(x, y)` are where to and where from.
+    template <int N, class Ends>
+    INSONIFY_INLINE void copy(const Ends& ends) const {
+        using floats = lanes<float, N>;
+        for (int y = box.y0; y <= box.y1; ++y) {
+            int x = box.x0;
+            for (; x + N - 1 <= box.x1; x += N) {
+                const auto [to, from] = ends(x, y);
+                floats z;
+                load(z, from);
+                store(to, floats(z * sign));
+            }
+            for (; x <= box.x1; ++x) {
+                const auto [to, from] = ends(x, y);
+                *to = *from * sign;
+            }
+        }
+    }
 
     template <int N>
-    INSONIFY_INLINE void run() const {
-        for (std::uint32_t i = 0; i < triangles.count(); ++i) {
-            const triangle_setup t = triangles.setup(i);
-            const auto nearest = [&](int x, int y) { return triangles.nearest_depth(i, x, y); };
-            if (t.narrow)
-                fill<N, std::int32_t>(t, tile, i, nearest);
-            else
-                fill<N, std::int64_t>(t, tile, i, nearest);
-        }
+    INSONIFY_INLINE void draw_one(std::uint32_t name) const {
+        const triangle_setup t = triangles.setup(name);
+        const auto nearest = [&](int x, int y) { return triangles.nearest_depth(name, x, y); };
+        if (t.narrow)
+            fill<N, std::int32_t, Winners, exact>(t, tile, name, nearest);
+        else
+            fill<N, std::int64_t, Winners, exact>(t, tile, name, nearest);
+    }
+
+    template <int N>
+    INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count) const {
+        using reals = lanes<Real, N>;
+        const auto name = [&](int k) { return names[k < count ? k : 0]; };
+        corner_lanes<N> at([&](int k, int corner) { return triangles.place(name(k), corner); });
+        reals az, bz, cz;
+        gather<N>(az, [&](int k) { return triangles.depth(name(k), 0); });
+        gather<N>(bz, [&](int k) { return triangles.depth(name(k), 1); });
+        gather<N>(cz, [&](int k) { return triangles.depth(name(k), 2); });
+        // Corners in clockwise order: b and c are exchanged where the front is seen.
+        lanes<std::int32_t, N> area, front;
+        at.area(area);
+        front = area < 0;
+        area = front ? 0 - area : area;
+        exchange(front, at.bx, at.cx);
+        exchange(front, at.by, at.cy);
+        lanes<std::conditional_t<exact, std::int64_t, std::int32_t>, N> real_front;
+        convert(real_front, front);
+        exchange(real_front, bz, cz);
+        const small_setup<N> t(at, triangles.grid(), box);
+        const small_planes<N, Real> planes(at, area, az, bz, cz);
+        const auto unit = static_cast<int>(triangles.grid().unit());
+        for (int k = 0; k < count; ++k)
+            fill_small<N>(t, planes, k, unit, tile, names[k],
+                          [&](int x, int y) { return triangles.nearest_depth(names[k], x, y); });
+    }
+
+    template <class Mask, class Lanes>
+    INSONIFY_INLINE static void exchange(const Mask& where, Lanes& a, Lanes& b) {
+        const Lanes old = a;
+        a = where ? b : a;
+        b = where ? old : b;
     }
 };
 

@@ -111,7 +111,7 @@ class height_map {
         for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame_(to_world.offset + to_world.linear[i])) - zero);
         const glm::vec3 start(zero);
         const auto place = [=](const vertex& v) { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); };
-        return draw(m, place, depth_target{heights_}, {.keep = keep_depth::larger}, ex);
+        return draw(m, place, quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
     }
 
     const light_frame& frame() const { return frame_; }
