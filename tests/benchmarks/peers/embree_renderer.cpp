@@ -2,6 +2,7 @@
 
 #include <insonify/core/thread_pool.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -36,8 +37,9 @@ class embree_renderer::tracer {
         if (task.pixels % tile != 0) throw std::invalid_argument("pixels must be a multiple of 32");
         scene_ = rtcNewScene(device_);
         if (tree == embree_tree::exact) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-        const bool kept = tree == embree_tree::mesh_kept || tree == embree_tree::exact;
-        rtcSetSceneBuildQuality(scene_, kept ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
+        // A tree for one frame is cheapest as a Morton build of each object, which only a dynamic scene gets.
+        if (is_rebuilt()) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
+        rtcSetSceneBuildQuality(scene_, is_rebuilt() ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH);
         attach(tree == embree_tree::grid_rebuilt ? grid() : triangles(task.seabed));
         attach(triangles(task.cylinder));
         rtcCommitScene(scene_);
@@ -51,7 +53,7 @@ class embree_renderer::tracer {
     tracer& operator=(const tracer&) = delete;
 
     void render(std::span<std::uint8_t> out) {
-        if (tree_ == embree_tree::mesh_rebuilt || tree_ == embree_tree::grid_rebuilt) rebuild();
+        if (is_rebuilt()) rebuild();
         const int columns = task_.pixels / tile;
         pool_.bulk(static_cast<std::size_t>(columns) * static_cast<std::size_t>(columns), [&](std::size_t i) {
             const int x0 = static_cast<int>(i) % columns * tile, y0 = static_cast<int>(i) / columns * tile;
@@ -61,7 +63,10 @@ class embree_renderer::tracer {
     }
 
   private:
+    bool is_rebuilt() const { return tree_ == embree_tree::mesh_rebuilt || tree_ == embree_tree::grid_rebuilt; }
+
     void attach(RTCGeometry geometry) {
+        if (is_rebuilt()) rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_LOW);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene_, geometry);
         rtcReleaseGeometry(geometry);
@@ -170,7 +175,7 @@ class embree_renderer::tracer {
         }
         if (any) {
             for (int i = 0; i < lanes; ++i) {
-                const float t = primary.ray.tfar[i];
+                const float t = wanted[i] != 0 ? primary.ray.tfar[i] : 0;  // all must be finite
                 shadow.org_x[i] = t * primary.ray.dir_x[i];
                 shadow.org_y[i] = t * primary.ray.dir_y[i];
                 shadow.org_z[i] = altitude - t;
