@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include <glm/mat4x4.hpp>
 
@@ -87,28 +86,14 @@ struct box_projection {
     }
 };
 
-/// Triangles in strips eight cells wide, so that neighbours are drawn soon after one another.
-std::vector<glm::uvec3> in_strips(const workload::surface& seabed, int cells) {
-    std::vector<glm::uvec3> strips;
-    strips.reserve(seabed.triangles.size());
-    const auto count = static_cast<std::size_t>(cells);
-    for (std::size_t i0 = 0; i0 < count; i0 += 8)
-        for (std::size_t j = 0; j < count; ++j) {
-            const auto first = seabed.triangles.begin() + static_cast<std::ptrdiff_t>(2 * (j * count + i0));
-            strips.insert(strips.end(), first,
-                          first + static_cast<std::ptrdiff_t>(2 * (std::min)(count - i0, std::size_t{8})));
-        }
-    return strips;
-}
-
 }  // namespace
 
 class llvmpipe_renderer::pipeline {
   public:
     pipeline(const workload::task& task, int threads) : task_(task), context_(with_threads(threads)) {
         if (context_.renderer().empty()) throw std::runtime_error("no llvmpipe through EGL's surfaceless platform");
-        upload(seabed_, task.seabed, in_strips(task.seabed, task.cells));
-        upload(cylinder_, task.cylinder, {task.cylinder.triangles.begin(), task.cylinder.triangles.end()});
+        upload(seabed_, task.seabed);
+        upload(cylinder_, task.cylinder);
         make_map();
         make_target();
         make_programs();
@@ -150,7 +135,7 @@ class llvmpipe_renderer::pipeline {
         if (glGetError() != GL_NO_ERROR) throw std::runtime_error("llvmpipe refuses a call");
     }
 
-    static void upload(object& o, const workload::surface& s, const std::vector<glm::uvec3>& triangles) {
+    static void upload(object& o, const workload::surface& s) {
         GLuint buffers[3];
         glGenVertexArrays(1, &o.array);
         glBindVertexArray(o.array);
@@ -163,9 +148,9 @@ class llvmpipe_renderer::pipeline {
             glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
         }
         glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[2]);
-        glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(glm::uvec3)),
-                     triangles.data(), GL_STATIC_DRAW);
-        o.indices = static_cast<GLsizei>(3 * triangles.size());
+        glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(s.triangles.size_bytes()), s.triangles.data(),
+                     GL_STATIC_DRAW);
+        o.indices = static_cast<GLsizei>(3 * s.triangles.size());
     }
 
     static void draw(const object& o) {
