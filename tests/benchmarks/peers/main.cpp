@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -49,7 +50,7 @@ options parse(int argc, char** argv) {
     app.add_option("--frames", o.frames, "Measured, after two to warm up (9)")->check(CLI::Range(1, 10000));
     app.add_option("--json", o.json, "File for the figures");
     app.add_option("--svg", o.svg, "File for a bar chart");
-    app.add_option("--dump", o.dump, "Folder for the pictures, as PGM")->check(CLI::ExistingDirectory);
+    app.add_option("--dump", o.dump, "Folder for the pictures, as PGM");
     try {
         app.parse(argc, argv);
         for (const std::string& name : o.only)
@@ -142,6 +143,7 @@ report::row summary(const runner& r, const workload::size& size, const bytes& ex
 
 void dump(const options& o, const workload::size& size, const std::string& name, const bytes& picture) {
     if (o.dump.empty() || picture.empty()) return;
+    std::filesystem::create_directories(o.dump);
     in::write_netpbm(o.dump + "/" + size.name + "_" + name + ".pgm",
                      in::image_view<const std::uint8_t>(picture.data(), size.pixels, size.pixels));
 }
@@ -174,7 +176,7 @@ int main(int argc, char** argv) try {
         if (std::find(o.sizes.begin(), o.sizes.end(), std::string(1, size.name)) != o.sizes.end())
             measure(size, o, rows);
     if (rows.empty()) return 1;
-    std::printf("W: %d threads, %d frames of each renderer in turn\n", o.threads, o.frames);
+    std::printf("W: threads %d; frames %d of each renderer, in turn\n", o.threads, o.frames);
     report::print_table(rows);
     if (!o.json.empty()) in::write_file(o.json, report::to_json(rows));
     if (!o.svg.empty()) in::write_file(o.svg, report::to_svg(rows));

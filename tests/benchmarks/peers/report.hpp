@@ -69,7 +69,7 @@ inline std::string to_svg(const std::vector<row>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const row& r = rows[i];
         if (i == 0 || rows[i - 1].size != r.size) {
-            y += 14;
+            y += 18;
             bars += "<text x='16' y='" + std::to_string(y) + "' font-weight='bold'>W in size " +
                     std::string(1, r.size) + ", ms per frame</text>\n";
             y += 10;
