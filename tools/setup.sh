@@ -22,6 +22,7 @@ fuzzer        clang:-fsanitize=fuzzer                 libclang-rt-dev       comp
 egl           header:EGL/egl.h                        libegl-dev            mesa-libEGL-devel   mesa
 gles          header:GLES3/gl3.h                      libgles-dev           mesa-libGLES-devel  mesa
 llvmpipe      library:dri/swrast_dri.so               libgl1-mesa-dri       mesa-dri-drivers    mesa
+embree        header:embree3/rtcore.h                 libembree-dev         embree3-devel       embree@3
 clang-format  command:clang-format                    clang-format          clang-tools-extra   clang-format
 '
 

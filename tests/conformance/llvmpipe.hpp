@@ -5,15 +5,12 @@
 #include <insonify/core/image.hpp>
 
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include <glm/vec4.hpp>
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-#include <GLES3/gl3.h>
+#include "../mesa_context.hpp"
 
 namespace conformance {
 
@@ -25,37 +22,14 @@ struct picture {
     in::image<float> depth;           ///< where there is a winner
 };
 
-/// An OpenGL ES 3 context on llvmpipe; `renderer()` is empty where there is none.
+/// Draws on llvmpipe; `renderer()` is empty where there is none.
 class llvmpipe {
   public:
     llvmpipe() {
-        setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-        setenv("GALLIUM_DRIVER", "llvmpipe", 1);
-        const auto get_display =
-            reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
-        if (get_display == nullptr) return;
-        display_ = get_display(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
-        if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) return;
-        eglBindAPI(EGL_OPENGL_ES_API);
-        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
-        context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-        if (context_ == EGL_NO_CONTEXT) return;
-        if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) return;
-        renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-        if (renderer_.find("llvmpipe") == std::string::npos) {
-            renderer_.clear();
-            return;
-        }
-        link();
+        if (!renderer().empty()) link();
     }
-    ~llvmpipe() {
-        if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
-        if (display_ != EGL_NO_DISPLAY) eglTerminate(display_);
-    }
-    llvmpipe(const llvmpipe&) = delete;
-    llvmpipe& operator=(const llvmpipe&) = delete;
 
-    const std::string& renderer() const { return renderer_; }
+    const std::string& renderer() const { return context_.renderer(); }
 
     /// Draws triangles, three corners each with 0 <= z <= w visible; the smallest depth wins, the first in a tie.
     picture draw(const std::vector<glm::vec4>& corners, int width, int height) const {
@@ -138,24 +112,11 @@ class llvmpipe {
             layout(location = 0) out highp uint winner;
             layout(location = 1) out highp float depth;
             void main() { winner = triangle; depth = gl_FragCoord.z; })";
-        program_ = glCreateProgram();
-        for (const auto& [kind, source] :
-             {std::pair{GL_VERTEX_SHADER, vertex}, std::pair{GL_FRAGMENT_SHADER, fragment}}) {
-            const GLuint shader = glCreateShader(static_cast<GLenum>(kind));
-            glShaderSource(shader, 1, &source, nullptr);
-            glCompileShader(shader);
-            glAttachShader(program_, shader);
-            glDeleteShader(shader);
-        }
-        glLinkProgram(program_);
-        GLint linked = 0;
-        glGetProgramiv(program_, GL_LINK_STATUS, &linked);
-        failed_ |= linked == 0;
+        program_ = testing_mesa::program_of(vertex, fragment);
+        failed_ |= program_ == 0;
     }
 
-    EGLDisplay display_ = EGL_NO_DISPLAY;
-    EGLContext context_ = EGL_NO_CONTEXT;
-    std::string renderer_;
+    testing_mesa::context context_;
     GLuint program_ = 0;
     mutable bool failed_ = false;
 };

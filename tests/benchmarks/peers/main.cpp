@@ -1,0 +1,186 @@
+// The reference workload W drawn by the library and by its peers, frame by frame in turn. See --help and docs/speed.md.
+#include <insonify/accuracy/metrics.hpp>
+#include <insonify/io/netpbm.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "insonify_renderer.hpp"
+#include "report.hpp"
+#include <CLI/CLI.hpp>
+#if defined(PEERS_EMBREE)
+#include "embree_renderer.hpp"
+#endif
+#if defined(PEERS_LLVMPIPE)
+#include "llvmpipe_renderer.hpp"
+#endif
+
+namespace {
+
+namespace in = insonify;
+
+using bytes = std::vector<std::uint8_t>;
+
+const std::vector<std::string> every_renderer{"insonify", "embree_mesh_kept", "embree_mesh_rebuilt",
+                                              "embree_grid_rebuilt", "llvmpipe"};
+
+struct options {
+    std::vector<std::string> sizes{"S", "M", "L"};
+    std::vector<std::string> only = every_renderer;
+    int threads = 2, frames = 9;
+    std::string json, svg, dump;
+};
+
+options parse(int argc, char** argv) {
+    options o;
+    CLI::App app("Draws the reference workload W by insonify and by its peers, in turn, and compares them.", "bench");
+    app.add_option("--sizes", o.sizes, "S,M,L: 256, 512, 1024 cells and 512, 1024, 2048 pixels a side (all)")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"S", "M", "L"}));
+    app.add_option("--only", o.only,
+                   "Of insonify,embree_mesh_kept,embree_mesh_rebuilt,embree_grid_rebuilt,llvmpipe; "
+                   "embree is all of its three (all)")
+        ->delimiter(',');
+    app.add_option("--threads", o.threads, "Of each renderer (2)")->check(CLI::Range(1, 256));
+    app.add_option("--frames", o.frames, "Measured, after two to warm up (9)")->check(CLI::Range(1, 10000));
+    app.add_option("--json", o.json, "File for the figures");
+    app.add_option("--svg", o.svg, "File for a bar chart");
+    app.add_option("--dump", o.dump, "Folder for the pictures, as PGM");
+    try {
+        app.parse(argc, argv);
+        for (const std::string& name : o.only)
+            if (name != "embree" &&
+                std::find(every_renderer.begin(), every_renderer.end(), name) == every_renderer.end())
+                throw CLI::ValidationError("--only", "'" + name + "' is no renderer");
+    } catch (const CLI::ParseError& error) {
+        std::exit(app.exit(error) == 0 ? 0 : 2);
+    }
+    return o;
+}
+
+/// A renderer in the race.
+struct runner {
+    std::string name;
+    std::function<void(std::span<std::uint8_t>)> render;
+    bytes picture;
+    std::vector<double> times{};  // ms
+
+    void run(bool is_measured) {
+        const auto start = std::chrono::steady_clock::now();
+        render(picture);
+        const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+        if (is_measured) times.push_back(time.count());
+    }
+};
+
+/// What was asked for and can run, with a word about what can't.
+std::vector<runner> make_runners(const workload::scene& scene, const options& o) {
+    const auto pixels = static_cast<std::size_t>(scene.size.pixels);
+    const auto is_wanted = [&](const std::string& name) {
+        const auto named = [&](const std::string& n) {
+            return std::find(o.only.begin(), o.only.end(), n) != o.only.end();
+        };
+        return named(name) || (named("embree") && name.starts_with("embree_"));
+    };
+    std::vector<runner> runners;
+    // `make` gives a renderer, or throws a reason why there is none.
+    const auto add = [&](const std::string& name, const auto& make) {
+        if (!is_wanted(name)) return;
+        try {
+            auto renderer = make();
+            runners.push_back(
+                {name, [renderer](std::span<std::uint8_t> out) { renderer->render(out); }, bytes(pixels * pixels)});
+        } catch (const std::exception& reason) {
+            std::fprintf(stderr, "%s is left out: %s\n", name.c_str(), reason.what());
+        }
+    };
+    add("insonify", [&] { return std::make_shared<peers::insonify_renderer>(scene, o.threads); });
+#if defined(PEERS_EMBREE)
+    const auto embree = [&](peers::embree_tree tree) {
+        return [&, tree] { return std::make_shared<peers::embree_renderer>(scene.task(), tree, o.threads); };
+    };
+    add("embree_mesh_kept", embree(peers::embree_tree::mesh_kept));
+    add("embree_mesh_rebuilt", embree(peers::embree_tree::mesh_rebuilt));
+    add("embree_grid_rebuilt", embree(peers::embree_tree::grid_rebuilt));
+#endif
+#if defined(PEERS_LLVMPIPE)
+    add("llvmpipe", [&] { return std::make_shared<peers::llvmpipe_renderer>(scene.task(), o.threads); });
+#endif
+    return runners;
+}
+
+/// The picture that a ray for each pixel and one for its shadow make; none without Embree.
+bytes exact_picture([[maybe_unused]] const workload::scene& scene, [[maybe_unused]] int threads) {
+#if defined(PEERS_EMBREE)
+    const auto pixels = static_cast<std::size_t>(scene.size.pixels);
+    bytes picture(pixels * pixels);
+    peers::embree_renderer(scene.task(), peers::embree_tree::exact, threads).render(picture);
+    return picture;
+#else
+    return {};
+#endif
+}
+
+report::row summary(const runner& r, const workload::size& size, const bytes& exact) {
+    std::vector<double> times = r.times;
+    std::sort(times.begin(), times.end());
+    report::row row{size.name, r.name, times[times.size() / 2], times.front(), {}};
+    if (!exact.empty()) {
+        std::size_t off = 0;
+        for (std::size_t i = 0; i < exact.size(); ++i) off += std::abs(int{r.picture[i]} - int{exact[i]}) > 8;
+        const in::image_view<const std::uint8_t> result(r.picture.data(), size.pixels, size.pixels);
+        const in::image_view<const std::uint8_t> truth(exact.data(), size.pixels, size.pixels);
+        row.from_exact = {in::accuracy::compare_images(result, truth).psnr(255),
+                          100.0 * static_cast<double>(off) / static_cast<double>(exact.size())};
+    }
+    return row;
+}
+
+void dump(const options& o, const workload::size& size, const std::string& name, const bytes& picture) {
+    if (o.dump.empty() || picture.empty()) return;
+    std::filesystem::create_directories(o.dump);
+    in::write_netpbm(o.dump + "/" + size.name + "_" + name + ".pgm",
+                     in::image_view<const std::uint8_t>(picture.data(), size.pixels, size.pixels));
+}
+
+void measure(const workload::size& size, const options& o, std::vector<report::row>& rows) {
+    const workload::scene scene(size);
+    const bytes exact = exact_picture(scene, o.threads);
+    dump(o, size, "exact", exact);
+    std::vector<runner> runners = make_runners(scene, o);
+    for (int frame = -2; frame < o.frames; ++frame)
+        for (runner& r : runners) r.run(frame >= 0);
+    for (const runner& r : runners) {
+        dump(o, size, r.name, r.picture);
+        rows.push_back(summary(r, size, exact));
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const options o = parse(argc, argv);
+#if !defined(PEERS_EMBREE)
+    std::fprintf(stderr, "embree is left out, and with it the exact picture: it was not there when this was built\n");
+#endif
+#if !defined(PEERS_LLVMPIPE)
+    std::fprintf(stderr, "llvmpipe is left out: EGL and OpenGL ES were not there when this was built\n");
+#endif
+    std::vector<report::row> rows;
+    for (const workload::size& size : workload::sizes)
+        if (std::find(o.sizes.begin(), o.sizes.end(), std::string(1, size.name)) != o.sizes.end())
+            measure(size, o, rows);
+    if (rows.empty()) return 1;
+    std::printf("W: threads %d; frames %d of each renderer, in turn\n", o.threads, o.frames);
+    report::print_table(rows);
+    if (!o.json.empty()) in::write_file(o.json, report::to_json(rows));
+    if (!o.svg.empty()) in::write_file(o.svg, report::to_svg(rows));
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "bench: %s\n", error.what());
+    return 1;
+}

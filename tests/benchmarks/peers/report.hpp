@@ -1,0 +1,97 @@
+// What a run has found, as a table, as JSON, and as a chart.
+#pragma once
+
+#include <insonify/core/error.hpp>
+
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace report {
+
+/// How far a picture is from the exact one.
+struct distance {
+    double psnr_db = 0;
+    double off_by_8_percent = 0;  ///< pixels that differ by more than 8 of 255
+};
+
+/// One renderer on one size of the workload.
+struct row {
+    char size;
+    std::string renderer;
+    double ms_median = 0, ms_fastest = 0;
+    std::optional<distance> from_exact;  ///< absent without an exact picture
+};
+
+/// The row of another renderer on the same size.
+inline const row* find(const std::vector<row>& rows, char size, const std::string& renderer) {
+    for (const row& r : rows)
+        if (r.size == size && r.renderer == renderer) return &r;
+    return nullptr;
+}
+
+inline std::string number(double value, int digits) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return text;
+}
+
+inline void print_table(const std::vector<row>& rows) {
+    std::printf("%-5s %-22s %10s %10s %12s %9s %11s\n", "size", "renderer", "median ms", "fastest", "to insonify",
+                "PSNR dB", "off by > 8");
+    for (const row& r : rows) {
+        const row* const own = find(rows, r.size, "insonify");
+        std::printf("%-5c %-22s %10.1f %10.1f %12s %9s %11s\n", r.size, r.renderer.c_str(), r.ms_median, r.ms_fastest,
+                    own != nullptr ? (number(r.ms_median / own->ms_median, 2) + " x").c_str() : "-",
+                    r.from_exact ? number(r.from_exact->psnr_db, 1).c_str() : "-",
+                    r.from_exact ? (number(r.from_exact->off_by_8_percent, 3) + " %").c_str() : "-");
+    }
+}
+
+inline std::string to_json(const std::vector<row>& rows) {
+    std::string text = "[";
+    for (const row& r : rows) {
+        text += text.size() == 1 ? "\n" : ",\n";
+        text += R"(  {"workload": "W", "size": ")" + std::string(1, r.size) + R"(", "renderer": ")" + r.renderer +
+                R"(", "ms_median": )" + number(r.ms_median, 3) + R"(, "psnr_db": )" +
+                (r.from_exact ? number(r.from_exact->psnr_db, 3) : "null") + R"(, "off_by_8_percent": )" +
+                (r.from_exact ? number(r.from_exact->off_by_8_percent, 4) : "null") + "}";
+    }
+    return text + "\n]\n";
+}
+
+/// Bars of the medians, one group for each size, each group to a scale of its own.
+inline std::string to_svg(const std::vector<row>& rows) {
+    constexpr int left = 190, longest = 480, line = 24, width = 780;
+    std::string bars;
+    int y = 20;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const row& r = rows[i];
+        if (i == 0 || rows[i - 1].size != r.size) {
+            y += 18;
+            bars += "<text x='16' y='" + std::to_string(y) + "' font-weight='bold'>W in size " +
+                    std::string(1, r.size) + ", ms per frame</text>\n";
+            y += 10;
+        }
+        double slowest = 0;
+        for (const row& other : rows)
+            if (other.size == r.size && other.ms_median > slowest) slowest = other.ms_median;
+        const row* const own = find(rows, r.size, "insonify");
+        const double length = longest * r.ms_median / slowest;
+        std::string label = number(r.ms_median, r.ms_median < 100 ? 1 : 0);
+        if (own != nullptr && own != &r) label += "  (" + number(r.ms_median / own->ms_median, 1) + " x)";
+        bars += "<text x='" + std::to_string(left - 8) + "' y='" + std::to_string(y + 16) + "' text-anchor='end'>" +
+                r.renderer + "</text>\n<rect x='" + std::to_string(left) + "' y='" + std::to_string(y + 3) +
+                "' width='" + number(length, 1) + "' height='" + std::to_string(line - 6) + "' fill='" +
+                (r.renderer == "insonify" ? "#b5651d" : "#8a9ba8") + "'/>\n<text x='" + number(left + length + 6, 1) +
+                "' y='" + std::to_string(y + 16) + "'>" + label + "</text>\n";
+        y += line;
+    }
+    const std::string height = std::to_string(y + 16), right = std::to_string(width);
+    return "<svg xmlns='http://www.w3.org/2000/svg' width='" + right + "' height='" + height + "' viewBox='0 0 " +
+           right + " " + height + "' font-family='sans-serif' font-size='13'>\n<rect width='100%' height='100%' " +
+           "fill='white'/>\n" + bars + "</svg>\n";
+}
+
+}  // namespace report
