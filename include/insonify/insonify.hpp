@@ -45,6 +45,7 @@
 #include <insonify/raster/depth.hpp>
 #include <insonify/raster/draw.hpp>
 #include <insonify/raster/fold.hpp>
+#include <insonify/raster/fragment_lanes.hpp>
 #include <insonify/raster/framebuffer.hpp>
 #include <insonify/raster/setup.hpp>
 #include <insonify/raster/shader.hpp>
@@ -58,6 +59,7 @@
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/seabed/mud.hpp>
 #include <insonify/seabed/noise.hpp>
+#include <insonify/seabed/none.hpp>
 #include <insonify/seabed/recipe.hpp>
 #include <insonify/seabed/ripples.hpp>
 #include <insonify/seabed/rock.hpp>
@@ -67,10 +69,12 @@
 #include <insonify/shadow/lookup.hpp>
 #include <insonify/shadow/map.hpp>
 #include <insonify/shadow/policy.hpp>
+#include <insonify/shadow/refined.hpp>
 #include <insonify/sonar/backscatter.hpp>
 #include <insonify/sonar/illumination.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/render.hpp>
 #include <insonify/sonar/rig.hpp>
 #include <insonify/sonar/scene.hpp>
+#include <insonify/sonar/shading.hpp>
 #include <insonify/version.hpp>

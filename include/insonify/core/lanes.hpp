@@ -7,6 +7,7 @@
 
 #include <insonify/config.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -85,6 +86,12 @@ INSONIFY_INLINE void gather(Lanes& into, const From& from) {
         into = Lanes{from(I)...};
     }
     (std::make_integer_sequence<int, N>{});
+}
+
+/// Correctly rounded, as numeric::square_root.
+template <int N>
+INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& of) {
+    gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
 }
 
 /// 0, 1, ... N - 1.

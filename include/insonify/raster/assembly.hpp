@@ -144,15 +144,16 @@ template <class Real>
 class screen_mesh {
   public:
     /// @param shaded  whether weights_at will be asked for
-    template <vertex_shader Shader, executor E>
+    /// @param keep    keep(index, placed): takes what the vertex callable gives
+    template <vertex_shader Shader, class Keep, executor E>
     screen_mesh(const mesh& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
-                const draw_options& options, bool shaded, E& ex)
+                const draw_options& options, bool shaded, const Keep& keep, E& ex)
         : mesh_(m),
           grid_(grid),
           projection_(grid, options.keep),
           cull_(options.cull),
           vertices_(m.positions.size(), shaded) {
-        place_vertices(shader, ex);
+        place_vertices(shader, keep, ex);
         const std::size_t grain = (std::max)(std::size_t{4096}, (m.triangles.size() / 64 + 16) / 16 * 16);
         std::vector<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
         bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
@@ -198,6 +199,13 @@ class screen_mesh {
         return t;
     }
 
+    bool is_compact(std::uint32_t name) const { return name < whole(); }
+    /// The mesh's triangle that goes by a name, and its vertices.
+    std::uint32_t triangle(std::uint32_t name) const {
+        return is_compact(name) ? name : wide_[name - whole()].triangle;
+    }
+    const glm::uvec3& indices(std::uint32_t triangle) const { return mesh_.triangles[triangle]; }
+
     /// Of a triangle that isn't wide, corner by corner in the mesh's order.
     INSONIFY_INLINE grid_place place(std::size_t triangle, int corner) const {
         return vertices_.places[mesh_.triangles[triangle][corner]];
@@ -212,11 +220,13 @@ class screen_mesh {
 
     std::uint32_t whole() const { return static_cast<std::uint32_t>(mesh_.triangles.size()); }
 
-    template <vertex_shader Shader, executor E>
-    void place_vertices(const Shader& shader, E& ex) {
+    template <vertex_shader Shader, class Keep, executor E>
+    void place_vertices(const Shader& shader, const Keep& keep, E& ex) {
         bulk_ranges(ex, mesh_.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
-                const glm::dvec4 clip(clip_position(shader, mesh_vertex(mesh_, static_cast<std::uint32_t>(i))));
+                const auto placed = shader(mesh_vertex(mesh_, static_cast<std::uint32_t>(i)));
+                keep(i, placed);
+                const glm::dvec4 clip(position_of(placed));
                 if (projection_.is_compact(clip))
                     vertices_.set(i, projection_.to_screen(clip));
                 else

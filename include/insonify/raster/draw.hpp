@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/raster/assembly.hpp>
+#include <insonify/raster/fragment_lanes.hpp>
 #include <insonify/raster/tile.hpp>
 
 #include <bit>
@@ -99,17 +100,18 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
     return shaded;
 }
 
-/// Everything but the shading, which `finish(tile triangles, tile buffer)` does; it returns the pixels it shaded.
-template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Finish>
+/// Everything but the shading, which `finish(tile triangles, tile buffer, depth sign)` does; it returns the pixels that
+/// it shaded. `keep(index, placed)` takes what the vertex callable gives.
+template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Keep, class Finish>
 draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float> depth, const draw_options& options,
-                      E& ex, Finish&& finish) {
+                      E& ex, const Keep& keep_vertex, Finish&& finish) {
     check(options, depth);
     require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
             "0 or one per position");
     if (depth.empty()) return {};
     const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
     const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));
-    const screen_mesh<Real> screen(m, place, grid, tiles, options, Winners, ex);
+    const screen_mesh<Real> screen(m, place, grid, tiles, options, Winners, keep_vertex, ex);
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
     // A few tiles share a buffer; how many doesn't matter to the result.
@@ -135,6 +137,42 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
     return stats;
 }
 
+/// Draws quick depths and hands the pixels that this draw has won, several at a time, to `shader(fragment_lanes)`.
+template <varying_shader VertexShader, class LaneShader, executor E>
+draw_stats draw_lanes(const mesh& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
+                      const draw_options& options, E& ex) {
+    using varyings = varyings_of<VertexShader>;
+    const auto records = std::make_unique_for_overwrite<vertex_record<varyings>[]>(m.positions.size());
+    return draw_tiles<true, float>(
+        m, place, depth, options, ex,
+        [&](std::size_t i, const placed_vertex<varyings>& v) { records[i].set(v.varyings, 1 / v.clip.w); },
+        [&](const auto& triangles, tile_buffer<true>& tile, float) {
+            std::uint64_t shaded = 0;
+            dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.get(), tile,
+                                                                              triangles.box, shader, shaded},
+                     options.level);
+            return shaded;
+        });
+}
+
+/// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle.
+template <vertex_shader VertexShader, executor E>
+draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float> depth,
+                      image_view<std::uint32_t> names, const draw_options& options, E& ex) {
+    return draw_tiles<true, float>(
+        m, place, depth, options, ex, [](auto&&...) {},
+        [&](const auto& triangles, tile_buffer<true>& tile, float) {
+            const pixel_box& box = triangles.box;
+            for (int y = box.y0; y <= box.y1; ++y) {
+                const std::uint32_t* const winner = tile.winner(box.x0, y);
+                std::uint32_t* const to = names.data() + y * names.stride() + box.x0;
+                for (int x = 0; x < box.width(); ++x)
+                    if (winner[x] != tile_buffer<true>::nobody) to[x] = triangles.screen.triangle(winner[x]);
+            }
+            return std::uint64_t{0};
+        });
+}
+
 }  // namespace detail
 
 /// Draws depth alone; no shading is compiled.
@@ -150,16 +188,16 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh& m, const VertexShader& place, const depth_target& target, const draw_options& options = {},
                 E&& ex = {}) {
-    return detail::draw_tiles<false, double>(m, place, target.depth, options, ex,
-                                             [](auto&&...) { return std::uint64_t{0}; });
+    return detail::draw_tiles<false, double>(
+        m, place, target.depth, options, ex, [](auto&&...) {}, [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// The same with quick depths.
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh& m, const VertexShader& place, const quick_depth_target& target,
                 const draw_options& options = {}, E&& ex = {}) {
-    return detail::draw_tiles<false, float>(m, place, target.depth, options, ex,
-                                            [](auto&&...) { return std::uint64_t{0}; });
+    return detail::draw_tiles<false, float>(
+        m, place, target.depth, options, ex, [](auto&&...) {}, [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// Draws depth and shades every pixel that this draw won, once.
@@ -177,10 +215,11 @@ draw_stats draw(const mesh& m, const VertexShader& place, const FragmentShader& 
         detail::require(target.color.height() == target.depth.height(), "color height", target.color.height(),
                         "the depth image's");
     }
-    return detail::draw_tiles<true, double>(m, place, target.depth, options, ex,
-                                            [&](const auto& triangles, auto& tile, float sign) {
-                                                return detail::shade(m, place, shader, target, triangles, tile, sign);
-                                            });
+    return detail::draw_tiles<true, double>(
+        m, place, target.depth, options, ex, [](auto&&...) {},
+        [&](const auto& triangles, auto& tile, float sign) {
+            return detail::shade(m, place, shader, target, triangles, tile, sign);
+        });
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

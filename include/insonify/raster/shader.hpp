@@ -67,12 +67,17 @@ struct shader_varyings<S> {
     using type = std::remove_cvref_t<decltype(std::declval<const S&>()(std::declval<const vertex&>()).varyings)>;
 };
 
+inline glm::vec4 position_of(const glm::vec4& clip) {
+    return clip;
+}
+template <class Varyings>
+INSONIFY_INLINE glm::vec4 position_of(const placed_vertex<Varyings>& placed) {
+    return placed.clip;
+}
+
 template <vertex_shader S>
 INSONIFY_INLINE glm::vec4 clip_position(const S& shader, const vertex& v) {
-    if constexpr (position_shader<S>)
-        return shader(v);
-    else
-        return shader(v).clip;
+    return position_of(shader(v));
 }
 
 template <vertex_shader S>

@@ -67,6 +67,54 @@ map_extent extent_of(const mesh& m, const affine& to_world, const light_frame& f
     return whole;
 }
 
+/// A grid of rays: where its texels lie in the light's frame, and between which heights it tells things apart.
+struct map_grid {
+    glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
+    double texel = 1;     ///< metres
+    double floor = 0, relief = 1;
+    int columns = 0, rows = 0;
+
+    map_grid() = default;
+
+    /// @param texel_length  metres, the same along u and v; grows if more than `largest` texels a side were needed
+    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
+    map_grid(const map_extent& extent, double texel_length, int largest) : origin(extent.lowest), floor(extent.floor) {
+        detail::require(texel_length > 0 && numeric::is_finite(texel_length), "texel", texel_length,
+                        "a positive length");
+        detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
+        if (extent.empty()) return;
+        const glm::dvec2 size = extent.highest - extent.lowest;
+        texel = (std::max)(texel_length, (std::max)(size.x, size.y) / (largest - 0.5));
+        const auto texels = [&](double length) {
+            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(length / texel)) + 1);
+        };
+        // A little room below and above, so that rounding can't clip the highest caster away.
+        const double height = extent.ceiling - extent.floor;
+        const double room = 1e-3 * height + 1e-6;
+        floor -= room;
+        relief = height + 2 * room;
+        columns = texels(size.x);
+        rows = texels(size.y);
+    }
+
+    bool empty() const { return columns == 0; }
+
+    /// The vertex callable that puts a mesh on the grid. The whole way from mesh to clip space is one affine map; it is
+    /// made in double and small when narrowed. Row 0 is where v is smallest, so triangles appear mirrored.
+    auto placing(const light_frame& frame, const affine& to_world) const {
+        const glm::dvec2 scale{2 / (texel * columns), 2 / (texel * rows)};
+        const auto to_clip = [&](const glm::dvec3& uvz) {
+            return glm::dvec3((uvz.x - origin.x) * scale.x - 1, 1 - (uvz.y - origin.y) * scale.y,
+                              (uvz.z - floor) / relief);
+        };
+        const glm::dvec3 zero = to_clip(frame(to_world.offset));
+        glm::mat3 axes;
+        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame(to_world.offset + to_world.linear[i])) - zero);
+        const glm::vec3 start(zero);
+        return [=](const vertex& v) { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); };
+    }
+};
+
 /// Heights of casters over a grid of rays.
 class height_map {
   public:
@@ -75,43 +123,18 @@ class height_map {
 
     /// @param frame    of the light
     /// @param extent   which rays, and between which heights; casters outside are left out
-    /// @param texel    metres, the same along u and v; grows if more than `largest` texels a side were needed
-    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
+    /// @throws invalid_input as map_grid does
     height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
-        : frame_(frame), origin_(extent.lowest), floor_(extent.floor) {
-        detail::require(texel > 0 && numeric::is_finite(texel), "texel", texel, "a positive length");
-        detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
-        if (extent.empty()) return;
-        const glm::dvec2 size = extent.highest - extent.lowest;
-        texel_ = (std::max)(texel, (std::max)(size.x, size.y) / (largest - 0.5));
-        const auto texels = [&](double length) {
-            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(length / texel_)) + 1);
-        };
-        // A little room below and above, so that rounding can't clip the highest caster away.
-        const double relief = extent.ceiling - extent.floor;
-        const double room = 1e-3 * relief + 1e-6;
-        floor_ -= room;
-        relief_ = relief + 2 * room;
-        heights_ = image<float>(texels(size.x), texels(size.y), empty_depth(keep_depth::larger));
-    }
+        : frame_(frame),
+          grid_(extent, texel, largest),
+          heights_(grid_.columns, grid_.rows, empty_depth(keep_depth::larger)) {}
 
     /// Lets a mesh cast; several may share a map.
     /// @param to_world  from the mesh's frame to the one in which the light is described
     template <executor_argument E = serial_executor>
     draw_stats cast(const mesh& m, const affine& to_world, E&& ex = {}) {
         if (heights_.empty()) return {};
-        // The whole way from mesh to clip space is one affine map; it is made in double and small when narrowed.
-        const glm::dvec2 scale{2 / (texel_ * heights_.width()), 2 / (texel_ * heights_.height())};
-        const auto to_clip = [&](const glm::dvec3& uvz) {
-            return glm::dvec3((uvz.x - origin_.x) * scale.x - 1, 1 - (uvz.y - origin_.y) * scale.y,
-                              (uvz.z - floor_) / relief_);
-        };
-        const glm::dvec3 zero = to_clip(frame_(to_world.offset));
-        glm::mat3 axes;
-        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame_(to_world.offset + to_world.linear[i])) - zero);
-        const glm::vec3 start(zero);
-        const auto place = [=](const vertex& v) { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); };
-        return draw(m, place, quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
+        return draw(m, grid_.placing(frame_, to_world), quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
     }
 
     const light_frame& frame() const { return frame_; }
@@ -119,22 +142,22 @@ class height_map {
     int columns() const { return heights_.width(); }
     int rows() const { return heights_.height(); }
     /// Metres between texels.
-    double texel() const { return texel_; }
+    double texel() const { return grid_.texel; }
 
     /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
     /// and its height as the map stores heights.
     glm::vec3 on_map(const glm::dvec3& uvz) const {
-        return glm::vec3((uvz.x - origin_.x) / texel_, (uvz.y - origin_.y) / texel_, (uvz.z - floor_) / relief_);
+        return glm::vec3((uvz.x - grid_.origin.x) / grid_.texel, (uvz.y - grid_.origin.y) / grid_.texel,
+                         (uvz.z - grid_.floor) / grid_.relief);
     }
     /// A slope dz / du in stored heights per texel.
-    float on_map(double slope) const { return static_cast<float>(slope * (texel_ / relief_)); }
+    float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel / grid_.relief)); }
     /// What a texel's ray meets first: a stored height, minus infinity for nothing.
     float operator()(int column, int row) const { return heights_(column, row); }
 
   private:
     light_frame frame_;
-    glm::dvec2 origin_{};
-    double floor_ = 0, relief_ = 1, texel_ = 1;
+    map_grid grid_;
     image<float> heights_;
 };
 

@@ -23,6 +23,14 @@ struct pcf {
     int radius = 1;  ///< texels, 0 to 8
 };
 
+/// Hard edges where the casters' triangles have them: the map says who casts near a point, and where its texels
+/// disagree the triangles are asked. What no texel's centre meets is missed, so texels should not be larger than
+/// pixels.
+struct refined {
+    float texels_per_pixel = 1;
+    int largest = 8192;
+};
+
 /// @throws invalid_input for a value out of its range
 inline void validate(const none&) {}
 inline void validate(const map& m) {
@@ -35,7 +43,11 @@ inline void validate(const pcf& p) {
     detail::require(p.radius >= 0 && p.radius <= 8, "radius", p.radius, "0 to 8 texels");
 }
 
+inline void validate(const refined& r) {
+    validate(map{r.texels_per_pixel, r.largest});
+}
+
 template <class P>
-concept policy = std::same_as<P, none> || std::same_as<P, map> || std::same_as<P, pcf>;
+concept policy = std::same_as<P, none> || std::same_as<P, map> || std::same_as<P, pcf> || std::same_as<P, refined>;
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow

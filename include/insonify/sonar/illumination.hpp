@@ -3,88 +3,168 @@
 #pragma once
 
 #include <insonify/shadow/lookup.hpp>
+#include <insonify/shadow/refined.hpp>
 #include <insonify/sonar/labels.hpp>
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// How much light arrives at a point, and who stops the rest.
-struct light_share {
-    float lit;
-    std::uint16_t caster;
+/// How much light arrives at N points, and who stops the rest.
+template <int N>
+struct light_shares {
+    lanes<float, N> lit{};
+    lanes<std::int32_t, N> caster{};  ///< as in labels::shadow
+
+    INSONIFY_INLINE light_shares() { lit = lanes<float, N>{} + 1.0f; }
+
+    /// Less light, by `by`'s fault if nobody has been blamed before.
+    INSONIFY_INLINE void darken(const lanes<float, N>& share, std::uint16_t by) {
+        using ints = lanes<std::int32_t, N>;
+        const ints blamed = ints(share < 0.5f) & ints(caster == labels::is_lit);
+        caster = blamed ? ints{} + std::int32_t{by} : caster;
+        lit = share < lit ? share : lit;
+    }
 };
 
-/// Nothing is ever dark, and nobody needs to know which way a facet looks.
+/// N points of a surface, in the rig's frame.
+template <int N>
+struct surface_points {
+    lanes<std::int32_t, N> visible;
+    lanes<float, N> position[3];
+    lanes<float, N> facet[3];  ///< normal of the triangle, of any length, on the side that is seen
+    std::uint16_t itself;      ///< to blame where the surface faces away and nobody else stands in the light
+};
+
+/// Nothing is ever dark.
 struct no_shadow_maps {
-    template <class Facet>
-    light_share operator()(const glm::vec3&, const Facet&, std::uint16_t) const {
-        return {1, labels::is_lit};
-    }
+    template <int N>
+    INSONIFY_INLINE void operator()(light_shares<N>&, const surface_points<N>&, const lanes<std::int32_t, N>&) const {}
 };
 
 /// An object in the rig's frame.
 struct placed_mesh {
     const mesh* shape;
     affine to_rig;
+    bool is_solid;      ///< see target
     glm::mat3 normals;  ///< takes normals along
 
-    placed_mesh(const mesh& m, const affine& map) : shape(&m), to_rig(map), normals(numeric::cofactors(map.linear)) {}
+    placed_mesh(const mesh& m, const affine& map, bool solid)
+        : shape(&m), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
 };
 
 /// The maps of all casters of a scene.
 template <class Policy>
 class shadow_maps {
+    static constexpr bool refined = std::same_as<Policy, shadow::refined>;
+    using caster_map = std::conditional_t<refined, shadow::caster_map, shadow::height_map>;
+
   public:
-    /// @param bottom     the seabed, which also receives; it need not cast beyond `receivers`
+    /// @param bottom     the seabed, which also receives; it need not cast beyond `receivers`. Null for none
     /// @param targets    in the order of their instance numbers
     /// @param receivers  which rays reach something that the picture may show
     /// @param texel      metres
     template <executor E>
-    shadow_maps(const Policy& policy, const shadow::light_frame& light, const placed_mesh& bottom,
+    shadow_maps(const Policy& policy, const shadow::light_frame& light, const placed_mesh* bottom,
                 std::span<const placed_mesh> targets, const shadow::map_extent& receivers, double texel, E& ex)
-        : policy_(policy), light_(light), bottom_(cast(bottom, receivers, texel, ex)) {
+        : policy_(policy), light_(light) {
+        if (bottom != nullptr) bottom_ = cast(*bottom, receivers, texel, ex);
         targets_.reserve(targets.size());
         for (const placed_mesh& t : targets) targets_.push_back(cast(t, receivers, texel, ex));
     }
 
-    /// @param position  in the rig's frame
-    /// @param facet     called for the normal of the triangle at that point, of any length
-    /// @param itself    who is to blame if the surface faces away and nobody else stands in the light
-    template <class Facet>
-    light_share operator()(const glm::vec3& position, const Facet& facet, std::uint16_t itself) const {
-        // A target's shadow goes on over what would be dark without it.
-        const shadow::receiver at(light_, glm::dvec3(position), glm::dvec3(facet()));
-        light_share share{1, labels::is_lit};
-        for (std::size_t i = 0; i < targets_.size(); ++i)
-            darken(share, shadow::lit(targets_[i], at, policy_), static_cast<std::uint16_t>(i + 1));
-        if (!at.faces_light)
-            darken(share, 0, itself);
-        else if (share.lit > 0)
-            darken(share, shadow::lit(bottom_, at, policy_), labels::by_seabed);
-        return share;
+    /// @param useful  where a shadow would change what is seen; the others' shares need not be right
+    template <int N>
+    INSONIFY_INLINE void operator()(light_shares<N>& shares, const surface_points<N>& at,
+                                    const lanes<std::int32_t, N>& useful) const {
+        if constexpr (refined)
+            ask_in_lanes(shares, at, useful);
+        else
+            ask_one_by_one(shares, at);
     }
 
   private:
-    static void darken(light_share& share, float lit, std::uint16_t caster) {
-        if (lit < 0.5f && share.caster == labels::is_lit) share.caster = caster;
-        share.lit = (std::min)(share.lit, lit);
+    template <int N>
+    INSONIFY_INLINE void ask_in_lanes(light_shares<N>& shares, const surface_points<N>& at,
+                                      const lanes<std::int32_t, N>& useful) const {
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        using doubles = lanes<double, N>;
+        doubles x, y, z;
+        convert(x, at.position[0]);
+        convert(y, at.position[1]);
+        convert(z, at.position[2]);
+        const glm::dvec2& travel = light_.travel();
+        const doubles u = x * travel.x + y * travel.y + z * light_.cot_elevation();
+        const doubles v = y * travel.x - x * travel.y;
+        // A target's shadow goes on over what would be dark without it.
+        ints dark;
+        for (std::size_t i = 0; i < targets_.size(); ++i) {
+            targets_[i].template darken<N>(dark, useful, u, v, z);
+            shares.darken(dark ? floats{} : floats{} + 1.0f, static_cast<std::uint16_t>(i + 1));
+        }
+        const floats facing =
+            at.facet[2] - static_cast<float>(light_.cot_elevation()) *
+                              (at.facet[0] * static_cast<float>(travel.x) + at.facet[1] * static_cast<float>(travel.y));
+        dark = ints(facing <= 0.0f);
+        shares.darken(dark ? floats{} : floats{} + 1.0f, at.itself);
+        bottom_.template darken<N>(dark, ints(useful & ints(shares.lit > 0.0f)), u, v, z);
+        shares.darken(dark ? floats{} : floats{} + 1.0f, labels::by_seabed);
+    }
+
+    template <int N>
+    INSONIFY_INLINE void ask_one_by_one(light_shares<N>& shares, const surface_points<N>& at) const {
+        for (int k = 0; k < N; ++k) {
+            if (lane(at.visible, k) == 0) continue;
+            light_shares<1> share;
+            const glm::dvec3 position(lane(at.position[0], k), lane(at.position[1], k), lane(at.position[2], k));
+            const glm::dvec3 facet(lane(at.facet[0], k), lane(at.facet[1], k), lane(at.facet[2], k));
+            ask_one(share, position, facet, at.itself);
+            set_lane(shares.lit, k, share.lit);
+            set_lane(shares.caster, k, share.caster);
+        }
+    }
+    void ask_one(light_shares<1>& share, const glm::dvec3& position, const glm::dvec3& facet,
+                 std::uint16_t itself) const {
+        if constexpr (!refined) {
+            const shadow::receiver at(light_, position, facet);
+            for (std::size_t i = 0; i < targets_.size(); ++i)
+                share.darken(shadow::lit(targets_[i], at, policy_), static_cast<std::uint16_t>(i + 1));
+            if (!at.faces_light)
+                share.darken(0, itself);
+            else if (share.lit > 0)
+                share.darken(shadow::lit(bottom_, at, policy_), labels::by_seabed);
+        }
     }
 
     template <executor E>
-    shadow::height_map cast(const placed_mesh& caster, const shadow::map_extent& receivers, double texel, E& ex) const {
-        const shadow::map_extent own = shadow::extent_of(*caster.shape, caster.to_rig, light_, ex);
-        shadow::height_map map(light_, own.clipped_to(receivers), texel, policy_.largest);
-        map.cast(*caster.shape, caster.to_rig, ex);
-        return map;
+    caster_map cast(const placed_mesh& caster, const shadow::map_extent& receivers, double texel, E& ex) const {
+        const shadow::map_extent own =
+            shadow::extent_of(*caster.shape, caster.to_rig, light_, ex).clipped_to(receivers);
+        if constexpr (refined) {
+            return {light_, *caster.shape, caster.to_rig, caster.is_solid, own, texel, policy_.largest, ex};
+        } else {
+            shadow::height_map map(light_, own, texel, policy_.largest);
+            map.cast(*caster.shape, caster.to_rig, ex);
+            return map;
+        }
     }
 
     Policy policy_;
     shadow::light_frame light_;
-    shadow::height_map bottom_;
-    std::vector<shadow::height_map> targets_;
+    caster_map bottom_;
+    std::vector<caster_map> targets_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 INSONIFY_ARITHMETIC_END

@@ -5,15 +5,11 @@
 #include <insonify/raster/draw.hpp>
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/tessellate.hpp>
-#include <insonify/sonar/illumination.hpp>
-#include <insonify/sonar/rig.hpp>
+#include <insonify/sonar/shading.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
-
-/// Asks for no labels: none are stored or computed.
-struct no_labels {};
 
 /// How to draw a picture; the types say what is in it.
 template <shadow::policy Shadow = shadow::pcf, class Labels = labels, backscatter_law Law = lambert>
@@ -41,29 +37,20 @@ struct frame {
 
 namespace detail {
 
-/// What a pixel is shaded from, in the rig's frame.
-struct surface_point {
-    glm::vec3 position;
-    glm::vec3 normal;
-};
-
 /// A picture under construction, in the rig's frame.
 template <class Shadow, class Labels, class Law>
 class overhead_painter {
   public:
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
-        : scene_(s),
-          view_(rig),
-          to_light_(view_.light().to_light()),
-          options_(options),
-          depth_(rig.size.x, rig.size.y) {
+        : scene_(s), view_(rig), options_(options), depth_(rig.size.x, rig.size.y) {
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y);
         validate(options.shadow);
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y);
-        for (const target& t : s.targets) targets_.emplace_back(t.shape, view_.rig_from(to_world(t.placement)));
-        sample_seabed(ex);
+        for (const target& t : s.targets)
+            targets_.emplace_back(t.shape, view_.rig_from(to_world(t.placement)), t.is_solid);
+        if (has_bottom()) sample_seabed(ex);
     }
 
     template <executor E>
@@ -71,16 +58,15 @@ class overhead_painter {
         if constexpr (std::is_same_v<Shadow, shadow::none>)
             draw_all(no_shadow_maps{}, ex);
         else
-            draw_all(shadow_maps<Shadow>(
-                         options_.shadow, view_.light(), bottom_in_rig(), targets_, receivers(),
-                         view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel), ex),
-                     ex);
+            draw_all(cast_shadows(ex), ex);
         if constexpr (labelled) describe_targets(out_.labels, scene_.targets);
         return std::move(out_);
     }
 
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
+
+    bool has_bottom() const { return !std::holds_alternative<seabed::none>(scene_.seabed); }
 
     /// Heights where the picture looks, and up-light of there as far as the relief can throw a shadow.
     template <executor E>
@@ -147,24 +133,39 @@ class overhead_painter {
 
     placed_mesh bottom_in_rig() const {
         const affine under_rig = view_.rig_from({glm::dmat3(1), glm::dvec3(view_.rig().position, 0)});
-        return {bottom_, compose(under_rig, {glm::dmat3(1), glm::dvec3(bottom_origin_, 0)})};
+        return {bottom_, compose(under_rig, {glm::dmat3(1), glm::dvec3(bottom_origin_, 0)}), true};
+    }
+
+    template <executor E>
+    shadow_maps<Shadow> cast_shadows(E& ex) const {
+        const double texel = view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel);
+        const placed_mesh bottom = bottom_in_rig();
+        return {options_.shadow, view_.light(), has_bottom() ? &bottom : nullptr, targets_, receivers(), texel, ex};
     }
 
     /// All rays of the light that reach something which the picture may show.
     shadow::map_extent receivers() const {
-        shadow::map_extent extent;
-        double top = static_cast<double>(highest_);
+        double low = static_cast<double>(lowest_), top = static_cast<double>(highest_);
+        if (!has_bottom()) {
+            low = (std::numeric_limits<double>::max)();
+            top = -low;
+        }
         for (const placed_mesh& t : targets_) {
             const bounding_box box = bounds(*t.shape);
-            if (!box.empty())
-                for (int corner = 0; corner < 8; ++corner)
-                    top = (std::max)(top, transform_point(t.to_rig, {(corner & 1 ? box.upper : box.lower).x,
-                                                                     (corner & 2 ? box.upper : box.lower).y,
-                                                                     (corner & 4 ? box.upper : box.lower).z})
-                                              .z);
+            if (box.empty()) continue;
+            for (int corner = 0; corner < 8; ++corner) {
+                const double z = transform_point(t.to_rig, {(corner & 1 ? box.upper : box.lower).x,
+                                                            (corner & 2 ? box.upper : box.lower).y,
+                                                            (corner & 4 ? box.upper : box.lower).z})
+                                     .z;
+                top = (std::max)(top, z);
+                if (!has_bottom()) low = (std::min)(low, z);
+            }
         }
-        for (const double height : {static_cast<double>(lowest_), top}) {
-            const glm::dvec2 half = view_.half_extent(static_cast<double>(lowest_));
+        shadow::map_extent extent;
+        if (low > top) return extent;
+        for (const double height : {low, top}) {
+            const glm::dvec2 half = view_.half_extent(low);
             for (const double x : {-half.x, half.x})
                 for (const double y : {-half.y, half.y}) extent.include(view_.light()(glm::dvec3(x, y, height)));
         }
@@ -173,81 +174,44 @@ class overhead_painter {
 
     template <class Shadows, executor E>
     void draw_all(const Shadows& shadows, E& ex) {
-        const auto type_of = [&](const fragment<surface_point>& f) {
-            return field_.types.empty() ? field_.fallback : field_.types.pixels()[nearest_vertex(f)];
-        };
-        const placed_mesh bottom = bottom_in_rig();
-        out_.stats.seabed = draw_one(
-            bottom, depth_load::clear,
-            [&](const fragment<surface_point>& f) {
-                const seabed::type type = type_of(f);
-                shade(f, bottom, scene_.bottom_of(type), shadows, labels::no_instance, static_cast<std::uint8_t>(type));
-            },
-            ex);
-        for (std::size_t i = 0; i < targets_.size(); ++i)
-            out_.stats.targets += draw_one(
-                targets_[i], depth_load::keep,
-                [&](const fragment<surface_point>& f) {
-                    shade(f, targets_[i], scene_.targets[i].surface, shadows, static_cast<std::uint16_t>(i + 1),
-                          labels::no_seabed);
-                },
-                ex);
+        depth_load load = depth_load::clear;
+        if (has_bottom()) {
+            const placed_mesh bottom = bottom_in_rig();
+            if (field_.types.empty())
+                out_.stats.seabed = draw_one(bottom, load, shadows,
+                                             whole_object{scene_.bottom_of(field_.fallback), labels::no_instance,
+                                                          static_cast<std::uint8_t>(field_.fallback)},
+                                             ex);
+            else
+                out_.stats.seabed = draw_one(bottom, load, shadows, typed_bottom{bottom_, field_, scene_.bottom}, ex);
+            load = depth_load::keep;
+        }
+        for (std::size_t i = 0; i < targets_.size(); ++i) {
+            const whole_object target{scene_.targets[i].surface, static_cast<std::uint16_t>(i + 1), labels::no_seabed};
+            out_.stats.targets += draw_one(targets_[i], load, shadows, target, ex);
+            load = depth_load::keep;
+        }
     }
 
-    template <class Fragment, executor E>
-    draw_stats draw_one(const placed_mesh& object, depth_load load, const Fragment& fragment_callable, E& ex) {
-        const glm::mat3 linear(object.to_rig.linear);
-        const glm::vec3 offset(object.to_rig.offset);
+    template <class Shadows, class Object, executor E>
+    draw_stats draw_one(const placed_mesh& shape, depth_load load, const Shadows& shadows, const Object& object,
+                        E& ex) {
+        const glm::mat3 linear(shape.to_rig.linear);
+        const glm::vec3 offset(shape.to_rig.offset);
         const auto place = [&, linear, offset](const vertex& v) {
             const glm::vec3 position = numeric::product(linear, v.position) + offset;
-            return placed_vertex<surface_point>{view_.clip(position),
-                                                {position, numeric::product(object.normals, v.normal)}};
+            return placed_vertex<surface_varyings>{view_.clip(position),
+                                                   {position, numeric::product(shape.normals, v.normal)}};
         };
-        return draw(*object.shape, place, fragment_callable, framebuffer<void>{depth_},
-                    {.keep = keep_depth::larger, .load = load, .tile = options_.tile, .level = options_.level}, ex);
-    }
-
-    /// The seabed's vertex that weighs most at a pixel.
-    std::size_t nearest_vertex(const fragment<surface_point>& f) const {
-        const glm::uvec3& t = bottom_.triangles[f.triangle];
-        return f.weights.x >= f.weights.y ? (f.weights.x >= f.weights.z ? t.x : t.z)
-                                          : (f.weights.y >= f.weights.z ? t.y : t.z);
-    }
-
-    /// Normal of the triangle that a pixel shows, on the side that is seen; not unit.
-    static glm::vec3 facet_normal(const placed_mesh& object, const fragment<surface_point>& f) {
-        const glm::uvec3& t = object.shape->triangles[f.triangle];
-        const glm::vec3& a = object.shape->positions[t.x];
-        const glm::vec3 ab = object.shape->positions[t.y] - a, ac = object.shape->positions[t.z] - a;
-        return numeric::product(object.normals, numeric::cross(f.front ? ab : ac, f.front ? ac : ab));
-    }
-
-    template <class Shadows>
-    void shade(const fragment<surface_point>& f, const placed_mesh& object, const material& surface,
-               const Shadows& shadows, std::uint16_t instance, std::uint8_t type) {
-        const glm::vec3& n = f.varyings.normal;
-        const float length = numeric::square_root(n.x * n.x + n.y * n.y + n.z * n.z);
-        const glm::vec3& to_light = to_light_;
-        const float sine = (f.front ? 1.0f : -1.0f) * (n.x * to_light.x + n.y * to_light.y + n.z * to_light.z) / length;
-        const light_share share = shadows(
-            f.varyings.position, [&] { return facet_normal(object, f); },
-            instance == labels::no_instance ? labels::by_seabed : instance);
-
-        const overhead& rig = view_.rig();
-        const bool is_dark = !(sine > 0) || share.lit == 0;
-        const float direct = is_dark ? 0 : rig.intensity * options_.law((std::min)(sine, 1.0f)) * share.lit;
-        const float open_sky = 0.5f * (1 + (f.front ? n.z : -n.z) / length);
-        out_.image(f.x, f.y) = (std::min)(surface.reflectivity * (direct + rig.sky * open_sky), 1.0f);
-        if constexpr (labelled) {
-            out_.labels.instance(f.x, f.y) = instance;
-            out_.labels.shadow(f.x, f.y) = share.caster;
-            out_.labels.seabed(f.x, f.y) = type;
-        }
+        const surface_shader<Shadows, Labels, Law, Object> shader(view_, options_.law, shadows, object, out_.image,
+                                                                  out_.labels);
+        return draw_lanes(*shape.shape, place, shader, depth_,
+                          {.keep = keep_depth::larger, .load = load, .tile = options_.tile, .level = options_.level},
+                          ex);
     }
 
     const scene& scene_;
     overhead_geometry view_;
-    glm::vec3 to_light_;
     render_options<Shadow, Labels, Law> options_;
     image<float> depth_;
     frame<Labels> out_;

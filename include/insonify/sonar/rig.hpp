@@ -15,7 +15,7 @@ namespace insonify::inline INSONIFY_ABI {
 /// the left, so ranges and shadows grow to the right, as on a starboard channel.
 ///
 /// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky x share of the
-/// sky that the surface looks at), cut at 1.
+/// sky that the surface looks at + ambient), cut at 1.
 struct overhead {
     glm::dvec2 position{0, 0};                                      ///< of the camera over the datum, metres
     float altitude = 10;                                            ///< above the datum, metres
@@ -26,6 +26,7 @@ struct overhead {
     float light_azimuth = 0;  ///< where the light travels, from image right towards image up, radians
     float intensity = 4;      ///< of the light on a surface that faces it
     float sky = 0.05f;        ///< light from everywhere, which no shadow stops; 0 for none
+    float ambient = 0;        ///< light that reaches every surface alike, whatever its slope; 0 for none
 };
 
 /// @throws invalid_input for a value that can't be right
@@ -44,6 +45,7 @@ inline void validate(const overhead& rig) {
     require(numeric::is_finite(rig.light_azimuth), "overhead.light_azimuth", rig.light_azimuth, "a finite angle");
     require(rig.intensity >= 0 && numeric::is_finite(rig.intensity), "overhead.intensity", rig.intensity, "0 or more");
     require(rig.sky >= 0 && numeric::is_finite(rig.sky), "overhead.sky", rig.sky, "0 or more");
+    require(rig.ambient >= 0 && numeric::is_finite(rig.ambient), "overhead.ambient", rig.ambient, "0 or more");
 }
 
 /// What follows from a rig. Everything is drawn in the rig's own frame (origin on the datum below the camera, x to the

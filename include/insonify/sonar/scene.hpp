@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/geometry/normals.hpp>
+#include <insonify/geometry/topology.hpp>
 #include <insonify/geometry/transform.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/sonar/backscatter.hpp>
@@ -22,6 +23,9 @@ struct target {
     pose placement;
     std::string class_name;
     material surface{.reflectivity = 0.9f};
+    /// Nothing that a picture shows lies inside or below it: a closed surface, or one that lies on everything, as a
+    /// heightfield does. Shadows are then cheaper; said of something open, shadows of its back side are missing.
+    bool is_solid = false;
 };
 
 /// The bottom and what lies on it. Heights are metres above the datum z = 0.
@@ -32,13 +36,15 @@ struct scene {
 
     /// Adds a mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
     /// Targets are told apart by instance numbers, 1 for the first. A mesh without normals gets smooth ones.
+    /// Whether it is solid is found out for up to 2^16 triangles; of larger ones you may know.
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
     target& add(const Shape& shape, const pose& placement, std::string class_name, const material& surface = {0.9f}) {
         targets.push_back({mesh_of(shape), placement, std::move(class_name), surface});
         mesh& added = targets.back().shape;
-        if (added.normals.empty()) added.normals = smooth_normals(added);
         validate(added);
+        if (added.normals.empty()) added.normals = smooth_normals(added);
+        targets.back().is_solid = added.triangles.size() <= (std::size_t{1} << 16) && inspect(added).closed();
         return targets.back();
     }
 

@@ -1,0 +1,185 @@
+// Shading of several pixels at a time, for who can write a shader in lanes: what a row's next N pixels show.
+//
+// Where a triangle of a fine mesh covers two or three pixels, most of the work is to fetch its corners. So what the
+// vertex callable gives is kept for each vertex, beside what interpolation needs, in whole vectors of four floats; and
+// a pixel takes its three corners in a few loads.
+#pragma once
+
+#include <insonify/raster/assembly.hpp>
+#include <insonify/raster/tile.hpp>
+
+#include <memory>
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// What pixels read of a vertex: its varyings, float by float, and 1 / w; filled up to whole vectors of four.
+template <class Varyings>
+struct alignas(16) vertex_record {
+    static constexpr int count = static_cast<int>(sizeof(Varyings) / sizeof(float));
+    static constexpr int blocks = (count + 1 + 3) / 4;
+    float values[static_cast<unsigned>(4 * blocks)];
+
+    void set(const Varyings& varyings, float inverse_w) {
+        std::memcpy(values, &varyings, sizeof varyings);
+        values[count] = inverse_w;
+    }
+};
+
+/// N neighbouring pixels of a row.
+template <int N, class Varyings>
+class fragment_lanes {
+  public:
+    using record = vertex_record<Varyings>;
+    using ints = lanes<std::int32_t, N>;
+    using floats = lanes<float, N>;
+    using doubles = lanes<double, N>;
+
+    int x, y;                                           ///< of the first lane
+    ints visible;                                       ///< which lanes this draw has won
+    std::uint32_t triangles[static_cast<unsigned>(N)];  ///< of the mesh
+    ints front;                                         ///< seen from the counter-clockwise side
+    floats weights[3];                                  ///< of the corners, perspective-correct
+
+    /// @param names  of what each lane shows; at least one lane is visible
+    template <class Screen>
+    INSONIFY_INLINE fragment_lanes(const Screen& screen, const record* records, int column, int row, const ints& shown,
+                                   const std::uint32_t* names)
+        : x(column), y(row), visible(shown) {
+        std::uint32_t somebody = 0;
+        for (int k = 0; k < N; ++k)
+            if (lane(visible, k) != 0) somebody = names[k];
+        std::uint32_t name[static_cast<unsigned>(N)];
+        bool all_compact = true;
+        const record* corner[3][static_cast<unsigned>(N)];
+        for (int k = 0; k < N; ++k) {
+            name[k] = lane(visible, k) != 0 ? names[k] : somebody;
+            all_compact &= screen.is_compact(name[k]);
+            triangles[k] = screen.triangle(name[k]);
+            const glm::uvec3& index = screen.indices(triangles[k]);
+            for (int i = 0; i < 3; ++i) corner[i][k] = records + index[i];
+        }
+        for (int i = 0; i < 3; ++i) read(values_[i], corner[i]);
+        if (all_compact)
+            weigh(screen, name);
+        else
+            weigh_one_by_one(screen, name);
+    }
+
+    /// Float k of the varyings; the same bits whichever way the triangle runs.
+    INSONIFY_INLINE void interpolate(floats& into, int k) const {
+        into = weights[0] * values_[0][k] + (weights[1] * values_[1][k] + weights[2] * values_[2][k]);
+    }
+    /// The same at a corner, in the mesh's order.
+    INSONIFY_INLINE const floats& at_corner(int corner, int k) const { return values_[corner][k]; }
+
+  private:
+    /// Four floats of each of N records at a time, turned into lanes.
+    INSONIFY_INLINE static void read(floats (&into)[static_cast<unsigned>(4 * record::blocks)],
+                                     const record* const (&from)[static_cast<unsigned>(N)]) {
+#if INSONIFY_SIMD
+        if constexpr (N == 4) {
+            for (int block = 0; block < record::blocks; ++block) {
+                floats a, b, c, d;
+                load(a, from[0]->values + 4 * block);
+                load(b, from[1]->values + 4 * block);
+                load(c, from[2]->values + 4 * block);
+                load(d, from[3]->values + 4 * block);
+                const floats ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+                const floats ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+                const floats cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+                const floats cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+                into[4 * block] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+                into[4 * block + 1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+                into[4 * block + 2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+                into[4 * block + 3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+            }
+            return;
+        }
+#endif
+        for (int i = 0; i <= record::count; ++i) gather<N>(into[i], [&](int k) { return from[k]->values[i]; });
+    }
+
+    /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out.
+    template <class Screen>
+    INSONIFY_INLINE void weigh(const Screen& screen, const std::uint32_t* name) {
+        const corner_lanes<N> at([&](int k, int corner) { return screen.place(name[k], corner); });
+        const pixel_grid& grid = screen.grid();
+        ints column;
+        count_up<std::int32_t, N>(column);
+        const ints px = ((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half());
+        const ints py = ints{} + static_cast<std::int32_t>(grid.center(y));
+        opposite(weights[0], at.bx, at.by, at.cx, at.cy, px, py);
+        opposite(weights[1], at.cx, at.cy, at.ax, at.ay, px, py);
+        opposite(weights[2], at.ax, at.ay, at.bx, at.by, px, py);
+        front = ints(weights[0] + weights[1] + weights[2] < 0.0f);
+        for (int i = 0; i < 3; ++i) weights[i] = weights[i] * values_[i][record::count];
+        const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
+        for (int i = 0; i < 3; ++i) weights[i] = weights[i] * scale;
+    }
+    INSONIFY_INLINE static void opposite(floats& into, const ints& from_x, const ints& from_y, const ints& to_x,
+                                         const ints& to_y, const ints& px, const ints& py) {
+        doubles run, rise, right, down;
+        convert(run, ints(to_x - from_x));
+        convert(rise, ints(to_y - from_y));
+        convert(right, ints(px - from_x));
+        convert(down, ints(py - from_y));
+        convert(into, doubles(run * down - rise * right));
+    }
+
+    /// Where one of them was clipped, or is too large.
+    template <class Screen>
+    INSONIFY_INLINE void weigh_one_by_one(const Screen& screen, const std::uint32_t* name) {
+        for (int k = 0; k < N; ++k) {
+            const screen_triangle t = screen[name[k]];
+            const glm::dvec3 w = t.weights_at(x + k, y, screen.grid());
+            set_lane(front, k, t.front ? -1 : 0);
+            for (int i = 0; i < 3; ++i) set_lane(weights[i], k, static_cast<float>(w[i]));
+        }
+    }
+
+    floats values_[3][static_cast<unsigned>(4 * record::blocks)];  ///< of the corners
+};
+
+/// Hands the pixels of one tile that this draw has won to `shader(fragment_lanes)`.
+template <class Screen, class Varyings, class Shader>
+struct shading_kernel {
+    const Screen& screen;
+    const vertex_record<Varyings>* records;
+    tile_buffer<true>& tile;
+    pixel_box box;
+    const Shader& shader;
+    std::uint64_t& shaded;
+
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        constexpr int N = Width > 1 ? 4 : 1;
+        using ints = lanes<std::int32_t, N>;
+        ints column;
+        count_up<std::int32_t, N>(column);
+        for (int y = box.y0; y <= box.y1; ++y)
+            for (int x = box.x0; x <= box.x1; x += N) {
+                const std::uint32_t* const names = tile.winner(x, y);
+                lanes<std::uint32_t, N> shown;
+                load(shown, names);
+                const ints visible = ints(shown != tile_buffer<true>::nobody) & ints(column <= box.x1 - x);
+                if (!any(visible)) continue;
+                for (int k = 0; k < N; ++k) shaded += std::uint64_t{lane(visible, k) != 0};
+                shader(fragment_lanes<N, Varyings>(screen, records, x, y, visible, names));
+            }
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,188 @@
+// Hard shadows with the edges of the casters themselves: a map says who stands in the light near a point, and where its
+// texels disagree about the point, the triangles that they name are asked.
+//
+// A ray towards the light that leaves the outside of something solid enters through a side that faces away from the
+// light. So for solids only those sides are drawn into the map: half of the triangles, and no lit surface is ever
+// compared with itself, which needs no bias.
+#pragma once
+
+#include <insonify/core/lanes.hpp>
+#include <insonify/raster/draw.hpp>
+#include <insonify/shadow/map.hpp>
+
+#include <memory>
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::shadow {
+
+/// One mesh as a caster: for every ray of a grid of them the height of what it meets first, and which triangle that is.
+class caster_map {
+  public:
+    /// Casts nothing.
+    caster_map() : frame_(directional_light{}) {}
+
+    /// @param frame     of the light
+    /// @param m         the mesh, which has to outlive the map
+    /// @param to_world  from the mesh's frame to the one in which the light is described
+    /// @param is_solid  nothing that can be asked about lies inside or below it
+    /// @param extent    which rays, and between which heights
+    /// @param texel     metres, the same along u and v; grows if more than `largest` texels a side were needed
+    /// @throws invalid_input as height_map does
+    template <executor E>
+    caster_map(const light_frame& frame, const mesh& m, const affine& to_world, bool is_solid, const map_extent& extent,
+               double texel, int largest, E& ex)
+        : frame_(frame), mesh_(&m), to_world_(to_world), grid_(extent, texel, largest) {
+        if (grid_.empty()) return;
+        const std::size_t width = pitch(), height = static_cast<std::size_t>(grid_.rows) + 2;
+        heights_ = std::make_unique_for_overwrite<float[]>(width * height);
+        names_ = std::make_unique_for_overwrite<std::uint32_t[]>(width * height);
+        // A frame of empty texels around it all saves asking whether a neighbour is on the map.
+        const float nothing = empty_depth(keep_depth::larger);
+        std::fill_n(heights_.get(), width, nothing);
+        std::fill_n(heights_.get() + (height - 1) * width, width, nothing);
+        for (std::size_t row = 1; row + 1 < height; ++row)
+            heights_[row * width] = heights_[(row + 1) * width - 1] = nothing;
+
+        const bool mirrored = numeric::determinant(to_world.linear) < 0;
+        const cull_mode lit_side = mirrored ? cull_mode::front : cull_mode::back;  // see map_grid::placing
+        insonify::detail::draw_names(
+            m, grid_.placing(frame, to_world),
+            image_view<float>(heights_.get() + width + 1, grid_.columns, grid_.rows,
+                              static_cast<std::ptrdiff_t>(width)),
+            image_view<std::uint32_t>(names_.get() + width + 1, grid_.columns, grid_.rows,
+                                      static_cast<std::ptrdiff_t>(width)),
+            {.cull = is_solid ? lit_side : cull_mode::none, .keep = keep_depth::larger, .load = depth_load::clear}, ex);
+    }
+
+    bool empty() const { return grid_.empty(); }
+
+    /// Marks which of the `asked` points are dark. Points are (u, v, z) of the light's frame.
+    template <int N>
+    INSONIFY_INLINE void darken(insonify::detail::lanes<std::int32_t, N>& dark,
+                                const insonify::detail::lanes<std::int32_t, N>& asked,
+                                const insonify::detail::lanes<double, N>& u,
+                                const insonify::detail::lanes<double, N>& v,
+                                const insonify::detail::lanes<double, N>& z) const {
+        using namespace insonify::detail;
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        using doubles = lanes<double, N>;
+        dark = ints{};
+        if (empty()) return;
+        // Continuous texels, such that the four around a point are those of its floor and one on.
+        const double texels = 1 / grid_.texel;
+        floats across, along, height;
+        convert(across, doubles((u - grid_.origin.x) * texels - 0.5));
+        convert(along, doubles((v - grid_.origin.y) * texels - 0.5));
+        convert(height, doubles((z - grid_.floor) / grid_.relief));
+        const ints near_map = asked & ints(across > -1.0f) & ints(across < static_cast<float>(grid_.columns)) &
+                              ints(along > -1.0f) & ints(along < static_cast<float>(grid_.rows));
+        if (!any(near_map)) return;
+        ints column, row;
+        convert(column, floats(near_map ? across + 1.0f : floats{}));
+        convert(row, floats(near_map ? along + 1.0f : floats{}));
+
+        std::size_t first[static_cast<unsigned>(N)];
+        for (int k = 0; k < N; ++k)
+            first[k] = static_cast<std::size_t>(lane(row, k)) * pitch() + static_cast<std::size_t>(lane(column, k));
+        floats h[4];
+        gather<N>(h[0], [&](int k) { return heights_[first[k]]; });
+        gather<N>(h[1], [&](int k) { return heights_[first[k] + 1]; });
+        gather<N>(h[2], [&](int k) { return heights_[first[k] + pitch()]; });
+        gather<N>(h[3], [&](int k) { return heights_[first[k] + pitch() + 1]; });
+        floats low = h[0], high = h[0];
+        for (int i = 1; i < 4; ++i) {
+            low = h[i] < low ? h[i] : low;
+            high = h[i] > high ? h[i] : high;
+        }
+        // All four below by more than they differ, or above by as much: that is how far a surface may go on changing.
+        // Nothing is minus infinity: beside something, it makes the difference infinite.
+        const floats spread = high - low;
+        const ints is_lit = ints(height > high + spread) | ints(high < 0.0f);
+        const ints is_dark = ints(height < low - spread);
+        dark = near_map & is_dark;
+        const ints doubtful = near_map & ints(ints(is_lit | is_dark) == 0);
+        if (!any(doubtful)) return;
+        for (int k = 0; k < N; ++k)
+            if (lane(doubtful, k) != 0)
+                set_lane(dark, k,
+                         is_behind_one_of(first[k], {lane(u, k), lane(v, k), lane(z, k)}) ? std::int32_t{-1}
+                                                                                          : std::int32_t{0});
+    }
+
+  private:
+    std::size_t pitch() const { return static_cast<std::size_t>(grid_.columns) + 2; }
+
+    /// Asks the triangles that the four texels from `first` on name. One that covers the point decides if it is above.
+    /// Else the point lies between them, inside of a surface if all four pass above; or at its edge, where triangles
+    /// are thin under grazing light and may have met no texel's centre: there their neighbours in the mesh are asked
+    /// too.
+    bool is_behind_one_of(std::size_t first, const glm::dvec3& uvz) const {
+        const std::size_t texels[] = {first, first + 1, first + pitch(), first + pitch() + 1};
+        int above = 0;
+        bool is_above = false;
+        std::uint32_t asked = insonify::detail::tile_buffer<true>::nobody;
+        for (const std::size_t texel : texels) {
+            if (!(heights_[texel] >= 0)) continue;
+            if (names_[texel] != asked) {
+                asked = names_[texel];
+                const sight s = seen_from(asked, uvz);
+                if (s.is_behind()) return true;
+                is_above = s.above > 0;
+            }
+            above += is_above ? 1 : 0;
+        }
+        if (above == 0 || above == 4) return above == 4;
+
+        // Meshes are mostly written such that neighbours come after one another.
+        constexpr std::uint32_t reach = 4;
+        const auto last = static_cast<std::uint32_t>(mesh_->triangles.size() - 1);
+        asked = insonify::detail::tile_buffer<true>::nobody;
+        for (const std::size_t texel : texels) {
+            if (!(heights_[texel] >= 0) || names_[texel] == asked) continue;
+            asked = names_[texel];
+            const std::uint32_t before = asked - (std::min)(asked, reach), after = (std::min)(last - asked, reach);
+            for (std::uint32_t t = before; t <= asked + after; ++t)
+                if (seen_from(t, uvz).is_behind()) return true;
+        }
+        return false;
+    }
+
+    /// A triangle as the light sees it at a point.
+    struct sight {
+        bool covered;
+        double above;  ///< metres from the point up to the triangle's plane
+
+        bool is_behind() const { return covered && above > 1e-6; }
+    };
+    sight seen_from(std::uint32_t triangle, const glm::dvec3& uvz) const {
+        const glm::uvec3& index = mesh_->triangles[triangle];
+        glm::dvec3 corner[3];
+        for (int i = 0; i < 3; ++i) corner[i] = frame_(transform_point(to_world_, mesh_->positions[index[i]])) - uvz;
+        const auto share = [](const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.y - a.y * b.x; };
+        const double a = share(corner[1], corner[2]), b = share(corner[2], corner[0]), c = share(corner[0], corner[1]);
+        const bool covered = (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
+        return {covered, (a * corner[0].z + b * corner[1].z + c * corner[2].z) / (a + b + c)};
+    }
+
+    light_frame frame_;
+    const mesh* mesh_ = nullptr;
+    affine to_world_;
+    map_grid grid_;
+    std::unique_ptr<float[]> heights_;        ///< with the frame of empty texels
+    std::unique_ptr<std::uint32_t[]> names_;  ///< the same texels
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::shadow
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,152 @@
+// From what a pixel shows to its value and its labels, several pixels at a time.
+#pragma once
+
+#include <insonify/raster/draw.hpp>
+#include <insonify/sonar/illumination.hpp>
+#include <insonify/sonar/rig.hpp>
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Asks for no labels: none are stored or computed.
+struct no_labels {};
+
+namespace detail {
+
+/// What pixels between the vertices are shaded from, in the rig's frame.
+struct surface_varyings {
+    glm::vec3 position;
+    glm::vec3 normal;
+};
+
+/// What is the same all over an object: one material, one name.
+struct whole_object {
+    material surface;
+    std::uint16_t instance;
+    std::uint8_t seabed;  ///< as in labels::seabed
+
+    template <class Fragments>
+    INSONIFY_INLINE void at(const Fragments&, int, float& reflectivity, std::uint8_t& type) const {
+        reflectivity = surface.reflectivity;
+        type = seabed;
+    }
+};
+
+/// The seabed: a material for each of its types, which a pixel takes from the vertex that weighs most.
+struct typed_bottom {
+    const mesh& surface;
+    const seabed::heightfield& field;
+    const std::array<material, 4>& materials;
+    static constexpr std::uint16_t instance = labels::no_instance;
+
+    template <class Fragments>
+    INSONIFY_INLINE void at(const Fragments& f, int k, float& reflectivity, std::uint8_t& type) const {
+        const glm::uvec3& t = surface.triangles[f.triangles[k]];
+        const float a = lane(f.weights[0], k), b = lane(f.weights[1], k), c = lane(f.weights[2], k);
+        const std::uint32_t vertex = a >= b ? (a >= c ? t.x : t.z) : (b >= c ? t.y : t.z);
+        type = static_cast<std::uint8_t>(field.types.pixels()[vertex]);
+        reflectivity = materials[type].reflectivity;
+    }
+};
+
+/// Shades an object's visible pixels into a picture and its labels.
+template <class Shadows, class Labels, class Law, class Object>
+class surface_shader {
+  public:
+    surface_shader(const overhead_geometry& view, const Law& law, const Shadows& shadows, const Object& object,
+                   image<float>& picture, Labels& marks)
+        : rig_(view.rig()),
+          to_light_(view.light().to_light()),
+          law_(law),
+          shadows_(shadows),
+          object_(object),
+          picture_(picture),
+          labels_(marks) {}
+
+    template <int N>
+    INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
+        floats normal[3];
+        for (int i = 0; i < 3; ++i) f.interpolate(normal[i], 3 + i);
+        const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+        floats length;
+        square_root<N>(length, square);
+        const floats turned = side / length;
+        floats sine = turned * (normal[0] * to_light_.x + normal[1] * to_light_.y + normal[2] * to_light_.z);
+        sine = sine < 1.0f ? sine : floats{} + 1.0f;
+
+        light_shares<N> shares;
+        if constexpr (!std::is_same_v<Shadows, no_shadow_maps>) {
+            surface_points<N> at;
+            at.visible = f.visible;
+            at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
+            for (int i = 0; i < 3; ++i) f.interpolate(at.position[i], i);
+            facet_normal(at.facet, f, side);
+            // A label wants to know who stands in the light even of what faces away.
+            const ints useful = labelled ? f.visible : ints(f.visible & ints(sine > 0.0f));
+            if (any(useful)) shadows_(shares, at, useful);
+        }
+
+        const floats open_sky = 0.5f * (1.0f + turned * normal[2]);
+        const ints is_bright = ints(sine > 0.0f) & ints(shares.lit > 0.0f);
+        floats direct = floats{};
+        for (int k = 0; k < N; ++k)
+            if (lane(is_bright, k) != 0) set_lane(direct, k, law_(lane(sine, k)));
+        const floats light = rig_.intensity * direct * shares.lit + rig_.sky * open_sky + rig_.ambient;
+        for (int k = 0; k < N; ++k) {
+            if (lane(f.visible, k) == 0) continue;
+            float reflectivity;
+            std::uint8_t type;
+            object_.at(f, k, reflectivity, type);
+            picture_(f.x + k, f.y) = (std::min)(reflectivity * lane(light, k), 1.0f);
+            if constexpr (labelled) {
+                labels_.instance(f.x + k, f.y) = object_.instance;
+                labels_.shadow(f.x + k, f.y) = static_cast<std::uint16_t>(lane(shares.caster, k));
+                labels_.seabed(f.x + k, f.y) = type;
+            }
+        }
+    }
+
+  private:
+    static constexpr bool labelled = std::is_same_v<Labels, labels>;
+
+    /// Normal of the triangle that a pixel shows, on the side that is seen; not unit.
+    template <int N>
+    INSONIFY_INLINE static void facet_normal(lanes<float, N> (&into)[3], const fragment_lanes<N, surface_varyings>& f,
+                                             const lanes<float, N>& side) {
+        using floats = lanes<float, N>;
+        floats ab[3], ac[3];
+        for (int i = 0; i < 3; ++i) {
+            ab[i] = f.at_corner(1, i) - f.at_corner(0, i);
+            ac[i] = f.at_corner(2, i) - f.at_corner(0, i);
+        }
+        into[0] = side * (ab[1] * ac[2] - ac[1] * ab[2]);
+        into[1] = side * (ab[2] * ac[0] - ac[2] * ab[0]);
+        into[2] = side * (ab[0] * ac[1] - ac[0] * ab[1]);
+    }
+
+    overhead rig_;
+    glm::vec3 to_light_;
+    Law law_;
+    const Shadows& shadows_;
+    Object object_;
+    image<float>& picture_;
+    Labels& labels_;
+};
+
+}  // namespace detail
+}  // namespace insonify::inline INSONIFY_ABI
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+INSONIFY_ARITHMETIC_END
