@@ -33,6 +33,15 @@ struct lanes_of<T, 1> {
 template <class T, int N>
 using lanes = typename lanes_of<T, N>::type;
 
+/// Something that will be read soon.
+INSONIFY_INLINE void prefetch(const void* address) {
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+#else
+    (void)address;
+#endif
+}
+
 template <class T, class Lanes>
 INSONIFY_INLINE void load(Lanes& into, const T* from) {
     std::memcpy(&into, from, sizeof into);
@@ -91,7 +100,59 @@ INSONIFY_INLINE void gather(Lanes& into, const From& from) {
 /// Correctly rounded, as numeric::square_root.
 template <int N>
 INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& of) {
-    gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (N % 4 == 0) {
+        using four = lanes<float, 4>;
+        if constexpr (N == 4) {
+            into = __builtin_ia32_sqrtps(of);
+        } else {
+            static_assert(N == 8);
+            const four low = __builtin_ia32_sqrtps(__builtin_shufflevector(of, of, 0, 1, 2, 3));
+            const four high = __builtin_ia32_sqrtps(__builtin_shufflevector(of, of, 4, 5, 6, 7));
+            into = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+        }
+    } else
+#endif
+        gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
+}
+
+/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 4 or 8.
+template <int N, class Rows>
+INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
+#if INSONIFY_SIMD
+    // Four lanes of eight lie side by side with the other four and go the same way.
+    using floats = lanes<float, N>;
+    floats row[4], pair[4];
+    for (int k = 0; k < 4; ++k) {
+        if constexpr (N == 4) {
+            load(row[k], rows(k));
+        } else {
+            static_assert(N == 8);
+            lanes<float, 4> first, second;
+            load(first, rows(k));
+            load(second, rows(k + 4));
+            row[k] = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
+        }
+    }
+    for (int k = 0; k < 4; k += 2)
+        if constexpr (N == 4) {
+            pair[k] = __builtin_shufflevector(row[k], row[k + 1], 0, 4, 1, 5);
+            pair[k + 1] = __builtin_shufflevector(row[k], row[k + 1], 2, 6, 3, 7);
+        } else {
+            pair[k] = __builtin_shufflevector(row[k], row[k + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+            pair[k + 1] = __builtin_shufflevector(row[k], row[k + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+        }
+    for (int k = 0; k < 2; ++k)
+        if constexpr (N == 4) {
+            into[2 * k] = __builtin_shufflevector(pair[k], pair[k + 2], 0, 1, 4, 5);
+            into[2 * k + 1] = __builtin_shufflevector(pair[k], pair[k + 2], 2, 3, 6, 7);
+        } else {
+            into[2 * k] = __builtin_shufflevector(pair[k], pair[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+            into[2 * k + 1] = __builtin_shufflevector(pair[k], pair[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+#else
+    std::memcpy(into, rows(0), 4 * sizeof(float));
+#endif
 }
 
 /// 0, 1, ... N - 1.

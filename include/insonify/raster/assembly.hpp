@@ -149,6 +149,8 @@ class screen_mesh {
     screen_mesh(const mesh& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
                 const draw_options& options, bool shaded, const Keep& keep, E& ex)
         : mesh_(m),
+          indices_(m.triangles.data()),
+          whole_(static_cast<std::uint32_t>(m.triangles.size())),
           grid_(grid),
           projection_(grid, options.keep),
           cull_(options.cull),
@@ -204,21 +206,21 @@ class screen_mesh {
     std::uint32_t triangle(std::uint32_t name) const {
         return is_compact(name) ? name : wide_[name - whole()].triangle;
     }
-    const glm::uvec3& indices(std::uint32_t triangle) const { return mesh_.triangles[triangle]; }
+    const glm::uvec3& indices(std::uint32_t triangle) const { return indices_[triangle]; }
 
     /// Of a triangle that isn't wide, corner by corner in the mesh's order.
     INSONIFY_INLINE grid_place place(std::size_t triangle, int corner) const {
-        return vertices_.places[mesh_.triangles[triangle][corner]];
+        return vertices_.places[indices_[triangle][corner]];
     }
     INSONIFY_INLINE Real depth(std::size_t triangle, int corner) const {
-        return vertices_.depths[mesh_.triangles[triangle][corner]];
+        return vertices_.depths[indices_[triangle][corner]];
     }
 
   private:
     template <class Screen, class Shader>
     friend struct assembly_kernel;
 
-    std::uint32_t whole() const { return static_cast<std::uint32_t>(mesh_.triangles.size()); }
+    std::uint32_t whole() const { return whole_; }
 
     template <vertex_shader Shader, class Keep, executor E>
     void place_vertices(const Shader& shader, const Keep& keep, E& ex) {
@@ -316,6 +318,8 @@ class screen_mesh {
     }
 
     const mesh& mesh_;
+    const glm::uvec3* indices_;
+    std::uint32_t whole_;  ///< names below this are triangles of the mesh, the others wide ones
     pixel_grid grid_;
     projection projection_;
     cull_mode cull_;

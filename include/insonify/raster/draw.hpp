@@ -30,11 +30,20 @@ struct tile_triangles {
     const screen_mesh<Real>& screen;
     std::span<const triangle_run> bin;
     pixel_box box;
+    const void* records = nullptr;  ///< of vertices, which shading will read soon
+    std::size_t record_size = 0;
 
     std::span<const triangle_run> runs() const { return bin; }
     const pixel_grid& grid() const { return screen.grid(); }
     INSONIFY_INLINE grid_place place(std::uint32_t name, int corner) const { return screen.place(name, corner); }
     INSONIFY_INLINE Real depth(std::uint32_t name, int corner) const { return screen.depth(name, corner); }
+
+    INSONIFY_INLINE void prefetch(std::uint32_t name) const {
+        if (records == nullptr) return;
+        const glm::uvec3& index = screen.indices(name);
+        for (int i = 0; i < 3; ++i)
+            detail::prefetch(static_cast<const char*>(records) + std::size_t{index[i]} * record_size);
+    }
 
     INSONIFY_INLINE triangle_setup setup(std::uint32_t name) const {
         const screen_triangle t = screen[name];
@@ -104,7 +113,8 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
 /// it shaded. `keep(index, placed)` takes what the vertex callable gives.
 template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Keep, class Finish>
 draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float> depth, const draw_options& options,
-                      E& ex, const Keep& keep_vertex, Finish&& finish) {
+                      E& ex, const Keep& keep_vertex, Finish&& finish, const void* records = nullptr,
+                      std::size_t record_size = 0) {
     check(options, depth);
     require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
             "0 or one per position");
@@ -124,7 +134,7 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
             const int y = static_cast<int>(tile / static_cast<std::size_t>(tiles.columns)) * options.tile;
             const pixel_box box =
                 intersect({x, y, x + options.tile - 1, y + options.tile - 1}, {0, 0, grid.width - 1, grid.height - 1});
-            const tile_triangles<Real> triangles{screen, screen.bin(tile), box};
+            const tile_triangles<Real> triangles{screen, screen.bin(tile), box, records, record_size};
             const bool keep = options.load == depth_load::keep;
             if (triangles.bin.empty() && keep) continue;
             dispatch(tile_kernel<tile_triangles<Real>, Winners, Real>{triangles, buffer, depth, box, sign, keep},
@@ -152,7 +162,8 @@ draw_stats draw_lanes(const mesh& m, const VertexShader& place, const LaneShader
                                                                               triangles.box, shader, shaded},
                      options.level);
             return shaded;
-        });
+        },
+        records.get(), sizeof(vertex_record<varyings>));
 }
 
 /// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle.

@@ -21,7 +21,7 @@ namespace insonify::inline INSONIFY_ABI::detail {
 
 /// What pixels read of a vertex: its varyings, float by float, and 1 / w; filled up to whole vectors of four.
 template <class Varyings>
-struct alignas(16) vertex_record {
+struct alignas((sizeof(Varyings) + sizeof(float) + 15) / 16 == 2 ? 32 : 16) vertex_record {
     static constexpr int count = static_cast<int>(sizeof(Varyings) / sizeof(float));
     static constexpr int blocks = (count + 1 + 3) / 4;
     float values[static_cast<unsigned>(4 * blocks)];
@@ -39,7 +39,6 @@ class fragment_lanes {
     using record = vertex_record<Varyings>;
     using ints = lanes<std::int32_t, N>;
     using floats = lanes<float, N>;
-    using doubles = lanes<double, N>;
 
     int x, y;                                           ///< of the first lane
     ints visible;                                       ///< which lanes this draw has won
@@ -80,33 +79,18 @@ class fragment_lanes {
     INSONIFY_INLINE const floats& at_corner(int corner, int k) const { return values_[corner][k]; }
 
   private:
-    /// Four floats of each of N records at a time, turned into lanes.
+    /// Records in, lanes out.
     INSONIFY_INLINE static void read(floats (&into)[static_cast<unsigned>(4 * record::blocks)],
                                      const record* const (&from)[static_cast<unsigned>(N)]) {
-#if INSONIFY_SIMD
-        if constexpr (N == 4) {
-            for (int block = 0; block < record::blocks; ++block) {
-                floats a, b, c, d;
-                load(a, from[0]->values + 4 * block);
-                load(b, from[1]->values + 4 * block);
-                load(c, from[2]->values + 4 * block);
-                load(d, from[3]->values + 4 * block);
-                const floats ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
-                const floats ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-                const floats cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-                const floats cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-                into[4 * block] = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
-                into[4 * block + 1] = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
-                into[4 * block + 2] = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
-                into[4 * block + 3] = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
-            }
-            return;
-        }
-#endif
-        for (int i = 0; i <= record::count; ++i) gather<N>(into[i], [&](int k) { return from[k]->values[i]; });
+        if constexpr (N == 1)
+            std::memcpy(into, from[0]->values, sizeof into);
+        else
+            for (int block = 0; block < 4 * record::blocks; block += 4)
+                transpose<N>(into + block, [&](int k) { return from[k]->values + block; });
     }
 
-    /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out.
+    /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out. In float a
+    /// share is off by 2^-24 of the triangle's length squared.
     template <class Screen>
     INSONIFY_INLINE void weigh(const Screen& screen, const std::uint32_t* name) {
         const corner_lanes<N> at([&](int k, int corner) { return screen.place(name[k], corner); });
@@ -118,19 +102,19 @@ class fragment_lanes {
         opposite(weights[0], at.bx, at.by, at.cx, at.cy, px, py);
         opposite(weights[1], at.cx, at.cy, at.ax, at.ay, px, py);
         opposite(weights[2], at.ax, at.ay, at.bx, at.by, px, py);
-        front = ints(weights[0] + weights[1] + weights[2] < 0.0f);
+        front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
         for (int i = 0; i < 3; ++i) weights[i] = weights[i] * values_[i][record::count];
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
         for (int i = 0; i < 3; ++i) weights[i] = weights[i] * scale;
     }
     INSONIFY_INLINE static void opposite(floats& into, const ints& from_x, const ints& from_y, const ints& to_x,
                                          const ints& to_y, const ints& px, const ints& py) {
-        doubles run, rise, right, down;
+        floats run, rise, right, down;
         convert(run, ints(to_x - from_x));
         convert(rise, ints(to_y - from_y));
         convert(right, ints(px - from_x));
         convert(down, ints(py - from_y));
-        convert(into, doubles(run * down - rise * right));
+        into = run * down - rise * right;
     }
 
     /// Where one of them was clipped, or is too large.
@@ -159,7 +143,7 @@ struct shading_kernel {
 
     template <int Width>
     INSONIFY_INLINE void run() const {
-        constexpr int N = Width > 1 ? 4 : 1;
+        constexpr int N = Width;
         using ints = lanes<std::int32_t, N>;
         ints column;
         count_up<std::int32_t, N>(column);

@@ -302,6 +302,7 @@ struct tile_kernel {
         const small_setup<N> t(at, triangles.grid(), box);
         const small_planes<N, Real> planes(at, area, az, bz, cz);
         const auto unit = static_cast<int>(triangles.grid().unit());
+        for (int k = 0; k < count; ++k) triangles.prefetch(names[k]);
         for (int k = 0; k < count; ++k)
             fill_small<N>(t, planes, k, unit, tile, names[k],
                           [&](int x, int y) { return triangles.nearest_depth(names[k], x, y); });

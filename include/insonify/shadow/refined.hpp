@@ -49,6 +49,13 @@ class caster_map {
         for (std::size_t row = 1; row + 1 < height; ++row)
             heights_[row * width] = heights_[(row + 1) * width - 1] = nothing;
 
+        const double texels = 1 / grid_.texel;
+        const glm::dvec2& travel = frame.travel();
+        to_map_[0] = glm::vec3(texels * glm::dvec3(travel.x, travel.y, frame.cot_elevation()));
+        to_map_[1] = glm::vec3(texels * glm::dvec3(-travel.y, travel.x, 0));
+        to_map_[2] = {0, 0, static_cast<float>(1 / grid_.relief)};
+        start_ = glm::vec3(0.5 - texels * grid_.origin.x, 0.5 - texels * grid_.origin.y, -grid_.floor / grid_.relief);
+
         const bool mirrored = numeric::determinant(to_world.linear) < 0;
         const cull_mode lit_side = mirrored ? cull_mode::front : cull_mode::back;  // see map_grid::placing
         insonify::detail::draw_names(
@@ -62,40 +69,37 @@ class caster_map {
 
     bool empty() const { return grid_.empty(); }
 
-    /// Marks which of the `asked` points are dark. Points are (u, v, z) of the light's frame.
+    /// Marks which of the `asked` points are dark; positions are in the frame in which the light is described.
     template <int N>
     INSONIFY_INLINE void darken(insonify::detail::lanes<std::int32_t, N>& dark,
                                 const insonify::detail::lanes<std::int32_t, N>& asked,
-                                const insonify::detail::lanes<double, N>& u,
-                                const insonify::detail::lanes<double, N>& v,
-                                const insonify::detail::lanes<double, N>& z) const {
+                                const insonify::detail::lanes<float, N> (&position)[3]) const {
         using namespace insonify::detail;
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
-        using doubles = lanes<double, N>;
         dark = ints{};
         if (empty()) return;
-        // Continuous texels, such that the four around a point are those of its floor and one on.
-        const double texels = 1 / grid_.texel;
-        floats across, along, height;
-        convert(across, doubles((u - grid_.origin.x) * texels - 0.5));
-        convert(along, doubles((v - grid_.origin.y) * texels - 0.5));
-        convert(height, doubles((z - grid_.floor) / grid_.relief));
-        const ints near_map = asked & ints(across > -1.0f) & ints(across < static_cast<float>(grid_.columns)) &
-                              ints(along > -1.0f) & ints(along < static_cast<float>(grid_.rows));
-        if (!any(near_map)) return;
-        ints column, row;
-        convert(column, floats(near_map ? across + 1.0f : floats{}));
-        convert(row, floats(near_map ? along + 1.0f : floats{}));
-
-        std::size_t first[static_cast<unsigned>(N)];
-        for (int k = 0; k < N; ++k)
-            first[k] = static_cast<std::size_t>(lane(row, k)) * pitch() + static_cast<std::size_t>(lane(column, k));
+        // Continuous texels from the outer frame's first centre, so the four around a point are those of its floor and
+        // one on.
+        const floats& x = position[0];
+        const floats& y = position[1];
+        const floats& z = position[2];
+        const floats column = x * to_map_[0].x + y * to_map_[0].y + z * to_map_[0].z + start_.x;
+        const floats row = x * to_map_[1].x + y * to_map_[1].y + start_.y;
+        const floats height = z * to_map_[2].z + start_.z;
+        const ints on_map = asked & ints(column >= 0.0f) & ints(column < static_cast<float>(grid_.columns + 1)) &
+                            ints(row >= 0.0f) & ints(row < static_cast<float>(grid_.rows + 1));
+        if (!any(on_map)) return;
+        ints first_column, first_row;
+        convert(first_column, floats(on_map ? column : floats{}));
+        convert(first_row, floats(on_map ? row : floats{}));
+        const auto width = static_cast<std::int32_t>(pitch());
+        const ints first = first_row * width + first_column;
         floats h[4];
-        gather<N>(h[0], [&](int k) { return heights_[first[k]]; });
-        gather<N>(h[1], [&](int k) { return heights_[first[k] + 1]; });
-        gather<N>(h[2], [&](int k) { return heights_[first[k] + pitch()]; });
-        gather<N>(h[3], [&](int k) { return heights_[first[k] + pitch() + 1]; });
+        gather<N>(h[0], [&](int k) { return heights_[static_cast<std::size_t>(lane(first, k))]; });
+        gather<N>(h[1], [&](int k) { return heights_[static_cast<std::size_t>(lane(first, k) + 1)]; });
+        gather<N>(h[2], [&](int k) { return heights_[static_cast<std::size_t>(lane(first, k) + width)]; });
+        gather<N>(h[3], [&](int k) { return heights_[static_cast<std::size_t>(lane(first, k) + width + 1)]; });
         floats low = h[0], high = h[0];
         for (int i = 1; i < 4; ++i) {
             low = h[i] < low ? h[i] : low;
@@ -106,14 +110,15 @@ class caster_map {
         const floats spread = high - low;
         const ints is_lit = ints(height > high + spread) | ints(high < 0.0f);
         const ints is_dark = ints(height < low - spread);
-        dark = near_map & is_dark;
-        const ints doubtful = near_map & ints(ints(is_lit | is_dark) == 0);
+        dark = on_map & is_dark;
+        const ints doubtful = on_map & ints(ints(is_lit | is_dark) == 0);
         if (!any(doubtful)) return;
         for (int k = 0; k < N; ++k)
-            if (lane(doubtful, k) != 0)
-                set_lane(dark, k,
-                         is_behind_one_of(first[k], {lane(u, k), lane(v, k), lane(z, k)}) ? std::int32_t{-1}
-                                                                                          : std::int32_t{0});
+            if (lane(doubtful, k) != 0) {
+                const glm::dvec3 uvz = frame_(glm::dvec3(lane(x, k), lane(y, k), lane(z, k)));
+                const bool behind = is_behind_one_of(static_cast<std::size_t>(lane(first, k)), uvz);
+                set_lane(dark, k, behind ? std::int32_t{-1} : std::int32_t{0});
+            }
     }
 
   private:
@@ -175,6 +180,7 @@ class caster_map {
     const mesh* mesh_ = nullptr;
     affine to_world_;
     map_grid grid_;
+    glm::vec3 to_map_[3], start_;             ///< from positions to column, row and height
     std::unique_ptr<float[]> heights_;        ///< with the frame of empty texels
     std::unique_ptr<std::uint32_t[]> names_;  ///< the same texels
 };

@@ -14,7 +14,8 @@ struct material {
     float reflectivity = 0.5f;  ///< relative, 0 to 1 and above: tunes highlights as the paper tunes its light
 };
 
-/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear.
+/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. One that
+/// has `in_lanes` too is asked for several pixels at a time, by reference.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
@@ -23,12 +24,20 @@ concept backscatter_law = requires(const L& law, float s) {
 /// Optical Lambert, s: what the paper's game engine draws.
 struct lambert {
     float operator()(float s) const { return s; }
+    template <class Lanes>
+    INSONIFY_INLINE void in_lanes(Lanes& into, const Lanes& s) const {
+        into = s;
+    }
 };
 
 /// Lambert's law for backscattered intensity, s^2 (K. V. Mackenzie. Bottom Reverberation for 530- and 1030-cps Sound in
 /// Deep Water. JASA 33, 1961, without its level): both the sound that arrives and the sound that returns spread by s.
 struct lambert_backscatter {
     float operator()(float s) const { return s * s; }
+    template <class Lanes>
+    INSONIFY_INLINE void in_lanes(Lanes& into, const Lanes& s) const {
+        into = s * s;
+    }
 };
 
 }  // namespace insonify::inline INSONIFY_ABI

@@ -94,26 +94,19 @@ class shadow_maps {
                                       const lanes<std::int32_t, N>& useful) const {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
-        using doubles = lanes<double, N>;
-        doubles x, y, z;
-        convert(x, at.position[0]);
-        convert(y, at.position[1]);
-        convert(z, at.position[2]);
-        const glm::dvec2& travel = light_.travel();
-        const doubles u = x * travel.x + y * travel.y + z * light_.cot_elevation();
-        const doubles v = y * travel.x - x * travel.y;
         // A target's shadow goes on over what would be dark without it.
         ints dark;
         for (std::size_t i = 0; i < targets_.size(); ++i) {
-            targets_[i].template darken<N>(dark, useful, u, v, z);
+            targets_[i].template darken<N>(dark, useful, at.position);
             shares.darken(dark ? floats{} : floats{} + 1.0f, static_cast<std::uint16_t>(i + 1));
         }
+        const glm::dvec2& travel = light_.travel();
         const floats facing =
             at.facet[2] - static_cast<float>(light_.cot_elevation()) *
                               (at.facet[0] * static_cast<float>(travel.x) + at.facet[1] * static_cast<float>(travel.y));
         dark = ints(facing <= 0.0f);
         shares.darken(dark ? floats{} : floats{} + 1.0f, at.itself);
-        bottom_.template darken<N>(dark, ints(useful & ints(shares.lit > 0.0f)), u, v, z);
+        bottom_.template darken<N>(dark, ints(useful & ints(shares.lit > 0.0f)), at.position);
         shares.darken(dark ? floats{} : floats{} + 1.0f, labels::by_seabed);
     }
 

@@ -85,21 +85,23 @@ class surface_shader {
 
         light_shares<N> shares;
         if constexpr (!std::is_same_v<Shadows, no_shadow_maps>) {
-            surface_points<N> at;
-            at.visible = f.visible;
-            at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
-            for (int i = 0; i < 3; ++i) f.interpolate(at.position[i], i);
-            facet_normal(at.facet, f, side);
             // A label wants to know who stands in the light even of what faces away.
             const ints useful = labelled ? f.visible : ints(f.visible & ints(sine > 0.0f));
-            if (any(useful)) shadows_(shares, at, useful);
+            if (any(useful)) {
+                surface_points<N> at;
+                at.visible = f.visible;
+                at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
+                for (int i = 0; i < 3; ++i) f.interpolate(at.position[i], i);
+                facet_normal<N>(at.facet, f, side);
+                shadows_(shares, at, useful);
+            }
         }
 
         const floats open_sky = 0.5f * (1.0f + turned * normal[2]);
         const ints is_bright = ints(sine > 0.0f) & ints(shares.lit > 0.0f);
-        floats direct = floats{};
-        for (int k = 0; k < N; ++k)
-            if (lane(is_bright, k) != 0) set_lane(direct, k, law_(lane(sine, k)));
+        floats direct;
+        law<N>(direct, is_bright ? sine : floats{});
+        direct = is_bright ? direct : floats{};
         const floats light = rig_.intensity * direct * shares.lit + rig_.sky * open_sky + rig_.ambient;
         for (int k = 0; k < N; ++k) {
             if (lane(f.visible, k) == 0) continue;
@@ -131,6 +133,14 @@ class surface_shader {
         into[0] = side * (ab[1] * ac[2] - ac[1] * ab[2]);
         into[1] = side * (ab[2] * ac[0] - ac[2] * ab[0]);
         into[2] = side * (ab[0] * ac[1] - ac[0] * ab[1]);
+    }
+
+    template <int N>
+    INSONIFY_INLINE void law(lanes<float, N>& into, const lanes<float, N>& sine) const {
+        if constexpr (requires { law_.in_lanes(into, sine); })
+            law_.in_lanes(into, sine);
+        else
+            gather<N>(into, [&](int k) { return law_(lane(sine, k)); });
     }
 
     overhead rig_;
