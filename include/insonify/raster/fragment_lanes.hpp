@@ -99,24 +99,22 @@ class fragment_lanes {
         count_up<std::int32_t, N>(column);
         const ints px = ((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half());
         const ints py = ints{} + static_cast<std::int32_t>(grid.center(y));
-        opposite(weights[0], at.bx, at.by, at.cx, at.cy, px, py);
-        opposite(weights[1], at.cx, at.cy, at.ax, at.ay, px, py);
-        opposite(weights[2], at.ax, at.ay, at.bx, at.by, px, py);
+        floats ax, ay, bx, by, cx,
+            cy;  // from the pixel, so that exchanging two corners changes a sign and nothing else
+        convert(ax, ints(at.ax - px));
+        convert(ay, ints(at.ay - py));
+        convert(bx, ints(at.bx - px));
+        convert(by, ints(at.by - py));
+        convert(cx, ints(at.cx - px));
+        convert(cy, ints(at.cy - py));
+        weights[0] = bx * cy - by * cx;
+        weights[1] = cx * ay - cy * ax;
+        weights[2] = ax * by - ay * bx;
         front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
         for (int i = 0; i < 3; ++i) weights[i] = weights[i] * values_[i][record::count];
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
         for (int i = 0; i < 3; ++i) weights[i] = weights[i] * scale;
     }
-    INSONIFY_INLINE static void opposite(floats& into, const ints& from_x, const ints& from_y, const ints& to_x,
-                                         const ints& to_y, const ints& px, const ints& py) {
-        floats run, rise, right, down;
-        convert(run, ints(to_x - from_x));
-        convert(rise, ints(to_y - from_y));
-        convert(right, ints(px - from_x));
-        convert(down, ints(py - from_y));
-        into = run * down - rise * right;
-    }
-
     /// Where one of them was clipped, or is too large.
     template <class Screen>
     INSONIFY_INLINE void weigh_one_by_one(const Screen& screen, const std::uint32_t* name) {

@@ -37,7 +37,7 @@ class caster_map {
     template <executor E>
     caster_map(const light_frame& frame, const mesh& m, const affine& to_world, bool is_solid, const map_extent& extent,
                double texel, int largest, E& ex)
-        : frame_(frame), mesh_(&m), to_world_(to_world), grid_(extent, texel, largest) {
+        : frame_(frame), mesh_(&m), grid_(extent, texel, largest) {
         if (grid_.empty()) return;
         const std::size_t width = pitch(), height = static_cast<std::size_t>(grid_.rows) + 2;
         heights_ = std::make_unique_for_overwrite<float[]>(width * height);
@@ -55,6 +55,10 @@ class caster_map {
         to_map_[1] = glm::vec3(texels * glm::dvec3(-travel.y, travel.x, 0));
         to_map_[2] = {0, 0, static_cast<float>(1 / grid_.relief)};
         start_ = glm::vec3(0.5 - texels * grid_.origin.x, 0.5 - texels * grid_.origin.y, -grid_.floor / grid_.relief);
+
+        to_light_.offset = frame(to_world.offset);
+        for (int i = 0; i < 3; ++i)
+            to_light_.linear[i] = frame(to_world.offset + to_world.linear[i]) - to_light_.offset;
 
         const bool mirrored = numeric::determinant(to_world.linear) < 0;
         const cull_mode lit_side = mirrored ? cull_mode::front : cull_mode::back;  // see map_grid::placing
@@ -169,7 +173,7 @@ class caster_map {
     sight seen_from(std::uint32_t triangle, const glm::dvec3& uvz) const {
         const glm::uvec3& index = mesh_->triangles[triangle];
         glm::dvec3 corner[3];
-        for (int i = 0; i < 3; ++i) corner[i] = frame_(transform_point(to_world_, mesh_->positions[index[i]])) - uvz;
+        for (int i = 0; i < 3; ++i) corner[i] = transform_point(to_light_, mesh_->positions[index[i]]) - uvz;
         const auto share = [](const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.y - a.y * b.x; };
         const double a = share(corner[1], corner[2]), b = share(corner[2], corner[0]), c = share(corner[0], corner[1]);
         const bool covered = (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
@@ -178,7 +182,7 @@ class caster_map {
 
     light_frame frame_;
     const mesh* mesh_ = nullptr;
-    affine to_world_;
+    affine to_light_;  ///< from the mesh to (u, v, z)
     map_grid grid_;
     glm::vec3 to_map_[3], start_;             ///< from positions to column, row and height
     std::unique_ptr<float[]> heights_;        ///< with the frame of empty texels
