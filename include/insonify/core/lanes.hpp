@@ -116,6 +116,33 @@ INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& o
         gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
 }
 
+/// Two neighbouring 32-bit values at N places: lane k of `first` and `second` is what from(k) points to.
+template <int N, class Lanes, class From>
+INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        constexpr int half = N / 2;
+        lanes<std::int64_t, half> low, high;
+        const auto pair = [&](int k) INSONIFY_INLINE_LAMBDA {
+            std::int64_t bits;
+            std::memcpy(&bits, from(k), sizeof bits);
+            return bits;
+        };
+        gather<half>(low, [&](int k) { return pair(k); });
+        gather<half>(high, [&](int k) { return pair(half + k); });
+        [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+            first = __builtin_shufflevector(Lanes(low), Lanes(high), 2 * I...);
+            second = __builtin_shufflevector(Lanes(low), Lanes(high), 2 * I + 1 ...);
+        }
+        (std::make_integer_sequence<int, N>{});
+    } else
+#endif
+    {
+        std::memcpy(&first, from(0), sizeof first);
+        std::memcpy(&second, from(0) + 1, sizeof second);
+    }
+}
+
 /// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 4 or 8.
 template <int N, class Rows>
 INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {

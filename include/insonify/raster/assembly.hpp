@@ -207,9 +207,11 @@ class screen_mesh {
         return is_compact(name) ? name : wide_[name - whole()].triangle;
     }
     const glm::uvec3& indices(std::uint32_t triangle) const { return indices_[triangle]; }
+    const grid_place* places() const { return vertices_.places.data(); }
+    std::uint32_t compact_names() const { return whole_; }
 
     /// Of a triangle that isn't wide, corner by corner in the mesh's order.
-    INSONIFY_INLINE grid_place place(std::size_t triangle, int corner) const {
+    INSONIFY_INLINE const grid_place& place(std::size_t triangle, int corner) const {
         return vertices_.places[indices_[triangle][corner]];
     }
     INSONIFY_INLINE Real depth(std::size_t triangle, int corner) const {
@@ -356,8 +358,9 @@ struct assembly_kernel {
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle) const {
         using ints = lanes<std::int32_t, N>;
-        const corner_lanes<N> at(
-            [&](int k, int corner) { return screen.place(triangle + static_cast<std::size_t>(k), corner); });
+        const corner_lanes<N> at([&](int k, int corner) -> const grid_place& {
+            return screen.place(triangle + static_cast<std::size_t>(k), corner);
+        });
         if (!at.are_small()) return false;
         const pixel_box picture{0, 0, screen.grid_.width - 1, screen.grid_.height - 1};
         ints area, x0, y0, x1, y1;

@@ -35,7 +35,7 @@ struct tile_triangles {
 
     std::span<const triangle_run> runs() const { return bin; }
     const pixel_grid& grid() const { return screen.grid(); }
-    INSONIFY_INLINE grid_place place(std::uint32_t name, int corner) const { return screen.place(name, corner); }
+    INSONIFY_INLINE const grid_place& place(std::uint32_t name, int corner) const { return screen.place(name, corner); }
     INSONIFY_INLINE Real depth(std::uint32_t name, int corner) const { return screen.depth(name, corner); }
 
     INSONIFY_INLINE void prefetch(std::uint32_t name) const {

@@ -40,35 +40,35 @@ class fragment_lanes {
     using ints = lanes<std::int32_t, N>;
     using floats = lanes<float, N>;
 
-    int x, y;                                           ///< of the first lane
-    ints visible;                                       ///< which lanes this draw has won
+    int x, y;      ///< of the first lane
+    ints visible;  ///< which lanes this draw has won
+    bool all_visible;
     std::uint32_t triangles[static_cast<unsigned>(N)];  ///< of the mesh
     ints front;                                         ///< seen from the counter-clockwise side
     floats weights[3];                                  ///< of the corners, perspective-correct
 
-    /// @param names  of what each lane shows; at least one lane is visible
+    /// @param names  of what each lane shows: somebody's where a lane isn't visible
     template <class Screen>
     INSONIFY_INLINE fragment_lanes(const Screen& screen, const record* records, int column, int row, const ints& shown,
-                                   const std::uint32_t* names)
-        : x(column), y(row), visible(shown) {
-        std::uint32_t somebody = 0;
-        for (int k = 0; k < N; ++k)
-            if (lane(visible, k) != 0) somebody = names[k];
-        std::uint32_t name[static_cast<unsigned>(N)];
-        bool all_compact = true;
-        const record* corner[3][static_cast<unsigned>(N)];
-        for (int k = 0; k < N; ++k) {
-            name[k] = lane(visible, k) != 0 ? names[k] : somebody;
-            all_compact &= screen.is_compact(name[k]);
-            triangles[k] = screen.triangle(name[k]);
-            const glm::uvec3& index = screen.indices(triangles[k]);
-            for (int i = 0; i < 3; ++i) corner[i][k] = records + index[i];
+                                   bool all_shown, const std::uint32_t* names)
+        : x(column), y(row), visible(shown), all_visible(all_shown) {
+        lanes<std::uint32_t, N> name;
+        load(name, names);
+        if (!any(ints(name >= screen.compact_names()))) {
+            const grid_place* const places = screen.places();
+            std::memcpy(triangles, names, sizeof triangles);
+            const grid_place* place[3][count];
+            read_corners(
+                records, [&](int k) -> const glm::uvec3& { return screen.indices(names[k]); },
+                [&](int i, int k, std::uint32_t vertex) { place[i][k] = places + vertex; });
+            weigh(screen.grid(), corner_lanes<N>([&](int k, int i) -> const grid_place& { return *place[i][k]; }));
+        } else {
+            for (int k = 0; k < N; ++k) triangles[k] = screen.triangle(names[k]);
+            read_corners(
+                records, [&](int k) -> const glm::uvec3& { return screen.indices(triangles[k]); },
+                [](int, int, std::uint32_t) {});
+            weigh_one_by_one(screen, names);
         }
-        for (int i = 0; i < 3; ++i) read(values_[i], corner[i]);
-        if (all_compact)
-            weigh(screen, name);
-        else
-            weigh_one_by_one(screen, name);
     }
 
     /// Float k of the varyings; the same bits whichever way the triangle runs.
@@ -79,22 +79,31 @@ class fragment_lanes {
     INSONIFY_INLINE const floats& at_corner(int corner, int k) const { return values_[corner][k]; }
 
   private:
-    /// Records in, lanes out.
-    INSONIFY_INLINE static void read(floats (&into)[static_cast<unsigned>(4 * record::blocks)],
-                                     const record* const (&from)[static_cast<unsigned>(N)]) {
-        if constexpr (N == 1)
-            std::memcpy(into, from[0]->values, sizeof into);
-        else
-            for (int block = 0; block < 4 * record::blocks; block += 4)
-                transpose<N>(into + block, [&](int k) { return from[k]->values + block; });
+    static constexpr auto count = static_cast<std::size_t>(N);
+
+    /// Reads the corners' records; `each(corner, lane, vertex)` is told which they are.
+    template <class Indices, class Each>
+    INSONIFY_INLINE void read_corners(const record* records, const Indices& indices, const Each& each) {
+        const record* corner[3][count];
+        for (int k = 0; k < N; ++k) {
+            const glm::uvec3& index = indices(k);
+            for (int i = 0; i < 3; ++i) {
+                corner[i][k] = records + index[i];
+                each(i, k, index[i]);
+            }
+        }
+        for (int i = 0; i < 3; ++i) {
+            if constexpr (N == 1)
+                std::memcpy(values_[i], corner[i][0]->values, sizeof values_[i]);
+            else
+                for (int block = 0; block < 4 * record::blocks; block += 4)
+                    transpose<N>(values_[i] + block, [&](int k) { return corner[i][k]->values + block; });
+        }
     }
 
     /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out. In float a
     /// share is off by 2^-24 of the triangle's length squared.
-    template <class Screen>
-    INSONIFY_INLINE void weigh(const Screen& screen, const std::uint32_t* name) {
-        const corner_lanes<N> at([&](int k, int corner) { return screen.place(name[k], corner); });
-        const pixel_grid& grid = screen.grid();
+    INSONIFY_INLINE void weigh(const pixel_grid& grid, const corner_lanes<N>& at) {
         ints column;
         count_up<std::int32_t, N>(column);
         const ints px = ((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half());
@@ -151,10 +160,27 @@ struct shading_kernel {
                 lanes<std::uint32_t, N> shown;
                 load(shown, names);
                 const ints visible = ints(shown != tile_buffer<true>::nobody) & ints(column <= box.x1 - x);
-                if (!any(visible)) continue;
-                for (int k = 0; k < N; ++k) shaded += std::uint64_t{lane(visible, k) != 0};
-                shader(fragment_lanes<N, Varyings>(screen, records, x, y, visible, names));
+                if (!any(ints(visible == 0))) {
+                    shaded += N;
+                    shader(fragment_lanes<N, Varyings>(screen, records, x, y, visible, true, names));
+                } else if (any(visible)) {
+                    shade_some<N>(x, y, visible, names);
+                }
             }
+    }
+
+  private:
+    template <int N>
+    INSONIFY_INLINE void shade_some(int x, int y, const lanes<std::int32_t, N>& visible,
+                                    const std::uint32_t* names) const {
+        std::uint32_t shown[static_cast<unsigned>(N)], somebody = 0;
+        for (int k = 0; k < N; ++k)
+            if (lane(visible, k) != 0) {
+                somebody = names[k];
+                ++shaded;
+            }
+        for (int k = 0; k < N; ++k) shown[k] = lane(visible, k) != 0 ? names[k] : somebody;
+        shader(fragment_lanes<N, Varyings>(screen, records, x, y, visible, false, shown));
     }
 };
 

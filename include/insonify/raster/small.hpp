@@ -7,9 +7,7 @@
 #include <insonify/core/lanes.hpp>
 #include <insonify/raster/setup.hpp>
 
-#include <bit>
 #include <limits>
-#include <utility>
 
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
@@ -38,12 +36,12 @@ struct corner_lanes {
     ints ax, ay, bx, by, cx, cy;
     ints west, north, east, south;
 
-    /// @param corner  corner(k, i): the place of corner i of triangle k
+    /// @param corner  corner(k, i): where the place of corner i of triangle k is kept
     template <class Corner>
     INSONIFY_INLINE explicit corner_lanes(const Corner& corner) {
-        read(ax, ay, [&](int k) { return corner(k, 0); });
-        read(bx, by, [&](int k) { return corner(k, 1); });
-        read(cx, cy, [&](int k) { return corner(k, 2); });
+        gather_pairs<N>(ax, ay, [&](int k) { return &corner(k, 0).x; });
+        gather_pairs<N>(bx, by, [&](int k) { return &corner(k, 1).x; });
+        gather_pairs<N>(cx, cy, [&](int k) { return &corner(k, 2).x; });
         extend(west, east, ax, bx, cx);
         extend(north, south, ay, by, cy);
     }
@@ -73,27 +71,6 @@ struct corner_lanes {
     }
 
   private:
-    template <class Place>
-    INSONIFY_INLINE static void read(ints& x, ints& y, const Place& place) {
-#if INSONIFY_SIMD
-        if constexpr (N > 1) {
-            // x and y of half the places at a time, then all x and all y.
-            constexpr int half = N / 2;
-            lanes<std::int64_t, half> first, second;
-            gather<half>(first, [&](int k) { return std::bit_cast<std::int64_t>(place(k)); });
-            gather<half>(second, [&](int k) { return std::bit_cast<std::int64_t>(place(half + k)); });
-            [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-                x = __builtin_shufflevector(ints(first), ints(second), 2 * I...);
-                y = __builtin_shufflevector(ints(first), ints(second), 2 * I + 1 ...);
-            }
-            (std::make_integer_sequence<int, N>{});
-        } else
-#endif
-        {
-            x = place(0).x;
-            y = place(0).y;
-        }
-    }
     INSONIFY_INLINE static void extend(ints& low, ints& high, const ints& a, const ints& b, const ints& c) {
         low = a < b ? a : b;
         low = low < c ? low : c;

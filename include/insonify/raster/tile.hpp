@@ -284,7 +284,7 @@ struct tile_kernel {
     INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count) const {
         using reals = lanes<Real, N>;
         const auto name = [&](int k) { return names[k < count ? k : 0]; };
-        corner_lanes<N> at([&](int k, int corner) { return triangles.place(name(k), corner); });
+        corner_lanes<N> at([&](int k, int corner) -> const grid_place& { return triangles.place(name(k), corner); });
         reals az, bz, cz;
         gather<N>(az, [&](int k) { return triangles.depth(name(k), 0); });
         gather<N>(bz, [&](int k) { return triangles.depth(name(k), 1); });

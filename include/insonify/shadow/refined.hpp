@@ -100,10 +100,9 @@ class caster_map {
         const auto width = static_cast<std::int32_t>(pitch());
         const ints first = first_row * width + first_column;
         floats h[4];
-        gather<N>(h[0], [&](int k) { return heights_[static_cast<std::size_t>(lane(first, k))]; });
-        gather<N>(h[1], [&](int k) { return heights_[static_cast<std::size_t>(lane(first, k) + 1)]; });
-        gather<N>(h[2], [&](int k) { return heights_[static_cast<std::size_t>(lane(first, k) + width)]; });
-        gather<N>(h[3], [&](int k) { return heights_[static_cast<std::size_t>(lane(first, k) + width + 1)]; });
+        const float* const heights = heights_.get();
+        gather_pairs<N>(h[0], h[1], [&](int k) { return heights + lane(first, k); });
+        gather_pairs<N>(h[2], h[3], [&](int k) { return heights + lane(first, k) + width; });
         floats low = h[0], high = h[0];
         for (int i = 1; i < 4; ++i) {
             low = h[i] < low ? h[i] : low;

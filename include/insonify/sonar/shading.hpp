@@ -31,11 +31,7 @@ struct whole_object {
     std::uint16_t instance;
     std::uint8_t seabed;  ///< as in labels::seabed
 
-    template <class Fragments>
-    INSONIFY_INLINE void at(const Fragments&, int, float& reflectivity, std::uint8_t& type) const {
-        reflectivity = surface.reflectivity;
-        type = seabed;
-    }
+    static constexpr bool uniform = true;
 };
 
 /// The seabed: a material for each of its types, which a pixel takes from the vertex that weighs most.
@@ -44,14 +40,14 @@ struct typed_bottom {
     const seabed::heightfield& field;
     const std::array<material, 4>& materials;
     static constexpr std::uint16_t instance = labels::no_instance;
+    static constexpr bool uniform = false;
 
     template <class Fragments>
-    INSONIFY_INLINE void at(const Fragments& f, int k, float& reflectivity, std::uint8_t& type) const {
+    INSONIFY_INLINE std::uint8_t type_at(const Fragments& f, int k) const {
         const glm::uvec3& t = surface.triangles[f.triangles[k]];
         const float a = lane(f.weights[0], k), b = lane(f.weights[1], k), c = lane(f.weights[2], k);
         const std::uint32_t vertex = a >= b ? (a >= c ? t.x : t.z) : (b >= c ? t.y : t.z);
-        type = static_cast<std::uint8_t>(field.types.pixels()[vertex]);
-        reflectivity = materials[type].reflectivity;
+        return static_cast<std::uint8_t>(field.types.pixels()[vertex]);
     }
 };
 
@@ -103,18 +99,26 @@ class surface_shader {
         law<N>(direct, is_bright ? sine : floats{});
         direct = is_bright ? direct : floats{};
         const floats light = rig_.intensity * direct * shares.lit + rig_.sky * open_sky + rig_.ambient;
-        for (int k = 0; k < N; ++k) {
-            if (lane(f.visible, k) == 0) continue;
-            float reflectivity;
-            std::uint8_t type;
-            object_.at(f, k, reflectivity, type);
-            picture_(f.x + k, f.y) = (std::min)(reflectivity * lane(light, k), 1.0f);
-            if constexpr (labelled) {
+        std::uint8_t types[static_cast<unsigned>(N)];
+        floats reflectivity;
+        if constexpr (Object::uniform) {
+            reflectivity = floats{} + object_.surface.reflectivity;
+            for (std::uint8_t& type : types) type = object_.seabed;
+        } else {
+            for (int k = 0; k < N; ++k) types[k] = object_.type_at(f, k);
+            gather<N>(reflectivity, [&](int k) { return object_.materials[types[k]].reflectivity; });
+        }
+        const floats one = floats{} + 1.0f;
+        floats value = reflectivity * light;
+        value = value > one ? one : value;
+        store_visible<N>(f, value, picture_);
+        if constexpr (labelled)
+            for (int k = 0; k < N; ++k) {
+                if (lane(f.visible, k) == 0) continue;
                 labels_.instance(f.x + k, f.y) = object_.instance;
                 labels_.shadow(f.x + k, f.y) = static_cast<std::uint16_t>(lane(shares.caster, k));
-                labels_.seabed(f.x + k, f.y) = type;
+                labels_.seabed(f.x + k, f.y) = types[k];
             }
-        }
     }
 
   private:
@@ -133,6 +137,16 @@ class surface_shader {
         into[0] = side * (ab[1] * ac[2] - ac[1] * ab[2]);
         into[1] = side * (ab[2] * ac[0] - ac[2] * ab[0]);
         into[2] = side * (ab[0] * ac[1] - ac[0] * ab[1]);
+    }
+
+    template <int N>
+    INSONIFY_INLINE static void store_visible(const fragment_lanes<N, surface_varyings>& f,
+                                              const lanes<float, N>& value, image<float>& picture) {
+        if (f.all_visible)
+            store(&picture(f.x, f.y), value);
+        else
+            for (int k = 0; k < N; ++k)
+                if (lane(f.visible, k) != 0) picture(f.x + k, f.y) = lane(value, k);
     }
 
     template <int N>
