@@ -1,6 +1,7 @@
 // Axis-aligned boxes, for fitting cameras and culling.
 #pragma once
 
+#include <insonify/core/executor.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 
@@ -42,9 +43,23 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
 }
 
 /// The smallest box around all finite positions, whether a triangle uses them or not.
-inline bounding_box bounds(const mesh& m) {
+template <executor_argument E = serial_executor>
+bounding_box bounds(const mesh& m, E&& ex = {}) {
+    constexpr std::size_t grain = 65536;
+    std::vector<bounding_box> parts((m.positions.size() + grain - 1) / grain);
+    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        glm::vec3 lower(infinity), upper(-infinity);
+        for (std::size_t i = first; i < last; ++i) {
+            const glm::vec3& p = m.positions[i];
+            if (!(numeric::is_finite(p.x) && numeric::is_finite(p.y) && numeric::is_finite(p.z))) continue;
+            lower = {(std::min)(lower.x, p.x), (std::min)(lower.y, p.y), (std::min)(lower.z, p.z)};
+            upper = {(std::max)(upper.x, p.x), (std::max)(upper.y, p.y), (std::max)(upper.z, p.z)};
+        }
+        parts[first / grain] = {lower, upper};
+    });
     bounding_box box;
-    for (const glm::vec3& position : m.positions) box = include(box, position);
+    for (const bounding_box& part : parts) box = merge(box, part);
     return box;
 }
 

@@ -152,7 +152,7 @@ class screen_mesh {
           indices_(m.triangles.data()),
           whole_(static_cast<std::uint32_t>(m.triangles.size())),
           grid_(grid),
-          projection_(grid, options.keep),
+          projection_(grid, options.keep, std::is_same_v<Real, double>),
           cull_(options.cull),
           vertices_(m.positions.size(), shaded) {
         place_vertices(shader, keep, ex);
@@ -201,6 +201,7 @@ class screen_mesh {
         return t;
     }
 
+    bool has_wide() const { return !wide_.empty(); }
     bool is_compact(std::uint32_t name) const { return name < whole(); }
     /// The mesh's triangle that goes by a name, and its vertices.
     std::uint32_t triangle(std::uint32_t name) const {

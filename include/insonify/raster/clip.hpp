@@ -35,7 +35,8 @@ struct clip_polygon {
 /// From clip space to the fixed-point grid.
 class projection {
   public:
-    projection(const pixel_grid& grid, keep_depth keep)
+    /// @param exact  divides by w, to the nearest; else multiplies by 1 / w, which is as good but for the last bit
+    projection(const pixel_grid& grid, keep_depth keep, bool exact = true)
         : grid_(grid),
           half_width_(0.5 * grid.width),
           half_height_(0.5 * grid.height),
@@ -43,7 +44,8 @@ class projection {
           compact_y_(grid.reach(pixel_grid::compact_bits) / half_height_),
           widest_x_(grid.reach(pixel_grid::widest_bits) / half_width_),
           widest_y_(grid.reach(pixel_grid::widest_bits) / half_height_),
-          sign_(keep == keep_depth::smaller ? 1.0 : -1.0) {}
+          sign_(keep == keep_depth::smaller ? 1.0 : -1.0),
+          exact_(exact) {}
 
     /// Distance to each clipping plane in clip space, >= 0 inside. The first keeps w away from zero.
     double distance(int plane, const glm::dvec4& p) const {
@@ -67,8 +69,11 @@ class projection {
 
     /// Internally smaller depth always wins; a target that keeps the larger one sees it negated.
     screen_vertex to_screen(const glm::dvec4& p) const {
-        return {grid_.snap(p.x / p.w * half_width_, grid_.width), grid_.snap(-(p.y / p.w) * half_height_, grid_.height),
-                sign_ * (p.z / p.w), 1 / p.w};
+        const double inverse_w = 1 / p.w;
+        const glm::dvec3 over_w = exact_ ? glm::dvec3(p.x / p.w, p.y / p.w, p.z / p.w)
+                                         : glm::dvec3(p.x * inverse_w, p.y * inverse_w, p.z * inverse_w);
+        return {grid_.snap(over_w.x * half_width_, grid_.width), grid_.snap(-over_w.y * half_height_, grid_.height),
+                sign_ * over_w.z, inverse_w};
     }
 
     /// The part of a triangle that lies inside all planes (Sutherland and Hodgman, 1974).
@@ -129,6 +134,7 @@ class projection {
     double compact_x_, compact_y_;  ///< |x| / w and |y| / w up to which vertices are compact
     double widest_x_, widest_y_;    ///< and up to which they are not clipped
     double sign_;
+    bool exact_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail

@@ -166,7 +166,8 @@ draw_stats draw_lanes(const mesh& m, const VertexShader& place, const LaneShader
         records.get(), sizeof(vertex_record<varyings>));
 }
 
-/// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle.
+/// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle; where nothing is, the
+/// name says nothing.
 template <vertex_shader VertexShader, executor E>
 draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float> depth,
                       image_view<std::uint32_t> names, const draw_options& options, E& ex) {
@@ -177,8 +178,10 @@ draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float
             for (int y = box.y0; y <= box.y1; ++y) {
                 const std::uint32_t* const winner = tile.winner(box.x0, y);
                 std::uint32_t* const to = names.data() + y * names.stride() + box.x0;
+                std::memcpy(to, winner, static_cast<std::size_t>(box.width()) * sizeof *to);
+                if (!triangles.screen.has_wide()) continue;
                 for (int x = 0; x < box.width(); ++x)
-                    if (winner[x] != tile_buffer<true>::nobody) to[x] = triangles.screen.triangle(winner[x]);
+                    if (to[x] != tile_buffer<true>::nobody) to[x] = triangles.screen.triangle(to[x]);
             }
             return std::uint64_t{0};
         });

@@ -79,12 +79,20 @@ class tile_buffer {
           depth_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
           winner_(Winners ? depth_.size() : 0) {}
 
-    /// Puts the empty tile where its first pixel is (x, y) of the image.
+    /// Puts the tile where its first pixel is (x, y) of the image.
     void restart(int x, int y) {
         x_ = x;
         y_ = y;
-        std::fill(depth_.begin(), depth_.end(), std::numeric_limits<float>::infinity());
-        std::fill(winner_.begin(), winner_.end(), nobody);
+    }
+
+    template <int N>
+    INSONIFY_INLINE void clear() {
+        const lanes<float, N> farthest = lanes<float, N>{} + std::numeric_limits<float>::infinity();
+        const lanes<std::uint32_t, N> none = lanes<std::uint32_t, N>{} + nobody;
+        for (std::size_t i = 0; i < depth_.size(); i += N) {
+            store(depth_.data() + i, farthest);
+            if constexpr (Winners) store(winner_.data() + i, none);
+        }
     }
 
     std::ptrdiff_t stride() const { return stride_; }
@@ -239,6 +247,7 @@ struct tile_kernel {
         // As many as fit a vector of depths.
         constexpr int N = exact && Width > 1 ? Width / 2 : Width;
         tile.restart(box.x0, box.y0);
+        tile.template clear<Width>();
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
         for (const triangle_run& run : triangles.runs()) {
             if (run.is_small)

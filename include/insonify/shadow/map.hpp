@@ -5,6 +5,7 @@
 #pragma once
 
 #include <insonify/core/image.hpp>
+#include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/transform.hpp>
 #include <insonify/raster/draw.hpp>
 #include <insonify/shadow/light.hpp>
@@ -114,6 +115,17 @@ struct map_grid {
         return [=](const vertex& v) { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); };
     }
 };
+
+/// An extent that holds everything in a box, a little larger than it has to be.
+inline map_extent extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
+    map_extent extent;
+    if (box.empty()) return extent;
+    for (const double x : {box.lower.x, box.upper.x})
+        for (const double y : {box.lower.y, box.upper.y})
+            for (const double z : {box.lower.z, box.upper.z})
+                extent.include(frame(transform_point(to_world, {x, y, z})));
+    return extent;
+}
 
 /// Heights of casters over a grid of rays.
 class height_map {

@@ -50,12 +50,13 @@ struct no_shadow_maps {
 /// An object in the rig's frame.
 struct placed_mesh {
     const mesh* shape;
+    bounding_box box;  ///< of the shape, in its own frame
     affine to_rig;
     bool is_solid;      ///< see target
     glm::mat3 normals;  ///< takes normals along
 
-    placed_mesh(const mesh& m, const affine& map, bool solid)
-        : shape(&m), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
+    placed_mesh(const mesh& m, const bounding_box& around, const affine& map, bool solid)
+        : shape(&m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
 };
 
 /// The maps of all casters of a scene.
@@ -137,8 +138,7 @@ class shadow_maps {
 
     template <executor E>
     caster_map cast(const placed_mesh& caster, const shadow::map_extent& receivers, double texel, E& ex) const {
-        const shadow::map_extent own =
-            shadow::extent_of(*caster.shape, caster.to_rig, light_, ex).clipped_to(receivers);
+        const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(receivers);
         if constexpr (refined) {
             return {light_, *caster.shape, caster.to_rig, caster.is_solid, own, texel, policy_.largest, ex};
         } else {

@@ -49,7 +49,7 @@ class overhead_painter {
         validate(options.shadow);
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y);
         for (const target& t : s.targets)
-            targets_.emplace_back(t.shape, view_.rig_from(to_world(t.placement)), t.is_solid);
+            targets_.emplace_back(t.shape, bounds(t.shape, ex), view_.rig_from(to_world(t.placement)), t.is_solid);
         if (has_bottom()) sample_seabed(ex);
     }
 
@@ -133,7 +133,12 @@ class overhead_painter {
 
     placed_mesh bottom_in_rig() const {
         const affine under_rig = view_.rig_from({glm::dmat3(1), glm::dvec3(view_.rig().position, 0)});
-        return {bottom_, compose(under_rig, {glm::dmat3(1), glm::dvec3(bottom_origin_, 0)}), true};
+        const glm::dvec2 far_corner =
+            field_.spacing * glm::dvec2(field_.heights.width() - 1, field_.heights.height() - 1);
+        return {bottom_,
+                {{0, 0, lowest_}, {far_corner, highest_}},
+                compose(under_rig, {glm::dmat3(1), glm::dvec3(bottom_origin_, 0)}),
+                true};
     }
 
     template <executor E>
@@ -150,18 +155,15 @@ class overhead_painter {
             low = (std::numeric_limits<double>::max)();
             top = -low;
         }
-        for (const placed_mesh& t : targets_) {
-            const bounding_box box = bounds(*t.shape);
-            if (box.empty()) continue;
-            for (int corner = 0; corner < 8; ++corner) {
-                const double z = transform_point(t.to_rig, {(corner & 1 ? box.upper : box.lower).x,
-                                                            (corner & 2 ? box.upper : box.lower).y,
-                                                            (corner & 4 ? box.upper : box.lower).z})
-                                     .z;
+        for (const placed_mesh& t : targets_)
+            for (int corner = 0; corner < 8 && !t.box.empty(); ++corner) {
+                const glm::dvec3 at(corner & 1 ? t.box.upper.x : t.box.lower.x,
+                                    corner & 2 ? t.box.upper.y : t.box.lower.y,
+                                    corner & 4 ? t.box.upper.z : t.box.lower.z);
+                const double z = transform_point(t.to_rig, at).z;
                 top = (std::max)(top, z);
                 if (!has_bottom()) low = (std::min)(low, z);
             }
-        }
         shadow::map_extent extent;
         if (low > top) return extent;
         for (const double height : {low, top}) {
