@@ -59,9 +59,11 @@
 #if defined(__GNUC__)
 #define INSONIFY_INLINE inline __attribute__((always_inline))
 #define INSONIFY_INLINE_LAMBDA __attribute__((always_inline))
+#define INSONIFY_RARE __attribute__((noinline))
 #else
 #define INSONIFY_INLINE inline
 #define INSONIFY_INLINE_LAMBDA
+#define INSONIFY_RARE
 #endif
 
 #define INSONIFY_JOIN_RAW(a, b) a##b

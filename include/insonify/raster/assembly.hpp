@@ -14,6 +14,7 @@
 #include <insonify/raster/shader.hpp>
 #include <insonify/raster/small.hpp>
 
+#include <memory>
 #include <optional>
 
 #if defined(__GNUC__) && !defined(__clang__)
@@ -67,21 +68,25 @@ struct draw_options {
 namespace detail {
 
 /// Vertices on the screen. Those that aren't compact are marked and seen to triangle by triangle.
+/// They are left as memory comes until they are set, every one.
 template <class Real>
 struct screen_vertices {
-    std::vector<grid_place> places;
-    std::vector<Real> depths;
-    std::vector<double> inverse_w;  ///< where pixels are shaded
+    std::unique_ptr<grid_place[]> places;
+    std::unique_ptr<Real[]> depths;
+    std::unique_ptr<double[]> inverse_w;  ///< where weights_at will be asked for
 
-    screen_vertices(std::size_t count, bool shaded) : places(count), depths(count), inverse_w(shaded ? count : 0) {}
+    screen_vertices(std::size_t count, bool weighed)
+        : places(std::make_unique_for_overwrite<grid_place[]>(count)),
+          depths(std::make_unique_for_overwrite<Real[]>(count)),
+          inverse_w(weighed ? std::make_unique_for_overwrite<double[]>(count) : nullptr) {}
 
     void set(std::size_t i, const screen_vertex& v) {
         places[i] = {static_cast<std::int32_t>(v.x), static_cast<std::int32_t>(v.y)};
         depths[i] = static_cast<Real>(v.z);
-        if (!inverse_w.empty()) inverse_w[i] = v.inverse_w;
+        if (inverse_w) inverse_w[i] = v.inverse_w;
     }
     screen_vertex operator[](std::size_t i) const {
-        return {places[i].x, places[i].y, depths[i], inverse_w.empty() ? 1 : inverse_w[i]};
+        return {places[i].x, places[i].y, depths[i], inverse_w ? inverse_w[i] : 1};
     }
 };
 
@@ -143,18 +148,18 @@ struct assembly_kernel;
 template <class Real>
 class screen_mesh {
   public:
-    /// @param shaded  whether weights_at will be asked for
-    /// @param keep    keep(index, placed): takes what the vertex callable gives
+    /// @param weighed  whether weights_at will be asked for
+    /// @param keep     keep(index, placed): takes what the vertex callable gives
     template <vertex_shader Shader, class Keep, executor E>
     screen_mesh(const mesh& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
-                const draw_options& options, bool shaded, const Keep& keep, E& ex)
+                const draw_options& options, bool weighed, const Keep& keep, E& ex)
         : mesh_(m),
           indices_(m.triangles.data()),
           whole_(static_cast<std::uint32_t>(m.triangles.size())),
           grid_(grid),
           projection_(grid, options.keep, std::is_same_v<Real, double>),
           cull_(options.cull),
-          vertices_(m.positions.size(), shaded) {
+          vertices_(m.positions.size(), weighed) {
         place_vertices(shader, keep, ex);
         const std::size_t grain = (std::max)(std::size_t{4096}, (m.triangles.size() / 64 + 16) / 16 * 16);
         std::vector<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
@@ -208,7 +213,7 @@ class screen_mesh {
         return is_compact(name) ? name : wide_[name - whole()].triangle;
     }
     const glm::uvec3& indices(std::uint32_t triangle) const { return indices_[triangle]; }
-    const grid_place* places() const { return vertices_.places.data(); }
+    const grid_place* places() const { return vertices_.places.get(); }
     std::uint32_t compact_names() const { return whole_; }
 
     /// Of a triangle that isn't wide, corner by corner in the mesh's order.

@@ -55,7 +55,7 @@ struct tile_triangles {
     pixel_box box_of(const screen_triangle& t) const {
         return intersect(box, t.is_run() ? t.wide->run : center_box(t.a, t.b, t.c, grid()));
     }
-    float nearest_depth(std::uint32_t name, int x, int y) const {
+    INSONIFY_RARE float nearest_depth(std::uint32_t name, int x, int y) const {
         const screen_triangle t = screen[name];
         return detail::nearest_depth(t.a, t.b, t.c, x, y, grid());
     }
@@ -121,7 +121,8 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
     if (depth.empty()) return {};
     const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
     const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));
-    const screen_mesh<Real> screen(m, place, grid, tiles, options, Winners, keep_vertex, ex);
+    const screen_mesh<Real> screen(m, place, grid, tiles, options, Winners && std::is_same_v<Real, double>, keep_vertex,
+                                   ex);
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
     // A few tiles share a buffer; how many doesn't matter to the result.

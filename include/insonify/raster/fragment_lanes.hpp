@@ -67,7 +67,7 @@ class fragment_lanes {
             read_corners(
                 records, [&](int k) -> const glm::uvec3& { return screen.indices(triangles[k]); },
                 [](int, int, std::uint32_t) {});
-            weigh_one_by_one(screen, names);
+            weigh_one_by_one(screen, records, names);
         }
     }
 
@@ -126,12 +126,29 @@ class fragment_lanes {
     }
     /// Where one of them was clipped, or is too large.
     template <class Screen>
-    INSONIFY_INLINE void weigh_one_by_one(const Screen& screen, const std::uint32_t* name) {
+    INSONIFY_INLINE void weigh_one_by_one(const Screen& screen, const record* records, const std::uint32_t* names) {
         for (int k = 0; k < N; ++k) {
-            const screen_triangle t = screen[name[k]];
-            const glm::dvec3 w = t.weights_at(x + k, y, screen.grid());
-            set_lane(front, k, t.front ? -1 : 0);
-            for (int i = 0; i < 3; ++i) set_lane(weights[i], k, static_cast<float>(w[i]));
+            const weights_of_one one = weigh_one(screen, records, names[k], x + k, y);
+            set_lane(front, k, one.front ? std::int32_t{-1} : std::int32_t{0});
+            for (int i = 0; i < 3; ++i) set_lane(weights[i], k, one.weights[i]);
+        }
+    }
+    struct weights_of_one {
+        glm::vec3 weights;
+        bool front;
+    };
+    template <class Screen>
+    INSONIFY_RARE static weights_of_one weigh_one(const Screen& screen, const record* records, std::uint32_t name,
+                                                  int px, int py) {
+        if (!screen.is_compact(name)) {
+            const screen_triangle t = screen[name];
+            return {glm::vec3(t.weights_at(px, py, screen.grid())), t.front};
+        }
+        if constexpr (N == 1) {
+            return {};  // alone it would not have come here
+        } else {
+            const fragment_lanes<1, Varyings> one(screen, records, px, py, 1, true, &name);
+            return {{one.weights[0], one.weights[1], one.weights[2]}, one.front != 0};
         }
     }
 

@@ -131,7 +131,7 @@ class caster_map {
     /// Else the point lies between them, inside of a surface if all four pass above; or at its edge, where triangles
     /// are thin under grazing light and may have met no texel's centre: there their neighbours in the mesh are asked
     /// too.
-    bool is_behind_one_of(std::size_t first, const glm::dvec3& uvz) const {
+    INSONIFY_RARE bool is_behind_one_of(std::size_t first, const glm::dvec3& uvz) const {
         const std::size_t texels[] = {first, first + 1, first + pitch(), first + pitch() + 1};
         int above = 0;
         bool is_above = false;
