@@ -47,6 +47,7 @@
 #include <insonify/raster/fold.hpp>
 #include <insonify/raster/fragment_lanes.hpp>
 #include <insonify/raster/framebuffer.hpp>
+#include <insonify/raster/placement.hpp>
 #include <insonify/raster/setup.hpp>
 #include <insonify/raster/shader.hpp>
 #include <insonify/raster/small.hpp>

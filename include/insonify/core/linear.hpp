@@ -12,18 +12,18 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify::inline INSONIFY_ABI::numeric {
 
 template <class T>
-T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 template <class T>
-glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+INSONIFY_INLINE glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
 }
 
 /// m v, as GLM stores matrices: by columns.
 template <class T>
-glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::vec<3, T>& v) {
+INSONIFY_INLINE glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::vec<3, T>& v) {
     return {m[0].x * v.x + m[1].x * v.y + m[2].x * v.z, m[0].y * v.x + m[1].y * v.y + m[2].y * v.z,
             m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
 }

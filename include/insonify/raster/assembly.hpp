@@ -8,13 +8,10 @@
 #include <insonify/core/linear.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/raster/binning.hpp>
-#include <insonify/raster/clip.hpp>
 #include <insonify/raster/depth.hpp>
 #include <insonify/raster/fold.hpp>
-#include <insonify/raster/shader.hpp>
-#include <insonify/raster/small.hpp>
+#include <insonify/raster/placement.hpp>
 
-#include <memory>
 #include <optional>
 
 #if defined(__GNUC__) && !defined(__clang__)
@@ -67,29 +64,6 @@ struct draw_options {
 
 namespace detail {
 
-/// Vertices on the screen. Those that aren't compact are marked and seen to triangle by triangle.
-/// They are left as memory comes until they are set, every one.
-template <class Real>
-struct screen_vertices {
-    std::unique_ptr<grid_place[]> places;
-    std::unique_ptr<Real[]> depths;
-    std::unique_ptr<double[]> inverse_w;  ///< where weights_at will be asked for
-
-    screen_vertices(std::size_t count, bool weighed)
-        : places(std::make_unique_for_overwrite<grid_place[]>(count)),
-          depths(std::make_unique_for_overwrite<Real[]>(count)),
-          inverse_w(weighed ? std::make_unique_for_overwrite<double[]>(count) : nullptr) {}
-
-    void set(std::size_t i, const screen_vertex& v) {
-        places[i] = {static_cast<std::int32_t>(v.x), static_cast<std::int32_t>(v.y)};
-        depths[i] = static_cast<Real>(v.z);
-        if (inverse_w) inverse_w[i] = v.inverse_w;
-    }
-    screen_vertex operator[](std::size_t i) const {
-        return {places[i].x, places[i].y, depths[i], inverse_w ? inverse_w[i] : 1};
-    }
-};
-
 /// A triangle with a vertex that isn't compact, or a piece of one that was clipped.
 struct wide_triangle {
     std::array<screen_vertex, 3> corners;
@@ -128,10 +102,6 @@ struct screen_triangle {
     }
 };
 
-inline vertex mesh_vertex(const mesh& m, std::uint32_t index) {
-    return {m.positions[index], m.normals.empty() ? glm::vec3(0) : m.normals[index], index};
-}
-
 /// Names the triangles of a chunk that can be seen, and counts the others.
 struct assembled_chunk {
     tile_runs runs;
@@ -160,7 +130,10 @@ class screen_mesh {
           projection_(grid, options.keep, std::is_same_v<Real, double>),
           cull_(options.cull),
           vertices_(m.positions.size(), weighed) {
-        place_vertices(shader, keep, ex);
+        bulk_ranges(ex, m.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
+            dispatch(placement_kernel<Shader, Keep, Real>{m, shader, keep, projection_, vertices_, first, last},
+                     options.level);
+        });
         const std::size_t grain = (std::max)(std::size_t{4096}, (m.triangles.size() / 64 + 16) / 16 * 16);
         std::vector<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
         bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
@@ -229,21 +202,6 @@ class screen_mesh {
     friend struct assembly_kernel;
 
     std::uint32_t whole() const { return whole_; }
-
-    template <vertex_shader Shader, class Keep, executor E>
-    void place_vertices(const Shader& shader, const Keep& keep, E& ex) {
-        bulk_ranges(ex, mesh_.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) {
-                const auto placed = shader(mesh_vertex(mesh_, static_cast<std::uint32_t>(i)));
-                keep(i, placed);
-                const glm::dvec4 clip(position_of(placed));
-                if (projection_.is_compact(clip))
-                    vertices_.set(i, projection_.to_screen(clip));
-                else
-                    vertices_.places[i] = grid_place::off_grid();
-            }
-        });
-    }
 
     /// The first index without a position among some triangles.
     std::optional<std::uint32_t> bad_index(std::size_t first, std::size_t last) const {

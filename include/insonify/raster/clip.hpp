@@ -5,6 +5,7 @@
 // triangles that share the edge get it: no crack opens, however many planes cut.
 #pragma once
 
+#include <insonify/core/lanes.hpp>
 #include <insonify/raster/setup.hpp>
 
 #include <algorithm>
@@ -76,6 +77,35 @@ class projection {
                 sign_ * over_w.z, inverse_w};
     }
 
+    /// The same for N positions, by axis. What isn't compact gets the place of what is off the grid.
+    template <int N>
+    INSONIFY_INLINE void to_screen(const lanes<double, N> (&p)[4], lanes<std::int64_t, N>& x, lanes<std::int64_t, N>& y,
+                                   lanes<double, N>& z, lanes<double, N>& inverse_w) const {
+        using doubles = lanes<double, N>;
+        using masks = lanes<std::int64_t, N>;
+        const doubles& w = p[3];
+        const doubles size_x = p[0] < 0.0 ? 0.0 - p[0] : p[0], size_y = p[1] < 0.0 ? 0.0 - p[1] : p[1];
+        const masks compact = masks(w >= smallest_w) & masks(p[2] >= 0.0) & masks(p[2] <= w) &
+                              masks(size_x <= compact_x_ * w) & masks(size_y <= compact_y_ * w) &
+                              masks(w <= static_cast<double>((std::numeric_limits<float>::max)()));
+        inverse_w = 1.0 / w;
+        const auto over_w = [&](doubles& into, const doubles& value) INSONIFY_INLINE_LAMBDA {
+            if (exact_)
+                into = value / w;
+            else
+                into = value * inverse_w;
+        };
+        doubles right, down;
+        over_w(right, p[0]);
+        over_w(down, p[1]);
+        over_w(z, p[2]);
+        z = z * sign_;
+        snap<N>(x, right * half_width_, grid_.width);
+        snap<N>(y, (0.0 - down) * half_height_, grid_.height);
+        x = compact ? x : masks{} + std::int64_t{grid_place::no_x};
+        y = compact ? y : masks{};
+    }
+
     /// The part of a triangle that lies inside all planes (Sutherland and Hodgman, 1974).
     clip_polygon clip(const std::array<glm::dvec4, 3>& triangle) const {
         clip_polygon piece;
@@ -91,6 +121,13 @@ class projection {
 
   private:
     static constexpr double smallest_w = 1e-30;
+
+    template <int N>
+    INSONIFY_INLINE void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& pixels, int extent) const {
+        const lanes<double, N> sum = pixels * static_cast<double>(grid_.unit()) + pixel_grid::magic;
+        std::memcpy(&into, &sum, sizeof into);
+        into = into - (std::bit_cast<std::int64_t>(pixel_grid::magic) - extent * grid_.half());
+    }
 
     /// What rounding has left outside of a plane, by a little or, next to the eye, by a lot. It depends on the position
     /// alone, so neighbours go on sharing their corners.

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -29,6 +30,16 @@ struct screen_vertex {
     std::int64_t x, y;
     double z;
     double inverse_w;
+};
+
+/// A vertex's place on the grid, as millions of them are kept.
+struct grid_place {
+    std::int32_t x, y;
+
+    /// Not compact: has to be placed and clipped triangle by triangle.
+    static constexpr std::int32_t no_x = (std::numeric_limits<std::int32_t>::min)();
+    static constexpr grid_place off_grid() { return {no_x, 0}; }
+    bool is_off_grid() const { return x == no_x; }
 };
 
 /// A pixel rectangle, ends included; empty if last < first.
@@ -66,10 +77,11 @@ struct pixel_grid {
     /// Pixels from the image's centre to where coordinates of so many bits end.
     double reach(int bits) const { return static_cast<double>(std::int64_t{1} << bits) / static_cast<double>(unit()); }
 
+    /// Added to a number below 2^51, it leaves the rounded integer in the low bits of the sum.
+    static constexpr double magic = 0x1.8p52;
+
     /// Rounds a distance in pixels from the centre of an axis, to nearest, ties to even; |pixels| < reach(51).
     std::int64_t snap(double pixels, int extent) const {
-        // Adding 1.5 * 2^52 leaves the rounded integer in the low bits of the sum.
-        constexpr double magic = 0x1.8p52;
         const double scaled = pixels * static_cast<double>(unit());
         const auto rounded = std::bit_cast<std::int64_t>(scaled + magic) - std::bit_cast<std::int64_t>(magic);
         return rounded + extent * half();

@@ -18,16 +18,6 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// A vertex's place on the grid, as millions of them are kept.
-struct grid_place {
-    std::int32_t x, y;
-
-    /// Not compact: has to be placed and clipped triangle by triangle.
-    static constexpr std::int32_t no_x = (std::numeric_limits<std::int32_t>::min)();
-    static constexpr grid_place off_grid() { return {no_x, 0}; }
-    bool is_off_grid() const { return x == no_x; }
-};
-
 /// Where the corners of N triangles lie, and how far they extend.
 template <int N>
 struct corner_lanes {

@@ -13,7 +13,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
+#include <memory>
 
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
@@ -76,8 +76,9 @@ class tile_buffer {
 
     explicit tile_buffer(int size)
         : stride_(size + slack),
-          depth_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
-          winner_(Winners ? depth_.size() : 0) {}
+          count_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
+          depth_(std::make_unique_for_overwrite<float[]>(count_)),
+          winner_(Winners ? std::make_unique_for_overwrite<std::uint32_t[]>(count_) : nullptr) {}
 
     /// Puts the tile where its first pixel is (x, y) of the image.
     void restart(int x, int y) {
@@ -89,23 +90,24 @@ class tile_buffer {
     INSONIFY_INLINE void clear() {
         const lanes<float, N> farthest = lanes<float, N>{} + std::numeric_limits<float>::infinity();
         const lanes<std::uint32_t, N> none = lanes<std::uint32_t, N>{} + nobody;
-        for (std::size_t i = 0; i < depth_.size(); i += N) {
-            store(depth_.data() + i, farthest);
-            if constexpr (Winners) store(winner_.data() + i, none);
+        for (std::size_t i = 0; i < count_; i += N) {
+            store(depth_.get() + i, farthest);
+            if constexpr (Winners) store(winner_.get() + i, none);
         }
     }
 
     std::ptrdiff_t stride() const { return stride_; }
-    float* depth(int x, int y) { return depth_.data() + index(x, y); }
-    std::uint32_t* winner(int x, int y) { return Winners ? winner_.data() + index(x, y) : nullptr; }
+    float* depth(int x, int y) { return depth_.get() + index(x, y); }
+    std::uint32_t* winner(int x, int y) { return Winners ? winner_.get() + index(x, y) : nullptr; }
 
   private:
     std::ptrdiff_t index(int x, int y) const { return static_cast<std::ptrdiff_t>(y - y_) * stride_ + (x - x_); }
 
     int stride_;
     int x_ = 0, y_ = 0;
-    std::vector<float> depth_;
-    std::vector<std::uint32_t> winner_;
+    std::size_t count_;
+    std::unique_ptr<float[]> depth_;
+    std::unique_ptr<std::uint32_t[]> winner_;
 };
 
 /// Keeps the nearer of what is there and what comes; a tie stays with whoever came first. `winner` may be null if
