@@ -59,6 +59,7 @@ class caster_map {
         to_light_.offset = frame(to_world.offset);
         for (int i = 0; i < 3; ++i)
             to_light_.linear[i] = frame(to_world.offset + to_world.linear[i]) - to_light_.offset;
+        axes_ = glm::mat3(to_light_.linear);
 
         const bool mirrored = numeric::determinant(to_world.linear) < 0;
         const cull_mode lit_side = mirrored ? cull_mode::front : cull_mode::back;  // see map_grid::placing
@@ -132,56 +133,76 @@ class caster_map {
     /// are thin under grazing light and may have met no texel's centre: there their neighbours in the mesh are asked
     /// too.
     INSONIFY_RARE bool is_behind_one_of(std::size_t first, const glm::dvec3& uvz) const {
-        const std::size_t texels[] = {first, first + 1, first + pitch(), first + pitch() + 1};
-        int above = 0;
-        bool is_above = false;
-        std::uint32_t asked = insonify::detail::tile_buffer<true>::nobody;
-        for (const std::size_t texel : texels) {
-            if (!(heights_[texel] >= 0)) continue;
-            if (names_[texel] != asked) {
-                asked = names_[texel];
-                const sight s = seen_from(asked, uvz);
-                if (s.is_behind()) return true;
-                is_above = s.above > 0;
-            }
-            above += is_above ? 1 : 0;
-        }
-        if (above == 0 || above == 4) return above == 4;
+        const glm::vec3 start(to_light_.offset - uvz);
+        std::uint32_t names[4];
+        int count = 0;
+        for (const std::size_t texel : {first, first + 1, first + pitch(), first + pitch() + 1})
+            if (heights_[texel] >= 0) names[count++] = names_[texel];
+        if (count == 0) return false;
+        const sight named = see(start, [&](int k) { return names[(std::min)(k, count - 1)]; });
+        if (named.is_behind) return true;
+        if (count == 4 && named.above == 4) return true;
+        if (named.above == 0) return false;
 
         // Meshes are mostly written such that neighbours come after one another.
-        constexpr std::uint32_t reach = 4;
         const auto last = static_cast<std::uint32_t>(mesh_->triangles.size() - 1);
-        asked = insonify::detail::tile_buffer<true>::nobody;
-        for (const std::size_t texel : texels) {
-            if (!(heights_[texel] >= 0) || names_[texel] == asked) continue;
-            asked = names_[texel];
-            const std::uint32_t before = asked - (std::min)(asked, reach), after = (std::min)(last - asked, reach);
-            for (std::uint32_t t = before; t <= asked + after; ++t)
-                if (seen_from(t, uvz).is_behind()) return true;
+        for (int i = 0; i < count; ++i) {
+            if (i > 0 && names[i] == names[i - 1]) continue;
+            const auto before = [&](int k) {
+                return names[i] - (std::min)(names[i], static_cast<std::uint32_t>(k + 1));
+            };
+            const auto after = [&](int k) {
+                return names[i] + (std::min)(last - names[i], static_cast<std::uint32_t>(k + 1));
+            };
+            if (see(start, before).is_behind || see(start, after).is_behind) return true;
         }
         return false;
     }
 
-    /// A triangle as the light sees it at a point.
+    /// Four triangles, as the light sees them at a point.
     struct sight {
-        bool covered;
-        double above;  ///< metres from the point up to the triangle's plane
-
-        bool is_behind() const { return covered && above > 1e-6; }
+        bool is_behind;  ///< one of them covers the point and passes above
+        int above;       ///< how many of their planes pass above
     };
-    sight seen_from(std::uint32_t triangle, const glm::dvec3& uvz) const {
-        const glm::uvec3& index = mesh_->triangles[triangle];
-        glm::dvec3 corner[3];
-        for (int i = 0; i < 3; ++i) corner[i] = transform_point(to_light_, mesh_->positions[index[i]]) - uvz;
-        const auto share = [](const glm::dvec3& a, const glm::dvec3& b) { return a.x * b.y - a.y * b.x; };
-        const double a = share(corner[1], corner[2]), b = share(corner[2], corner[0]), c = share(corner[0], corner[1]);
-        const bool covered = (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
-        return {covered, (a * corner[0].z + b * corner[1].z + c * corner[2].z) / (a + b + c)};
+    /// @param start  from the point to the mesh's origin, in the light's frame
+    /// @param name   name(k): the triangles
+    template <class Name>
+    sight see(const glm::vec3& start, const Name& name) const {
+        using namespace insonify::detail;
+        constexpr int N = INSONIFY_SIMD ? 4 : 1;
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        sight all{false, 0};
+        for (int first = 0; first < 4; first += N) {
+            floats u[3], v[3], z[3];
+            for (int i = 0; i < 3; ++i) {
+                const auto corner = [&](int k) -> const glm::vec3& {
+                    return mesh_->positions[mesh_->triangles[name(first + k)][i]];
+                };
+                floats px, py, pz;
+                gather<N>(px, [&](int k) { return corner(k).x; });
+                gather<N>(py, [&](int k) { return corner(k).y; });
+                gather<N>(pz, [&](int k) { return corner(k).z; });
+                u[i] = px * axes_[0].x + py * axes_[1].x + pz * axes_[2].x + start.x;
+                v[i] = px * axes_[0].y + py * axes_[1].y + pz * axes_[2].y + start.y;
+                z[i] = px * axes_[0].z + py * axes_[1].z + pz * axes_[2].z + start.z;
+            }
+            const floats a = u[1] * v[2] - v[1] * u[2], b = u[2] * v[0] - v[2] * u[0], c = u[0] * v[1] - v[0] * u[1];
+            const ints covered = (ints(a >= 0.0f) & ints(b >= 0.0f) & ints(c >= 0.0f)) |
+                                 (ints(a <= 0.0f) & ints(b <= 0.0f) & ints(c <= 0.0f));
+            const floats height = (a * z[0] + b * z[1] + c * z[2]) / (a + b + c);
+            all.is_behind |= any(ints(covered & ints(height > tolerance)));
+            for (int k = 0; k < N; ++k) all.above += lane(height, k) > 0 ? 1 : 0;
+        }
+        return all;
     }
+    /// Metres; what lies no higher touches. Floats hold what is close to the point to that.
+    static constexpr float tolerance = 1e-5f;
 
     light_frame frame_;
     const mesh* mesh_ = nullptr;
     affine to_light_;  ///< from the mesh to (u, v, z)
+    glm::mat3 axes_;   ///< its linear part
     map_grid grid_;
     glm::vec3 to_map_[3], start_;             ///< from positions to column, row and height
     std::unique_ptr<float[]> heights_;        ///< with the frame of empty texels
