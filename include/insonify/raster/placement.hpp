@@ -33,7 +33,7 @@ struct screen_vertices {
           inverse_w(weighed ? std::make_unique_for_overwrite<double[]>(count) : nullptr) {}
 
     screen_vertex operator[](std::size_t i) const {
-        return {places[i].x, places[i].y, depths[i], inverse_w ? inverse_w[i] : 1};
+        return {places[i].x, places[i].y, static_cast<double>(depths[i]), inverse_w ? inverse_w[i] : 1};
     }
 };
 

@@ -250,7 +250,7 @@ TEST_CASE("Rigs that can't be are refused, by name and value") {
     refused({.grazing = 0}, "overhead.grazing is 0");
     refused({.intensity = -1}, "overhead.intensity is -1");
     const auto soft = [&](in::shadow::pcf shadow) {
-        return in::render(s, {.size = {8, 8}}, in::render_options<>{.shadow = shadow});
+        return in::render(s, {.size = {8, 8}}, in::render_options<in::shadow::pcf>{.shadow = shadow});
     };
     REQUIRE_THROWS_WITH(soft({.texels_per_pixel = 0}), ContainsSubstring("texels_per_pixel is 0"));
     REQUIRE_THROWS_WITH(soft({.radius = 9}), ContainsSubstring("radius is 9"));
