@@ -122,12 +122,15 @@ class bottom_tiles {
                           std::span(heights).subspan(j * width, width), std::span(types).subspan(j * width, width));
         }
         const auto scale = static_cast<float>(0.5 * scale_);
+        const auto slope = [&](float before, float after) {
+            const float rise = scale * (after - before);
+            return numeric::is_finite(rise) ? rise : 0.0f;  // beside a hole
+        };
         for (std::size_t j = 0; j < stride; ++j)
             for (std::size_t i = 0; i < stride; ++i) {
-                const std::size_t at = (j + 1) * width + i + 1;
-                out[j * stride + i] = {heights[at], scale * (heights[at + 1] - heights[at - 1]),
-                                       scale * (heights[at + width] - heights[at - width]),
-                                       static_cast<std::uint32_t>(types[at])};
+                const float* const here = &heights[(j + 1) * width + i + 1];
+                out[j * stride + i] = {*here, slope(here[-1], here[1]), slope(*(here - width), here[width]),
+                                       static_cast<std::uint32_t>(types[(j + 1) * width + i + 1])};
             }
     }
 

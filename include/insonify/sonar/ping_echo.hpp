@@ -66,6 +66,7 @@ class ping_listener {
     static double reach(const Rig& rig, double cell) { return static_cast<double>(rig.range) + 4 * cell; }
 
   private:
+    static constexpr float most = 2;  // bins that an echo may spread to either side of its ray, whatever the slope
     static constexpr bool counts_time = Rig::axis == across_track::slant_range;
 
     struct bottom_point {
@@ -75,7 +76,8 @@ class ping_listener {
     };
     struct target_hit {
         float range = std::numeric_limits<float>::infinity();
-        float half = 0, power = 0;  ///< in bins; as if nothing stood before it
+        float low = 0, high = 0;  ///< where it is heard, in bins
+        float power = 0;
         std::uint16_t instance = 0;
     };
 
@@ -133,6 +135,9 @@ class ping_listener {
         };
         cut_at_nadir(o.a, o.b);
         cut_at_nadir(o.b, o.a);
+        // A ray's echo ends where the piece ends.
+        const auto a = static_cast<float>(place(o.a.x, o.a.down)), b = static_cast<float>(place(o.b.x, o.b.down));
+        const float nearest = (std::min)(a, b), farthest = (std::max)(a, b);
         const std::size_t last = fan_.first_over(o.b.x, o.b.down);
         for (std::size_t k = fan_.first_over(o.a.x, o.a.down); k < last; ++k) {
             const ping_fan::ray& ray = fan_[k];
@@ -148,8 +153,10 @@ class ping_listener {
             const bool outside = o.facet.z * cosine - o.facet.x * sine > 0;
             const float facing =
                 (outside ? 1.0f : -1.0f) * (n.z * cosine - n.x * sine) / numeric::square_root(numeric::dot(n, n));
-            hit = {static_cast<float>(range), half_length(ray, range, dx, ddown),
-                   power_of(k, range, facing) * reflectivity, instance};
+            const float at = column(ray, range), half = half_length(ray, range, dx, ddown);
+            hit = {static_cast<float>(range), at - (std::min)(half, (std::max)(most, at - nearest)),
+                   at + (std::min)(half, (std::max)(most, farthest - at)), power_of(k, range, facing) * reflectivity,
+                   instance};
         }
     }
 
@@ -164,24 +171,32 @@ class ping_listener {
             const double dx = qx - px, ddown = q.down - p.down;
             const double above = qx * horizon_down - q.down * horizon_x;
             if (!(above > 0)) {
-                if (Labelled && ddown == ddown) name(px, p.down, qx, q.down, hider(qx, q.down), p.type);
+                if (Labelled && ddown == ddown) name(p, q, px, dx, 0, 1, hider(qx, q.down));
                 continue;
             }
+            // The part over the horizon begins here; labels cut it between rays, so that shadows end where rays say.
+            const double below = px * horizon_down - p.down * horizon_x;
+            double from = below / (below - above);
+            if (Labelled && from > 0) name(p, q, px, dx, 0, from, hider(px + from * dx, p.down + from * ddown));
+            double last_met = from;
             const std::size_t first = k;
             for (; k < rays && ping_fan::beyond(fan_[k], qx, q.down) >= 0; ++k) {
                 const ping_fan::ray& ray = fan_[k];
                 const double before = ping_fan::beyond(ray, px, p.down);
                 const double f = before / (before - ping_fan::beyond(ray, qx, q.down));
                 const double range = (px + f * dx) * ray.sine + (p.down + f * ddown) * ray.cosine;
+                if (Labelled && some_target_ && k > first) {
+                    const double between = 0.5 * (last_met + f);
+                    name(p, q, px, dx, from, between, screen(k - 1, px + last_met * dx, p.down + last_met * ddown));
+                    from = between;
+                }
+                last_met = f;
                 if (range <= farthest_ + bin_) hear_bottom_at(ray, k, range, dx, ddown, p, q, static_cast<float>(f));
             }
-            if constexpr (Labelled) {
-                const double below = px * horizon_down - p.down * horizon_x;
-                const double f = below / (below - above);
-                const double x = px + f * dx, down = p.down + f * ddown;
-                if (f > 0) name(px, p.down, x, down, hider(x, down), p.type);
-                name(x, down, qx, q.down, some_target_ ? screen(first, x, down) : labels::is_lit, q.type);
-            }
+            if constexpr (Labelled)
+                name(p, q, px, dx, from, 1,
+                     some_target_ ? screen(k > first ? k - 1 : k, px + last_met * dx, p.down + last_met * ddown)
+                                  : labels::is_lit);
             horizon_x = qx, horizon_down = q.down;
         }
     }
@@ -192,7 +207,7 @@ class ping_listener {
             if (static_cast<double>(hits_[k].range) < range) return;
             hits_[k].range = std::numeric_limits<float>::infinity();  // buried, or behind a rise
         }
-        const float half = half_length(ray, range, dx, ddown);
+        const float at = column(ray, range), half = (std::min)(half_length(ray, range, dx, ddown), most);
         const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
         const float slope = p.slope + f * (q.slope - p.slope);
         const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
@@ -200,14 +215,14 @@ class ping_listener {
             (slope * sine + cosine) / numeric::square_root(1 + slope * slope + slope_along * slope_along);
         const float power = power_of(k, range, facing) *
                             scene_.bottom[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
-        spread(column(ray, range), half, [&](echo_bin& bin, float share, float) { bin.bottom += power * share; });
+        spread(at - half, at + half, [&](echo_bin& bin, float share, float) { bin.bottom += power * share; });
     }
 
     void hear_targets() {
         for (std::size_t k = 0; k < hits_.size(); ++k) {
             const target_hit& hit = hits_[k];
             if (!(static_cast<double>(hit.range) < 1e30)) continue;
-            spread(column(fan_[k], static_cast<double>(hit.range)), hit.half, [&](echo_bin& bin, float share, float) {
+            spread(hit.low, hit.high, [&](echo_bin& bin, float share, float) {
                 const float power = hit.power * share;
                 bin.target += power;
                 if (power > bin.most_target) bin.most_target = power, bin.instance = hit.instance;
@@ -226,10 +241,13 @@ class ping_listener {
         return target == labels::is_lit ? labels::by_seabed : target;
     }
 
-    /// Notes for the labels what a piece of bottom is, and who keeps it dark.
-    void name(double px, double p_down, double qx, double q_down, std::uint16_t caster, std::uint8_t type) {
-        const double p = place(px, p_down), q = place(qx, q_down);
-        spread(static_cast<float>(0.5 * (p + q)), static_cast<float>(0.5 * (q > p ? q - p : p - q)),
+    /// Notes for the labels who keeps the bottom dark between two shares of the way from p to q.
+    void name(const bottom_point& p, const bottom_point& q, double px, double dx, double from, double to,
+              std::uint16_t caster) {
+        const double down = q.down - p.down;
+        const double a = place(px + from * dx, p.down + from * down), b = place(px + to * dx, p.down + to * down);
+        const std::uint8_t type = from + to < 1 ? p.type : q.type;
+        spread(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
                [&](echo_bin& bin, float, float length) {
                    if (caster == labels::is_lit)
                        bin.lit += length;
@@ -241,10 +259,9 @@ class ping_listener {
                });
     }
 
-    /// Calls `visit(bin, share, length)` for the bins around `at`, `half` to either side.
+    /// Calls `visit(bin, share, length)` for the bins from `low` to `high`.
     template <class Visit>
-    void spread(float at, float half, const Visit& visit) {
-        const float low = at - half, high = at + half;
+    void spread(float low, float high, const Visit& visit) {
         if (!(high > 0 && low < static_cast<float>(bins_.size()))) return;
         const auto first = static_cast<std::int64_t>(low > 0 ? low : 0.0f);
         const auto last = (std::min)(static_cast<std::int64_t>(high), static_cast<std::int64_t>(bins_.size()) - 1);
@@ -269,13 +286,12 @@ class ping_listener {
         return (r - first_range_) / bin_;
     }
 
-    /// Half of the bins between the two edges of a ray on a surface along (dx, ddown); at most two to either side.
+    /// Half of the bins between the two edges of a ray on a surface along (dx, ddown).
     float half_length(const ping_fan::ray& ray, double range, double dx, double ddown) const {
         const double outwards = counts_time ? dx * ray.sine + ddown * ray.cosine : dx;
         const double turning = dx * ray.cosine - ddown * ray.sine;
         const double half = 0.5 * range * ray.width * outwards / (turning * bin_);
-        const double size = half < 0 ? -half : half;
-        return static_cast<float>(size < 2 ? size : 2.0);
+        return static_cast<float>(half < 0 ? -half : half);
     }
 
     /// What a surface of reflectivity one sends back of a ray: its area, seen from here, over the sine of grazing, by

@@ -224,6 +224,13 @@ class recorder {
     recording<Labels> out_;
 };
 
+/// Fills in labels::targets anew, for images that were put together from those of described labels.
+inline void describe_again(labels& l) {
+    std::vector<target> known;
+    for (const target_label& t : l.targets) known.push_back({{}, t.placement, t.class_name});
+    describe_targets(l, known);
+}
+
 /// The rows of an image from `first` on.
 template <class T>
 image<T> rows_of(const image<T>& source, int first, int count) {

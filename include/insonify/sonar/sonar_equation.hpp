@@ -3,7 +3,7 @@
 // A picture's pixels are intensities (power), linear. Without any part, a bin holds the backscattering cross-section of
 // what lies in it: reflectivity x law(sine of grazing) x area, summed over the surfaces, in square metres for one
 // metre of source level. In decibels, with the parts in the order in which sound meets them (R. J. Urick. Principles of
-// Underwater Sound, 3rd edition, 1983, chapter 8):
+// Underwater Sound, 3rd edition, 1983):
 //
 //   RL = source_level + vertical_beam - transmission_loss - absorption + 10 log10(cross-section x footprint / spacing),
 //   then pulse and horizontal_beam blur it, noise_floor adds to it, and time_varied_gain or level_gain amplify it all.
