@@ -75,6 +75,7 @@
 #include <insonify/sonar/render.hpp>
 #include <insonify/sonar/rig.hpp>
 #include <insonify/sonar/scene.hpp>
+#include <insonify/sonar/sediment.hpp>
 #include <insonify/sonar/side_scan.hpp>
 #include <insonify/sonar/slant_range.hpp>
 #include <insonify/sonar/slant_to_ground.hpp>

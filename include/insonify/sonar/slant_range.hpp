@@ -155,8 +155,10 @@ class recorder {
             const double edge = j < 0 ? 0.5 - static_cast<double>(j) : 0.5 + static_cast<double>(j);
             const double inside = (std::min)(1.0, 0.5 * length - edge + 1) / length;
             const auto weight = static_cast<float>(inside);
-            for (std::int64_t b = (std::max)(std::int64_t{0}, j); b < (std::min)(bins, bins + j); ++b)
-                row[static_cast<std::size_t>(b)] += weight * heard[static_cast<std::size_t>(b - j)];
+            for (std::int64_t b = 0; b < bins; ++b) {  // the row's ends go on as they are
+                const std::int64_t from = (std::min)((std::max)(b - j, std::int64_t{0}), bins - 1);
+                row[static_cast<std::size_t>(b)] += weight * heard[static_cast<std::size_t>(from)];
+            }
         }
     }
 
@@ -182,7 +184,7 @@ class recorder {
             const int y = static_cast<int>(row);
             const auto to = blurred.row(y);
             for (int j = -reach; j <= reach; ++j) {
-                const int other = (std::min)((std::max)(y + j, 0), rows - 1);  // the track's ends go on as they are
+                const int other = (std::min)((std::max)(y + j, 0), rows - 1);  // the track's too
                 const float* const weight = weights.row(j < 0 ? -j : j).data();
                 const float* const from = out_.image.row(other).data();
                 for (std::size_t b = 0; b < to.size(); ++b) to[b] += weight[b] * from[b];
