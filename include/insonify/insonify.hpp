@@ -67,6 +67,7 @@
 #include <insonify/shadow/policy.hpp>
 #include <insonify/sonar/backscatter.hpp>
 #include <insonify/sonar/bottom_tiles.hpp>
+#include <insonify/sonar/display.hpp>
 #include <insonify/sonar/illumination.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/ping_echo.hpp>
@@ -80,6 +81,7 @@
 #include <insonify/sonar/slant_range.hpp>
 #include <insonify/sonar/slant_to_ground.hpp>
 #include <insonify/sonar/sonar_equation.hpp>
+#include <insonify/sonar/speckle.hpp>
 #include <insonify/sonar/swath.hpp>
 #include <insonify/sonar/target_slices.hpp>
 #include <insonify/version.hpp>
