@@ -44,14 +44,16 @@ struct absorption {
     }
 };
 
-/// The beam in the vertical plane, twice (there and back): Gaussian about an axis that points down from the horizon.
+/// The beam in the vertical plane, twice (there and back): Gaussian about an axis that points down from the horizon, over
+/// side lobes that hear everywhere alike. They are what lets the first return be heard from straight below.
 struct vertical_beam {
     float width = static_cast<float>(numeric::to_radians(50));  ///< between the -3 dB points of one way, radians
     float tilt = static_cast<float>(numeric::to_radians(20));   ///< of the axis below the horizon, radians
+    float side_lobes = 1e-3f;                                   ///< power, both ways, over that on the axis
     /// @param across, down  of the unit vector along the ray
     double over_direction(double across, double down) const {
         const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(width);
-        return numeric::exp(-5.545177444479562 * off * off);  // 8 ln 2
+        return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off * off);  // 8 ln 2
     }
 };
 

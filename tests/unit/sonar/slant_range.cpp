@@ -355,6 +355,26 @@ TEST_CASE("The same bytes for any number of threads, and a ping at a time") {
     CHECK(bare.image == expected.image);
 }
 
+TEST_CASE("A window of ranges is the part of the whole picture that it shows") {
+    in::scene s;
+    s.seabed = in::seabed::rock{.relief = 0.3f};
+    s.add(in::cube{.size = glm::vec3(0.7f)}, {.position = {8.5, 0.6, 0.4}, .yaw = 0.5f}, "cube");
+    const in::side_scan all{.altitude = 4, .ping_spacing = 0.0625f, .pings = 24, .range = 16, .bins = 512};
+    in::side_scan part = all;
+    part.first_range = 7;
+    part.range = 12;
+    part.bins = 160;
+    const auto whole = in::render(s, all), window = in::render(s, part);
+    int different = 0;
+    for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 160; ++x) {
+            different += window.labels.instance(x, y) != whole.labels.instance(224 + x, y) ||
+                         window.labels.shadow(x, y) != whole.labels.shadow(224 + x, y) ||
+                         window.image(x, y) != Approx(whole.image(224 + x, y)).epsilon(1e-3).margin(1e-4);
+        }
+    CHECK(different <= 40);  // of 3840: at the ends
+}
+
 TEST_CASE("Both sides in one picture, with the water column between them") {
     in::scene s = level_bottom();
     s.add(in::cube{.size = glm::vec3(0.5f)}, {.position = {-6, 0.5, 0.25}}, "port cube");

@@ -115,7 +115,7 @@ TEST_CASE("Losses and levels are those of their formulas") {
 }
 
 TEST_CASE("A vertical beam is at full strength on its axis and a quarter, 6 dB, at its edges") {
-    const in::vertical_beam beam{.width = 40_deg, .tilt = 25_deg};
+    const in::vertical_beam beam{.width = 40_deg, .tilt = 25_deg, .side_lobes = 0};
     const auto at = [&](double depression) {
         return beam.over_direction(std::cos(depression * in::numeric::pi / 180),
                                    std::sin(depression * in::numeric::pi / 180));
@@ -123,6 +123,7 @@ TEST_CASE("A vertical beam is at full strength on its axis and a quarter, 6 dB, 
     CHECK(at(25) == Approx(1));
     CHECK(at(45) == Approx(0.25).epsilon(1e-5));
     CHECK(at(5) == Approx(0.25).epsilon(1e-5));
+    CHECK(in::vertical_beam{.side_lobes = 0.01f}.over_direction(-1, 0) == Approx(0.01));
     const auto bare = heard(level_bottom(), in::sonar_equation<>{});
     const auto with = heard(level_bottom(), in::sonar_equation{beam});
     for (const int bin : {120, 300, 900}) {
