@@ -72,4 +72,35 @@ class target_field {
     std::uint64_t seed_;
 };
 
+/// The targets near a part of the track, and the contact numbers by which the survey knows them.
+struct sight {
+    in::scene scene;
+    std::vector<std::uint16_t> numbers{0};  ///< by instance
+};
+
+/// Gives numbers to targets as they come into sight, and forgets them when they are out of it.
+class lookout {
+  public:
+    sight around(const target_field& field, const in::seabed::any& seabed, std::span<const in::ping> pings,
+                 double reach) {
+        sight s;
+        s.scene.seabed = seabed;
+        std::map<square, std::uint16_t> still;
+        for (const square& at : field.around(pings, reach)) {
+            if (!field.add_to(s.scene, at)) continue;
+            const auto known = numbers_.find(at);
+            s.numbers.push_back(still[at] = known != numbers_.end() ? known->second : fresh());
+        }
+        numbers_ = std::move(still);
+        return s;
+    }
+
+  private:
+    /// 16 bits hold it; by the time a number comes again, its first owner is far away.
+    std::uint16_t fresh() { return last_ = static_cast<std::uint16_t>(last_ == 65000 ? 1 : last_ + 1); }
+
+    std::map<square, std::uint16_t> numbers_;
+    std::uint16_t last_ = 0;
+};
+
 }  // namespace survey
