@@ -55,7 +55,7 @@ class ping_listener {
         const fan_shape shape =
             fan_shape::around(altitude - lowest_, altitude - highest_, altitude - (std::max)(top_, highest_));
         if (!(shape == fan_.shape())) spread_out(shape);
-        if (!(altitude > lowest_)) return bins_;
+        if (!(altitude > lowest_) || profile_[0].down <= 0) return bins_;  // it lies in the ground
         gather_targets(p);
         hear_bottom();
         if (some_target_) hear_targets();

@@ -301,6 +301,28 @@ TEST_CASE("What can't be heard is silent: ranges below the altitude, a sonar in 
     }
 }
 
+TEST_CASE("A sonar inside a hill is silent, and one beside a cliff hears it and nothing behind") {
+    in::seabed::heightfield map{.heights = in::image<float>(60, 20), .origin = {-10, -5}, .spacing = 0.5};
+    for (int j = 0; j < 20; ++j)
+        for (int i = 0; i < 60; ++i) map.heights(i, j) = i < 20 || i > 40 ? 4.0f : 0.0f;  // a valley from 0 to 10 m
+    in::scene s;
+    s.seabed = map;
+    in::side_scan rig = one_ping(2, 18, 360);
+    rig.position = {-5, 0};
+    const auto buried = in::render(s, rig);
+    for (const float v : buried.image.pixels()) CHECK(v == 0);
+    rig.position = {3, 0};
+    const auto heard = in::render(s, rig);
+    float loudest = 0;
+    for (int b = 0; b < 360; ++b) {
+        const double range = (b + 0.5) * rig.bin();
+        if (range > 7.8 && range > rg::slant_range(7.5, 2, 4) + 0.1) CHECK(heard.image(b, 0) == 0);
+        if (range > 6.8 && range < 7.8) loudest = (std::max)(loudest, heard.image(b, 0));
+        REQUIRE(heard.image(b, 0) >= 0);
+    }
+    CHECK(loudest > 10 * heard.image(100, 0));
+}
+
 TEST_CASE("Grazing angles from a tenth of a degree to almost a right angle give finite, level pictures") {
     // 0.1 degrees: 100 m away from 17.5 cm.
     const in::side_scan low{.altitude = 0.1745f, .pings = 1, .first_range = 90, .range = 110, .bins = 400};
@@ -406,6 +428,48 @@ TEST_CASE("A hole in the bottom is silent, and what lies behind it is heard") {
     for (const float v : heard.image.row(0)) REQUIRE((v >= 0 && in::numeric::is_finite(v)));
     CHECK(heard.image(static_cast<int>(rg::slant_range(4.5, 2) / rig.bin()), 0) == 0);
     CHECK(heard.image(static_cast<int>(rg::slant_range(6.5, 2) / rig.bin()), 0) > 0);
+}
+
+TEST_CASE("Whatever the scene and the rig, intensities are finite and not negative") {
+    for (std::uint64_t n = 0; n < 120; ++n) {
+        in::random_sequence random(n, 3);
+        const auto real = [&](double low, double high) { return static_cast<float>(random.uniform(low, high)); };
+        in::scene s = level_bottom();
+        if (n % 3 == 1) s.seabed = in::seabed::rock{.relief = real(0.05, 1)};
+        if (n % 3 == 2) {  // cliffs and holes
+            in::seabed::heightfield map{.heights = in::image<float>(30, 30), .origin = {-5, -5}, .spacing = 0.5};
+            for (float& height : map.heights.pixels())
+                height = random.below(10) == 0 ? std::numeric_limits<float>::quiet_NaN() : real(-3, 3);
+            s.seabed = map;
+        }
+        for (std::uint32_t i = random.below(4); i > 0; --i) {
+            in::mesh m = to_mesh(in::sphere{.radius = std::exp(real(-4, 3)), .segments = 12});
+            if (random.below(3) == 0) m.positions[5].y = std::numeric_limits<float>::infinity();
+            if (random.below(3) == 0)
+                for (glm::vec3& p : m.positions) p.z = 0;
+            s.add(m, {.position = {real(-10, 10), real(-3, 3), real(-2, 4)}, .pitch = real(-1, 1)}, "thing");
+        }
+        const float first = random.below(2) == 0 ? 0 : real(0, 20);
+        const in::side_scan rig{.position = {real(-5, 5), real(-5, 5)},
+                                .altitude = random.below(6) == 0 ? real(-3, 3) : std::exp(real(-4, 3)),
+                                .yaw = real(-10, 10),
+                                .ping_spacing = std::exp(real(-4, 1)),
+                                .pings = 5,
+                                .first_range = first,
+                                .range = first + std::exp(real(-3, 3)),
+                                .bins = 1 + static_cast<int>(random.below(200))};
+        const in::ground_range map{.position = rig.position,
+                                   .altitude = rig.altitude,
+                                   .pings = 5,
+                                   .first_range = rig.first_range,
+                                   .range = rig.range,
+                                   .bins = rig.bins};
+        INFO("case " << n);
+        const auto heard = in::render(s, rig), seen = in::render(s, map);
+        const auto corrected = in::to_ground_range(heard, rig, map);
+        for (const auto* picture : {&heard.image, &seen.image, &corrected.image})
+            for (const float v : picture->pixels()) REQUIRE((v >= 0 && in::numeric::is_finite(v)));
+    }
 }
 
 TEST_CASE("What can't be right is refused by name") {
