@@ -8,8 +8,10 @@
 #include <insonify/seabed/any.hpp>
 #include <insonify/sonar/side_scan.hpp>
 
+#include <array>
 #include <memory>
 #include <span>
+#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 

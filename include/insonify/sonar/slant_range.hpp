@@ -15,7 +15,11 @@ template <class Labels = labels, backscatter_law Law = lambert_backscatter, clas
 struct record_options {
     Law law{};
     Equation equation{};
-    double cell = 0;  ///< of the sampled seabed, metres; 0: a bin or a ping's spacing, whichever is longer, to 0.1 m
+    /// Metres between the vertices at which the seabed is sampled; 0: a bin or a ping's spacing, whichever is longer,
+    /// the latter to 0.1 m. Of 40 m in 2048 bins from 5 m up, against cells of 5 mm: cells of 2, 4 and 8 cm cost 2, 1
+    /// and 0.6 times the default's time; the shadow labels of 0.9, 1.5 and 3.4 % of the bins differ on ripples, of 3.6,
+    /// 5.3 and 11 % on rock; and amplitudes by 7, 10 and 19 % (rms) on ripples.
+    double cell = 0;
 };
 
 /// How large the intermediate things were.

@@ -44,8 +44,8 @@ struct absorption {
     }
 };
 
-/// The beam in the vertical plane, twice (there and back): Gaussian about an axis that points down from the horizon, over
-/// side lobes that hear everywhere alike. They are what lets the first return be heard from straight below.
+/// The beam in the vertical plane, twice (there and back): Gaussian about an axis that points down from the horizon,
+/// over side lobes that hear everywhere alike. They are what lets the first return be heard from straight below.
 struct vertical_beam {
     float width = static_cast<float>(numeric::to_radians(50));  ///< between the -3 dB points of one way, radians
     float tilt = static_cast<float>(numeric::to_radians(20));   ///< of the axis below the horizon, radians
