@@ -15,10 +15,10 @@ template <class Labels = labels, backscatter_law Law = lambert_backscatter, clas
 struct record_options {
     Law law{};
     Equation equation{};
-    /// Metres between the vertices at which the seabed is sampled; 0: a bin or a ping's spacing, whichever is longer,
-    /// the latter to 0.1 m. Of 40 m in 2048 bins from 5 m up, against cells of 5 mm: cells of 2, 4 and 8 cm cost 2, 1
-    /// and 0.6 times the default's time; the shadow labels of 0.9, 1.5 and 3.4 % of the bins differ on ripples, of 3.6,
-    /// 5.3 and 11 % on rock; and amplitudes by 7, 10 and 19 % (rms) on ripples.
+    /// Metres between the vertices at which the seabed is sampled; 0: see default_cell. Of 40 m in 2048 bins from 5 m
+    /// up, against cells of 5 mm: cells of 2, 4 and 8 cm cost 2, 1 and 0.6 times the default's time; the shadow labels
+    /// of 0.9, 1.5 and 3.4 % of the bins differ on ripples, of 3.6, 5.3 and 11 % on rock; and amplitudes by 7, 10 and
+    /// 19 % (rms) on ripples.
     double cell = 0;
 };
 
@@ -39,6 +39,15 @@ struct recording {
 };
 
 namespace detail {
+
+/// As fine as the picture: a bin or a ping's spacing, whichever is longer. Where pictures are coarse, a fiftieth of the
+/// altitude, so that relief and targets aren't missed; but never finer than 1/2048 of the ranges.
+template <across_track Axis>
+double default_cell(const side_scan_rig<Axis>& rig) {
+    const double picture = (std::max)(rig.bin(), static_cast<double>(rig.ping_spacing));
+    const double shown = static_cast<double>(rig.range) - static_cast<double>(rig.first_range);
+    return (std::max)(shown / 2048, (std::min)(picture, static_cast<double>(rig.altitude) / 50));
+}
 
 /// How many pings away the beam reaches at the largest range.
 template <class Beam, across_track Axis>
@@ -66,8 +75,7 @@ class recorder {
         for (const ping& p : track)
             require(numeric::is_finite(p.position.x + p.position.y + p.position.z + p.yaw), "ping.position",
                     p.position.x + p.position.y + p.position.z + p.yaw, "finite");
-        const auto spacing = static_cast<double>(rig.ping_spacing);
-        out_.stats.cell = options.cell > 0 ? options.cell : (std::max)(rig.bin(), (std::min)(spacing, 0.1));
+        out_.stats.cell = options.cell > 0 ? options.cell : default_cell(rig);
         for (const target& t : s.targets) targets_.emplace_back(t);
         const auto height = static_cast<int>(track.size());
         out_.image = image<float>(rig.bins, height);

@@ -397,6 +397,28 @@ TEST_CASE("A window of ranges is the part of the whole picture that it shows") {
     CHECK(different <= 40);  // of 3840: at the ends
 }
 
+TEST_CASE("A coarse picture hears what a fine one does") {
+    in::scene s;
+    s.seabed = in::seabed::ripples{.height = 0.04f};
+    s.add(in::cube{.size = glm::vec3(0.5f)}, {.position = {9, 1, 0.25}, .yaw = 0.5f}, "cube");
+    using bare = in::record_options<in::labels, in::lambert_backscatter, in::sonar_equation<>>;
+    in::side_scan fine{.altitude = 5, .pings = 50, .range = 20, .bins = 2000};
+    in::side_scan coarse = fine;
+    coarse.bins = 40;
+    const auto many = in::render(s, fine, bare{}), few = in::render(s, coarse, bare{});
+    const auto power = [](const auto& heard, int from, int to) {
+        double sum = 0;
+        for (int y = 0; y < 50; ++y)
+            for (int x = from; x < to; ++x) sum += static_cast<double>(heard.image(x, y));
+        return sum;
+    };
+    for (int b = 12; b < 40; ++b) {
+        INFO("bin " << b);
+        CHECK(power(few, b, b + 1) == Approx(power(many, 50 * b, 50 * (b + 1))).epsilon(0.15));
+    }
+    CHECK(power(few, 0, 40) == Approx(power(many, 0, 2000)).epsilon(0.03));
+}
+
 TEST_CASE("Both sides in one picture, with the water column between them") {
     in::scene s = level_bottom();
     s.add(in::cube{.size = glm::vec3(0.5f)}, {.position = {-6, 0.5, 0.25}}, "port cube");
