@@ -41,12 +41,12 @@ struct recording {
 namespace detail {
 
 /// As fine as the picture: a bin or a ping's spacing, whichever is longer. Where pictures are coarse, a fiftieth of the
-/// altitude, so that relief and targets aren't missed; but never finer than 1/2048 of the ranges.
+/// altitude, so that relief and targets aren't missed; but never finer than 1/2048 of the range.
 template <across_track Axis>
 double default_cell(const side_scan_rig<Axis>& rig) {
     const double picture = (std::max)(rig.bin(), static_cast<double>(rig.ping_spacing));
-    const double shown = static_cast<double>(rig.range) - static_cast<double>(rig.first_range);
-    return (std::max)(shown / 2048, (std::min)(picture, static_cast<double>(rig.altitude) / 50));
+    return (std::max)(static_cast<double>(rig.range) / 2048,
+                      (std::min)(picture, static_cast<double>(rig.altitude) / 50));
 }
 
 /// How many pings away the beam reaches at the largest range.
