@@ -71,3 +71,22 @@ TEST_CASE("Slant-range correction puts the bottom where it is, and needs as many
     CHECK(wide.image(399, 0) == 0);
     CHECK(wide.labels.seabed(399, 0) == in::labels::no_seabed);
 }
+
+TEST_CASE("Three geometries, one type to change: the same scene, the same labels, shadows to the right") {
+    in::scene s;
+    s.seabed = in::seabed::flat{.surface = {.rms = 0}};
+    s.add(in::cube{.size = glm::vec3(0.4f)}, {.position = {6, 2, 0.2}}, "cube");
+    const auto check = [&](const auto& rig) {
+        const auto picture = in::render(s, rig);
+        REQUIRE(picture.labels.targets.size() == 1);
+        const in::target_label& t = picture.labels.targets[0];
+        CHECK(t.class_name == "cube");
+        CHECK((t.area > 0 && t.shadow_area > 0));
+        CHECK(t.shadow_box.x + t.shadow_box.width > t.box.x + t.box.width);
+        CHECK(t.box.y + t.box.height / 2 < picture.image.height() / 2);  // ahead is up
+        for (const float v : picture.image.pixels()) REQUIRE(v >= 0);
+    };
+    check(in::overhead{.position = {5, 0}, .altitude = 4, .size = {400, 400}});
+    check(in::ground_range{.altitude = 4, .pings = 90, .range = 12, .bins = 400});
+    check(in::side_scan{.altitude = 4, .pings = 90, .range = 12, .bins = 400});
+}
