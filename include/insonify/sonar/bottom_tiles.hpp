@@ -8,7 +8,6 @@
 #include <insonify/seabed/any.hpp>
 #include <insonify/sonar/side_scan.hpp>
 
-#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -28,10 +27,18 @@ class bottom_tiles {
   public:
     static constexpr int cells = 64;  ///< along a tile's side
 
-    /// @param spacing  metres between vertices
+    /// @param spacing  metres between vertices; what `even` makes of it is taken
     bottom_tiles(const seabed::any& source, double spacing)
-        : prepared_(seabed::prepare(source)), spacing_(spacing), scale_(1 / spacing) {
-        require(spacing > 0 && numeric::is_finite(spacing), "cell", spacing, "metres above 0");
+        : prepared_(seabed::prepare(source)), spacing_(even(spacing)), scale_(1 / spacing_) {}
+
+    /// The nearest length of eight bits: its multiples are exact, so a vertex is the same in whatever row it is
+    /// sampled.
+    static double even(double length) {
+        require(length > 1e-9 && length < 1e9, "cell", length, "metres above 0");
+        double unit = 1;
+        while (unit * 256 <= length) unit *= 2;
+        while (unit * 128 > length) unit /= 2;
+        return static_cast<double>(numeric::floor_to_int(length / unit + 0.5)) * unit;
     }
 
     /// Samples what a fan of pings looks at, and forgets the rest.
@@ -57,24 +64,32 @@ class bottom_tiles {
         const std::int64_t rows = last_y - first_y_ + 1;
         require(columns_ * rows < (1 << 26), "seabed tiles", columns_ * rows, "below 2^26: take larger cells");
         slots_.assign(static_cast<std::size_t>(columns_ * rows), absent);
-
-        std::vector<std::pair<std::int64_t, std::int64_t>> wanted;
         for (const ping_frame& p : pings)
             for (int i = 0; i < steps; ++i) {
                 const auto [ax, ay] = tile_of(p.world(reach * i / steps, 0));
                 const auto [bx, by] = tile_of(p.world(reach * (i + 1) / steps, 0));
                 for (std::int64_t y = (std::min)(ay, by); y <= (std::max)(ay, by); ++y)
-                    for (std::int64_t x = (std::min)(ax, bx); x <= (std::max)(ax, bx); ++x) {
-                        std::uint32_t& slot = slots_[slot_of(x, y)];
-                        if (slot != absent) continue;
-                        slot = static_cast<std::uint32_t>(wanted.size());
-                        wanted.emplace_back(x, y);
-                    }
+                    for (std::int64_t x = (std::min)(ax, bx); x <= (std::max)(ax, bx); ++x) slots_[slot_of(x, y)] = 0;
             }
-        vertices_.reset(new bottom_vertex[wanted.size() * tile_size]);
-        ex.bulk(wanted.size(),
-                [&](std::size_t i) { sample(wanted[i].first, wanted[i].second, &vertices_[i * tile_size]); });
-        sampled_ += wanted.size() * tile_size;
+
+        // Recipes like long rows: neighbours along x are sampled together.
+        std::vector<tile_run> runs;
+        std::uint32_t tiles = 0;
+        for (std::int64_t y = 0; y < rows; ++y)
+            for (std::int64_t x = 0; x < columns_; ++x) {
+                std::uint32_t& slot = slots_[static_cast<std::size_t>(y * columns_ + x)];
+                if (slot == absent) continue;
+                slot = tiles++;
+                const bool goes_on = !runs.empty() && runs.back().count < longest_run && x > 0 &&
+                                     slots_[static_cast<std::size_t>(y * columns_ + x - 1)] != absent;
+                if (goes_on)
+                    ++runs.back().count;
+                else
+                    runs.push_back({first_x_ + x, first_y_ + y, slot, 1});
+            }
+        vertices_.reset(new bottom_vertex[tiles * tile_size]);
+        ex.bulk(runs.size(), [&](std::size_t i) { sample(runs[i]); });
+        sampled_ += tiles * tile_size;
     }
 
     /// The bottom at a world position that is covered; bilinear in the cell, of the nearest vertex's type.
@@ -111,16 +126,23 @@ class bottom_tiles {
         return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
     }
 
-    /// A tile's vertices, with a ring of neighbours for the slopes.
-    void sample(std::int64_t tile_x, std::int64_t tile_y, bottom_vertex* out) const {
-        constexpr std::size_t width = stride + 2;
-        std::array<float, width * width> heights;
-        std::array<seabed::type, width * width> types;
-        for (std::size_t j = 0; j < width; ++j) {
+    /// Tiles side by side.
+    struct tile_run {
+        std::int64_t x, y;
+        std::uint32_t slot, count;
+    };
+    static constexpr std::uint32_t longest_run = 8;
+
+    /// The vertices of a run, with a ring of neighbours for the slopes.
+    void sample(const tile_run& run) const {
+        const std::size_t width = run.count * cells + 3, height = stride + 2;
+        std::vector<float> heights(width * height);
+        std::vector<seabed::type> types(width * height);
+        for (std::size_t j = 0; j < height; ++j) {
             const auto vertex = [&](std::int64_t tile, std::size_t i) {
                 return static_cast<double>(tile * cells + static_cast<std::int64_t>(i) - 1) * spacing_;
             };
-            prepared_.row({.y = vertex(tile_y, j), .origin = vertex(tile_x, 0), .spacing = spacing_},
+            prepared_.row({.y = vertex(run.y, j), .origin = vertex(run.x, 0), .spacing = spacing_},
                           std::span(heights).subspan(j * width, width), std::span(types).subspan(j * width, width));
         }
         const auto scale = static_cast<float>(0.5 * scale_);
@@ -128,12 +150,15 @@ class bottom_tiles {
             const float rise = scale * (after - before);
             return numeric::is_finite(rise) ? rise : 0.0f;  // beside a hole
         };
-        for (std::size_t j = 0; j < stride; ++j)
-            for (std::size_t i = 0; i < stride; ++i) {
-                const float* const here = &heights[(j + 1) * width + i + 1];
-                out[j * stride + i] = {*here, slope(here[-1], here[1]), slope(*(here - width), here[width]),
-                                       static_cast<std::uint32_t>(types[(j + 1) * width + i + 1])};
+        for (std::size_t tile = 0; tile < run.count; ++tile) {
+            bottom_vertex* out = &vertices_[(run.slot + tile) * tile_size];
+            for (std::size_t j = 0; j < stride; ++j) {
+                const std::size_t start = (j + 1) * width + tile * cells + 1;
+                for (std::size_t i = start; i < start + stride; ++i)
+                    *out++ = {heights[i], slope(heights[i - 1], heights[i + 1]),
+                              slope(heights[i - width], heights[i + width]), static_cast<std::uint32_t>(types[i])};
             }
+        }
     }
 
     decltype(seabed::prepare(std::declval<const seabed::any&>())) prepared_;

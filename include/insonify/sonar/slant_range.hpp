@@ -75,7 +75,7 @@ class recorder {
         for (const ping& p : track)
             require(numeric::is_finite(p.position.x + p.position.y + p.position.z + p.yaw), "ping.position",
                     p.position.x + p.position.y + p.position.z + p.yaw, "finite");
-        out_.stats.cell = options.cell > 0 ? options.cell : default_cell(rig);
+        out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
         for (const target& t : s.targets) targets_.emplace_back(t);
         const auto height = static_cast<int>(track.size());
         out_.image = image<float>(rig.bins, height);
