@@ -7,6 +7,7 @@
 #include <map>
 
 #include "../common/pictures.hpp"
+#include "facts.hpp"
 #include "plan.hpp"
 
 namespace generator {
@@ -101,47 +102,104 @@ inline in::seabed::any seabed_of(const plan& p, const stock& shared) {
     return in::seabed::flat{.seed = p.seabed_seed};
 }
 
-/// A finished image with its frame and the numbers that the labels want.
+/// A finished image with the numbers that the labels want.
 struct drawn {
-    in::frame<> frame;
+    in::labels labels;
     in::image<in::rgb8> color;
     in::image<std::uint8_t> gray;  ///< used where the colour map is gray
     in::pose placement;
+    facts known;
 };
 
-inline drawn draw(const options& o, const plan& p, const stock& shared, auto& ex) {
-    in::overhead rig{.position = {p.place_x, p.place_y},
+/// Level first, tilted in place then: what one end rises, the other sinks in, and no light passes below.
+inline in::pose laid_down(const plan& p, const in::scene& scene, const in::mesh& shape, const glm::dvec2& ground) {
+    in::pose placement =
+        in::rest_on(scene.seabed, shape, {.position = glm::dvec3(ground, 0), .yaw = static_cast<float>(p.yaw)});
+    placement.pitch = static_cast<float>(p.pitch);
+    placement.roll = static_cast<float>(p.roll);
+    placement.burial = static_cast<float>(p.burial * p.size);
+    return placement;
+}
+
+/// Where the rig's work is: a heightmap lies where it lies, everything else is endless.
+inline glm::dvec2 place_of(const plan& p, const stock& shared) {
+    if (p.seabed != "heightmap") return {p.place_x, p.place_y};
+    const in::seabed::heightfield& map = shared.heightmap();
+    return map.origin + 0.5 * map.spacing * glm::dvec2(map.heights.width() - 1, map.heights.height() - 1);
+}
+
+/// The image before noise, in [0, 1], as the paper's camera takes it.
+inline in::image<float> photograph(const options& o, const plan& p, const stock& shared, in::scene& scene, drawn& d,
+                                   auto& ex) {
+    in::overhead rig{.position = place_of(p, shared),
                      .altitude = static_cast<float>(p.altitude),
                      .yaw = static_cast<float>(p.rig_yaw),
                      .size = {o.size, o.size},
                      .grazing = static_cast<float>(p.grazing),
                      .intensity = static_cast<float>(o.intensity),
                      .sky = static_cast<float>(o.sky)};
-    if (p.seabed == "heightmap") {  // it lies where it lies: look at its middle
-        const in::seabed::heightfield& map = shared.heightmap();
-        rig.position = map.origin + 0.5 * map.spacing * glm::dvec2(map.heights.width() - 1, map.heights.height() - 1);
-    }
-
-    in::scene scene;
-    scene.seabed = seabed_of(p, shared);
+    if (o.chip > 0) rig.field_of_view = static_cast<float>(2 * in::numeric::atan2(0.5 * o.chip, p.altitude));
     const in::overhead_geometry view(rig);
     const glm::dvec2 half = view.half_extent(0);
     const auto [sine, cosine] = in::numeric::sin_cos(p.rig_yaw);
-    const glm::dvec2 offset{p.offset_x * half.x, p.offset_y * half.y};
+    const glm::dvec2 share =
+        o.chip > 0 ? glm::dvec2(2 * p.third - 1, 2 * p.halfway - 1) : glm::dvec2(p.offset_x, p.offset_y);
+    const glm::dvec2 offset{share.x * half.x, share.y * half.y};
     const glm::dvec2 ground =
         rig.position + glm::dvec2(offset.x * cosine - offset.y * sine, offset.x * sine + offset.y * cosine);
-
     const in::mesh shape = shared.target(p);
-    // Level first, tilted in place then: what one end rises, the other sinks in, and no light passes below.
-    in::pose placement =
-        in::rest_on(scene.seabed, shape, {.position = glm::dvec3(ground, 0), .yaw = static_cast<float>(p.yaw)});
-    placement.pitch = static_cast<float>(p.pitch);
-    placement.roll = static_cast<float>(p.roll);
-    placement.burial = static_cast<float>(p.burial * p.size);
-    scene.add(shape, placement, p.class_name, {static_cast<float>(o.reflectivity)});
+    d.placement = laid_down(p, scene, shape, ground);
+    scene.add(shape, d.placement, p.class_name, {static_cast<float>(o.reflectivity)});
 
-    drawn result{.frame = in::render(scene, rig, {}, ex), .color = {}, .gray = {}, .placement = placement};
-    in::image<float> look = result.frame.image;
+    auto frame = in::render(scene, rig, {}, ex);
+    d.labels = std::move(frame.labels);
+    d.known = facts_of(view, scene.targets.front(), d.labels.targets.front());
+    return std::move(frame.image);
+}
+
+/// The same as a side-scan sonar hears it: `ping` by range, or laid out on the bottom.
+template <in::across_track Axis>
+in::image<float> recording_of(const options& o, const plan& p, const stock& shared, in::scene& scene, drawn& d,
+                              auto& ex) {
+    const double ground_range = p.distance * p.altitude, pixel = o.chip / o.size;
+    const double centre = Axis == in::across_track::slant_range
+                              ? in::range_geometry::slant_range(ground_range, p.altitude)
+                              : ground_range;
+    const double first = (std::max)(0.0, centre - p.third * o.chip);
+    in::side_scan_rig<Axis> rig{.altitude = static_cast<float>(p.altitude),
+                                .yaw = static_cast<float>(p.rig_yaw),
+                                .ping_spacing = static_cast<float>(pixel),
+                                .pings = o.size,
+                                .first_range = static_cast<float>(first),
+                                .range = static_cast<float>(first + o.chip),
+                                .bins = o.size,
+                                .side = p.port ? in::side::port : in::side::starboard};
+    // The target lies at the place, and the track beside it.
+    const glm::dvec2 ground = place_of(p, shared);
+    rig.position = ground - in::ping_frame(in::ping_of(rig, 0), rig.side).world(ground_range, p.halfway * o.chip);
+    const in::mesh shape = shared.target(p);
+    d.placement = laid_down(p, scene, shape, ground);
+    scene.add(shape, d.placement, p.class_name, {static_cast<float>(o.reflectivity)});
+
+    const in::sonar_equation equation{in::horizontal_beam{static_cast<float>(p.beam)}, in::level_gain{}};
+    using all = in::record_options<in::labels, in::lambert_backscatter, std::remove_const_t<decltype(equation)>>;
+    auto heard = in::render(scene, rig, all{.equation = equation}, ex);
+    for (float& intensity : heard.image.pixels()) intensity += static_cast<float>(p.noise);
+    for (const noise_step& step : noise_steps(o))
+        if (step.kind == "seabed") heard = in::with_speckle(std::move(heard), rig, {.seed = p.noise_seed}, ex);
+    d.labels = std::move(heard.labels);
+    d.known = facts_of(rig, scene.targets.front(), d.labels.targets.front());
+    return in::apply(std::move(heard.image), in::display{.white = static_cast<float>(p.white)}, ex);
+}
+
+inline drawn draw(const options& o, const plan& p, const stock& shared, auto& ex) {
+    in::scene scene;
+    scene.seabed = seabed_of(p, shared);
+    drawn result{};
+    in::image<float> look =
+        o.mode == "slant_range"    ? recording_of<in::across_track::slant_range>(o, p, shared, scene, result, ex)
+        : o.mode == "ground_range" ? recording_of<in::across_track::ground_range>(o, p, shared, scene, result, ex)
+                                   : photograph(o, p, shared, scene, result, ex);
     const auto add = [&](const auto& filter) { look = in::apply(std::move(look), filter, ex); };
     if (p.referenced) add(shared.reference(p.reference));
     for (const noise_step& step : noise_steps(o)) {

@@ -91,20 +91,23 @@ class dataset_folder {
     /// Writes an image, its masks, and last its record.
     void add(const options& o, const plan& p, const drawn& d) {
         const std::string file = "images/" + p.class_name + "/" + p.id() + ".png";
-        const in::target_label& label = d.frame.labels.targets.front();
-        const auto target = in::target_mask(d.frame.labels, label.instance);
-        const auto shadow = in::shadow_mask(d.frame.labels, label.instance);
+        const in::target_label& label = d.labels.targets.front();
+        const auto target = in::target_mask(d.labels, label.instance);
+        const auto shadow = in::shadow_mask(d.labels, label.instance);
         in::write_png((root_ / "masks" / (p.id() + "_target.png")).string(), target);
         in::write_png((root_ / "masks" / (p.id() + "_shadow.png")).string(), shadow);
+        in::write_png((root_ / "masks" / (p.id() + "_seabed.png")).string(), d.labels.seabed);
         if (d.gray.empty())
             in::write_png((root_ / file).string(), d.color);
         else
             in::write_png((root_ / file).string(), d.gray);
 
+        const double metres = d.known.metres_per_pixel;
         const auto annotation = [&](const std::string& category, const in::label_box& box, std::int64_t area,
                                     const auto& mask) {
             return json{{"category", category},
                         {"bbox", {box.x, box.y, box.width, box.height}},
+                        {"bbox_m", {box.x * metres, box.y * metres, box.width * metres, box.height * metres}},
                         {"area", area},
                         {"segmentation", {{"size", {o.size, o.size}}, {"counts", run_lengths(mask)}}}};
         };
@@ -129,7 +132,17 @@ class dataset_folder {
                                 {"rig_y_m", p.place_y},
                                 {"rig_yaw_deg", degrees(p.rig_yaw)},
                                 {"altitude_m", p.altitude},
-                                {"grazing_deg", degrees(p.grazing)},
+                                {"mode", o.mode},
+                                {"metres_per_pixel", metres},
+                                {"left_edge_m", d.known.left_edge},
+                                {"ground_range_m", d.known.ground_range},
+                                {"slant_range_m", d.known.slant_range},
+                                {"grazing_deg", degrees(d.known.grazing)},
+                                {"aspect_deg", degrees(d.known.aspect)},
+                                {"target_height_m", d.known.height},
+                                {"shadow_m", d.known.shadow},
+                                {"shadow_measured_m", d.known.shadow_measured},
+                                {"shadow_is_cut", d.known.shadow_is_cut},
                                 {"seabed_seed", p.seabed_seed},
                                 {"noise_seed", p.noise_seed},
                                 {"target_area_px", label.area},

@@ -32,12 +32,16 @@ struct options {
     std::string heightmap;
     double heightmap_spacing = 0.02, heightmap_scale = 1;
     range target_size{0.4, 0.8}, aspect{0.8, 1.25}, tilt{-3, 3}, burial{0.1, 0.3};
-    range altitude{3.5, 5}, grazing{6, 6};
+    std::string mode = "overhead";
+    double chip = 0;  ///< metres a side; 0: what the camera sees
+    range altitude{3.5, 5}, grazing{6, 6}, distance{2, 9}, beam{0.2, 0.5};
     double reflectivity = 0.9, intensity = 4, sky = 0.05;
     std::vector<std::string> references;
     std::vector<std::string> noise{"speckle:0.1"};
     std::string colormap = "gray";
     bool demo = false;
+
+    bool is_overhead() const { return mode == "overhead"; }
 };
 
 /// One step of the noise chain: a kind and its strength.
@@ -65,11 +69,11 @@ inline noise_step parse_noise(const std::string& text) {
     const std::size_t colon = text.find(':');
     const std::string kind = text.substr(0, colon);
     const double usual = kind == "speckle" ? 0.05 : kind == "gaussian" ? 0.01 : kind == "poisson" ? 255 : -1;
-    if (kind == "rayleigh" && colon == std::string::npos) return {kind, 0};
+    if ((kind == "rayleigh" || kind == "seabed") && colon == std::string::npos) return {kind, 0};
     if (usual < 0)
         throw CLI::ValidationError("--noise", "'" + text +
                                                   "' is not one of none, speckle:VARIANCE, gaussian:VARIANCE, "
-                                                  "poisson:PHOTONS, rayleigh");
+                                                  "poisson:PHOTONS, rayleigh, seabed");
     if (colon == std::string::npos) return {kind, usual};
     const range strength = parse_range("--noise", text.substr(colon + 1));
     if (strength.low != strength.high || !(strength.low > 0))
@@ -100,7 +104,11 @@ inline nlohmann::ordered_json pinned(const options& o) {
             {"aspect", pair(o.aspect)},
             {"tilt", pair(o.tilt)},
             {"burial", pair(o.burial)},
+            {"mode", o.mode},
+            {"chip", o.chip},
             {"altitude", pair(o.altitude)},
+            {"distance", pair(o.distance)},
+            {"beam", pair(o.beam)},
             {"grazing", pair(o.grazing)},
             {"reflectivity", o.reflectivity},
             {"intensity", o.intensity},
@@ -131,12 +139,13 @@ inline options parse(int argc, char** argv) {
         "A range is low:high, or one number. Examples:\n"
         "  generate_dataset --out out/a --count 400 --size 512 --noise speckle:0.1\n"
         "  generate_dataset --out out/b --first 200 --count 200 --reference real_images/ --colormap copper\n"
+        "  generate_dataset --out out/s --mode slant_range --chip 5 --pixels 128 --count 400\n"
         "  generate_dataset --out out/c --targets cylinder --mesh wreck=wreck.obj --seabeds mud,mixed");
     app.formatter(std::make_shared<plain_formatter>());
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.set_config("--config", "", "Read options from a TOML or INI file; the command line wins");
 
-    std::string target_size, aspect, tilt, burial, altitude, grazing;
+    std::string target_size, aspect, tilt, burial, altitude, grazing, distance, beam;
     const CLI::Validator target_names = CLI::IsMember({"cylinder", "cube", "cone", "sphere"});
     const CLI::Validator seabed_names = CLI::IsMember({"ripples", "mud", "rock", "sand", "mixed", "heightmap"});
 
@@ -145,7 +154,9 @@ inline options parse(int argc, char** argv) {
     app.add_option("--count", o.count, "How many images (24)")->group(what);
     app.add_option("--first", o.first, "Index of the first image (0)")->group(what);
     app.add_option("--seed", o.seed, "Another seed is another data set (1)")->group(what);
-    app.add_option("--size", o.size, "Pixels a side (2048)")->check(CLI::Range(16, 16384))->group(what);
+    app.add_option("--size,--pixels", o.size, "Pixels a side (2048; 128 for a sonar's modes)")
+        ->check(CLI::Range(16, 16384))
+        ->group(what);
     app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a byte")
         ->check(CLI::Range(0, 1024))
         ->group(what);
@@ -174,9 +185,21 @@ inline options parse(int argc, char** argv) {
     app.add_option("--tilt", tilt, "Range: pitch and roll, degrees (-3:3)")->group(scene);
     app.add_option("--burial", burial, "Range: share of the height that is buried (0.1:0.3)")->group(scene);
 
-    const char* const rig = "Camera and light";
-    app.add_option("--altitude", altitude, "Range: metres above the sea floor (3.5:5)")->group(rig);
+    const char* const rig = "Camera and light, or sonar";
+    app.add_option("--mode", o.mode,
+                   "overhead: the paper's camera and light; slant_range: as a side-scan sonar hears it;\n"
+                   "ground_range: the same laid out on the bottom (overhead)")
+        ->check(CLI::IsMember({"overhead", "ground_range", "slant_range"}))
+        ->group(rig);
+    app.add_option("--chip", o.chip,
+                   "Metres a side, the target a third from the left; range grows to the right\n"
+                   "(overhead: 0, all that the camera sees; a sonar's modes: 5)")
+        ->check(CLI::Range(0.0, 1e4))
+        ->group(rig);
+    app.add_option("--altitude", altitude, "Range: metres above the sea floor (3.5:5; a sonar's: 3:10)")->group(rig);
     app.add_option("--grazing", grazing, "Range: light above the sea floor, degrees (6)")->group(rig);
+    app.add_option("--distance", distance, "Range: of the target from a sonar's track, in altitudes (2:9)")->group(rig);
+    app.add_option("--beam", beam, "Range: width of a sonar's beam along the track, degrees (0.2:0.5)")->group(rig);
     app.add_option("--intensity", o.intensity, "Light on a surface that faces it (4)")
         ->check(CLI::NonNegativeNumber)
         ->group(rig);
@@ -190,7 +213,10 @@ inline options parse(int argc, char** argv) {
                    "Real image or folder of images to match histograms with; repeat for more")
         ->check(CLI::ExistingPath)
         ->group(look);
-    app.add_option("--noise", o.noise, "none, or a chain: speckle:0.1,gaussian:0.01,poisson:255,rayleigh (speckle:0.1)")
+    app.add_option(
+           "--noise", o.noise,
+           "none, or a chain: speckle:0.1,gaussian:0.01,poisson:255,rayleigh; seabed, of a sonar's modes alone,\n"
+           "is speckle that depends on the type of bottom (speckle:0.1; a sonar's: seabed)")
         ->delimiter(',')
         ->group(look);
     app.add_option("--colormap", o.colormap, "gray or copper (gray)")
@@ -199,6 +225,13 @@ inline options parse(int argc, char** argv) {
 
     try {
         app.parse(argc, argv);
+        const auto given = [&](const char* name) { return !app.get_option(name)->empty(); };
+        if (!o.is_overhead()) {
+            if (!given("--size")) o.size = 128;
+            if (o.chip == 0) o.chip = 5;
+            if (!given("--noise")) o.noise = {"seabed"};
+            o.altitude = {3, 10};
+        }
         const auto take = [](const char* name, const std::string& text, range& into, double lowest, double highest) {
             if (!text.empty()) into = parse_range(name, text);
             if (into.low < lowest || into.high > highest)
@@ -211,7 +244,11 @@ inline options parse(int argc, char** argv) {
         take("--burial", burial, o.burial, 0, 0.95);
         take("--altitude", altitude, o.altitude, 1e-2, 1e4);
         take("--grazing", grazing, o.grazing, 0.01, 90);
-        noise_steps(o);
+        take("--distance", distance, o.distance, 0, 1e3);
+        take("--beam", beam, o.beam, 1e-3, 20);
+        for (const noise_step& step : noise_steps(o))
+            if (step.kind == "seabed" && o.is_overhead())
+                throw CLI::ValidationError("--noise", "'seabed' is for the sonar's modes: --mode slant_range");
         for (const std::string& mesh : o.meshes)
             if (mesh.find('=') == std::string::npos || mesh.front() == '=' || mesh.back() == '=' ||
                 mesh.substr(0, mesh.find('=')).find_first_of("/\\ .") != std::string::npos)
@@ -226,7 +263,7 @@ inline options parse(int argc, char** argv) {
     }
     if (o.demo) {
         if (app.get_option("--count")->empty()) o.count = 24;
-        if (app.get_option("--noise")->empty()) o.noise = {"speckle:0.05"};
+        if (app.get_option("--noise")->empty() && o.is_overhead()) o.noise = {"speckle:0.05"};
     }
     return o;
 }

@@ -21,6 +21,10 @@ struct plan {
     double place_x, place_y;                        ///< of the rig in the world, metres
     std::uint64_t seabed_seed, noise_seed;
     double relief, wavelength, direction;  ///< of the seabed: in [0, 1], metres, radians
+    double distance, beam;                 ///< of the target from a sonar's track, altitudes; radians
+    bool port;                             ///< which side of a sonar's track it is on
+    double third, halfway;                 ///< where a chip has the target, in chips from its left and lower edges
+    double noise, white;                   ///< of a sonar: what is heard in a shadow, and what is shown as white
 
     std::string id() const {
         std::string digits = std::to_string(index);
@@ -71,6 +75,13 @@ inline plan plan_image(const options& o, std::size_t index, std::size_t referenc
     p.relief = random.uniform();
     p.wavelength = random.uniform(0.5, 1.1);
     p.direction = random.uniform(0, full_turn);
+    p.distance = from(o.distance);
+    p.beam = radians(from(o.beam));
+    p.port = random.uniform() < 0.5;
+    p.third = random.uniform(0.28, 0.38);
+    p.halfway = random.uniform(0.42, 0.58);
+    p.noise = random.uniform(0.003, 0.03);
+    p.white = random.uniform(4, 12);
     return p;
 }
 

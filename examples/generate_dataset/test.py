@@ -2,7 +2,9 @@
 """Runs the generator as a user would, and worse: test.py <generate_dataset>"""
 
 import hashlib
+import csv
 import json
+import math
 import os
 import pathlib
 import random
@@ -109,6 +111,65 @@ class Generator(unittest.TestCase):
             "--heightmap-scale", 0.2)
         self.assertEqual(len(list((self.folder / "a" / "images" / "tetra").glob("*.png"))), 2)
 
+    def read_labels(self, folder):
+        """The manifest's rows, with the boxes of the target and of its shadow."""
+        coco = json.loads((folder / "annotations.json").read_text())
+        kinds = {c["id"]: c["supercategory"] for c in coco["categories"]}
+        boxes = {(a["image_id"], kinds[a["category_id"]]): a["bbox"] for a in coco["annotations"]}
+        for row in csv.DictReader((folder / "manifest.csv").read_text().splitlines()):
+            values = {name: value if name in ("file", "class", "seabed", "mode", "shadow_is_cut") else float(value)
+                      for name, value in row.items()}
+            index = int(row["index"])
+            yield values, boxes.get((index, "target")), boxes.get((index, "shadow"))
+
+    def test_labels_of_every_mode_say_what_closed_forms_say(self):
+        # A sphere that lies on level sand: r, and z, the height of its middle, are all there is to know.
+        checked = {}
+        for mode in "overhead", "ground_range", "slant_range":
+            run("--out", self.folder / mode, "--mode", mode, "--chip", 6, "--pixels", 256, "--count", 12, "--seed", 2,
+                "--targets", "sphere", "--seabeds", "sand", "--tilt", 0, "--burial", 0, "--aspect", 1, "--noise", "none",
+                "--altitude", "4:8", "--distance", "2:5", "--target-size", "0.5:0.8", "--grazing", "14:25")
+            for v, target, shadow in self.read_labels(self.folder / mode):
+                pixel, r, z = v["metres_per_pixel"], v["target_size_m"] / 2, v["target_z_m"]
+                a, x, slant = v["altitude_m"], v["ground_range_m"], mode == "slant_range"
+                self.assertAlmostEqual(pixel, 6 / 256, places=3 if mode == "overhead" else 6)
+                if mode == "overhead":  # the light's ray that touches the sphere, and the camera's
+                    grazing = math.radians(v["grazing_deg"])
+                    tip = x + z / math.tan(grazing) + r / math.sin(grazing)
+                    first = -a * math.tan(math.atan2(-x, a - z) + math.asin(r / math.hypot(x, a - z)))
+                else:
+                    distance = math.hypot(x, a - z)
+                    touching = math.atan2(a - z, x) - math.asin(r / distance)
+                    tip = a / math.sin(touching) if slant else a / math.tan(touching)
+                    # In a map, the nearest point that is seen is that of the sphere's own side.
+                    first = distance - r if slant else x - r
+                    self.assertAlmostEqual(v["grazing_deg"], math.degrees(math.atan2(a, x)), places=4)
+                    self.assertAlmostEqual(v["slant_range_m"], math.hypot(a, x), places=4)
+                column = (first - v["left_edge_m"]) / pixel
+                self.assertAlmostEqual(target[0], column, delta=2, msg=f"{mode} {v}")
+                middle = target[1] + target[3] / 2
+                self.assertTrue(0.4 * 256 < middle < 0.6 * 256)
+                self.assertAlmostEqual(target[0], 256 / 3, delta=40)
+                if v["shadow_is_cut"] == "true":
+                    continue
+                # Sand is rough, by 4 mm: so many pixels more or less where its shadow ends.
+                rough = 3 * 0.004 / math.tan(math.radians(v["grazing_deg"])) / pixel
+                end = (tip - v["left_edge_m"]) / pixel
+                self.assertAlmostEqual(shadow[0] + shadow[2], end, delta=1.5 + rough, msg=f"{mode} {v}")
+                self.assertAlmostEqual(v["shadow_measured_m"], v["shadow_m"], delta=(2 + rough) * pixel)
+                checked[mode] = checked.get(mode, 0) + 1
+        for mode in "overhead", "ground_range", "slant_range":
+            self.assertGreaterEqual(checked.get(mode, 0), 4, mode)
+
+    def test_every_mode_has_masks_and_the_same_bytes_for_any_number_of_threads(self):
+        for mode in "ground_range", "slant_range":
+            options = ["--mode", mode, "--pixels", 64, "--count", 6, "--seabeds", "mixed,rock"]
+            run("--out", self.folder / f"{mode}1", "--threads", 1, *options)
+            run("--out", self.folder / f"{mode}3", "--threads", 3, *options)
+            self.assertEqual(digest(self.folder / f"{mode}1"), digest(self.folder / f"{mode}3"))
+            for kind in "target", "shadow", "seabed":
+                self.assertEqual(len(list((self.folder / f"{mode}1" / "masks").glob(f"*_{kind}.png"))), 6)
+
     def test_options_come_from_a_file_too(self):
         (self.folder / "set.toml").write_text('size = 64\ncount = 2\nseed = 9\ntargets = ["cone"]\n')
         run("--config", self.folder / "set.toml", "--out", self.folder / "a")
@@ -125,6 +186,8 @@ class Generator(unittest.TestCase):
         refused("low is above high", *out, "--altitude", "6:4")
         refused("neither a number nor a range", *out, "--grazing", "steep")
         refused("must lie within", *out, "--grazing", "0")
+        refused("for the sonar's modes", *out, "--noise", "seabed")
+        refused("sideways", *out, "--mode", "sideways")
         refused("is not CLASS=FILE", *out, "--mesh", "wreck.obj")
         refused("does not exist", *out, "--reference", self.folder / "nowhere")
         self.assertFalse((self.folder / "a").exists())

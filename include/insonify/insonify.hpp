@@ -72,10 +72,26 @@
 #include <insonify/shadow/policy.hpp>
 #include <insonify/shadow/refined.hpp>
 #include <insonify/sonar/backscatter.hpp>
+#include <insonify/sonar/bottom_tiles.hpp>
+#include <insonify/sonar/display.hpp>
 #include <insonify/sonar/illumination.hpp>
 #include <insonify/sonar/labels.hpp>
+#include <insonify/sonar/ping_echo.hpp>
+#include <insonify/sonar/ping_fan.hpp>
+#include <insonify/sonar/range_geometry.hpp>
 #include <insonify/sonar/render.hpp>
 #include <insonify/sonar/rig.hpp>
 #include <insonify/sonar/scene.hpp>
+<<<<<<< HEAD
 #include <insonify/sonar/shading.hpp>
+=======
+#include <insonify/sonar/sediment.hpp>
+#include <insonify/sonar/side_scan.hpp>
+#include <insonify/sonar/slant_range.hpp>
+#include <insonify/sonar/slant_to_ground.hpp>
+#include <insonify/sonar/sonar_equation.hpp>
+#include <insonify/sonar/speckle.hpp>
+#include <insonify/sonar/swath.hpp>
+#include <insonify/sonar/target_slices.hpp>
+>>>>>>> slant
 #include <insonify/version.hpp>

@@ -141,6 +141,37 @@ void triangles() {
     }
 }
 
+/// Both sides of a track, with everything that a sonar does to them.
+template <in::across_track Axis>
+void record(const char* name, const in::seabed::any& seabed) {
+    const in::scene scene = scene_over(seabed);
+    const in::side_scan_rig<Axis> rig{
+        .position = {-3, -4}, .altitude = 3, .yaw = 0.4f, .ping_spacing = 0.1f, .pings = 90, .range = 14, .bins = 200};
+    const in::sonar_equation equation{in::transmission_loss{}, in::absorption{}, in::vertical_beam{},
+                                      in::horizontal_beam{},   in::pulse{0.2f},  in::noise_floor{1e-9f},
+                                      in::time_varied_gain{},  in::level_gain{}};
+    using options = in::record_options<in::labels, in::lambert_backscatter, std::remove_const_t<decltype(equation)>>;
+    const auto hash_by = [&](auto& executor) {
+        const auto swath = in::render_swath(scene, rig, options{.equation = equation}, executor);
+        hash h;
+        h.add(swath.image);
+        h.add(swath.labels.instance);
+        h.add(swath.labels.shadow);
+        h.add(swath.labels.seabed);
+        h.add(in::with_speckle(swath.image.view(), swath.labels.seabed.view(), {}, {}, executor) | in::display{});
+        return h;
+    };
+    in::serial_executor serial;
+    const hash expected = hash_by(serial);
+    print(name, expected);
+    for (const int threads : {2, 7}) {
+        in::thread_pool pool(threads);
+        if (hash_by(pool).value == expected.value) continue;
+        std::fprintf(stderr, "%s differs with %d threads\n", name, threads);
+        all_equal = false;
+    }
+}
+
 }  // namespace
 
 int main() {
@@ -152,5 +183,7 @@ int main() {
     render<in::shadow::none>("mud, no shadow", in::seabed::mud{});
     render<in::shadow::pcf>("rock, pcf", in::seabed::rock{});
     render<in::shadow::pcf>("blend, pcf", in::seabed::blend{});
+    record<in::across_track::slant_range>("blend, slant range", in::seabed::blend{});
+    record<in::across_track::ground_range>("rock, ground range", in::seabed::rock{});
     return all_equal ? 0 : 1;
 }

@@ -1,0 +1,107 @@
+// Contacts: where a target and its shadow are in the waterfall, and whether they are where geometry says.
+#pragma once
+
+#include "sonar.hpp"
+#include "streams.hpp"
+
+namespace survey {
+
+/// Where a target is in the waterfall: a box that grows until the target is out of sight.
+struct contact {
+    std::string class_name;
+    in::side side;
+    glm::dvec3 position;
+    double yaw, height;
+    std::int64_t first_ping = 0, last_ping = -1;
+    int first_bin = 1 << 30, last_bin = -1, shadow_end = -1;
+    std::int64_t area = 0, shadow_area = 0;
+    fix closest{};                ///< the ping from which it is abeam
+    double closest_along = 1e30;  ///< how far ahead or behind it was there, squared
+};
+
+/// All contacts in sight, and the table of those that were.
+class contact_list {
+  public:
+    explicit contact_list(const std::string& path)
+        : table_(path,
+                 "target,class,side,first_ping,last_ping,first_bin,last_bin,shadow_end_bin,target_px,shadow_px,x_m,y_m,"
+                 "height_m,range_m,altitude_m,grazing_deg,aspect_deg,shadow_theory_m,shadow_measured_m") {}
+
+    /// Looks through a block for targets and their shadows.
+    void look_at(const block& b, const sight& in_sight) {
+        const int bins = b.gray.width() / 2;
+        for (int row = 0; row < b.gray.height(); ++row)
+            for (int x = 0; x < 2 * bins; ++x) {
+                const std::uint16_t instance = b.labels.instance(x, row), shadow = b.labels.shadow(x, row);
+                const auto side = x < bins ? in::side::port : in::side::starboard;
+                const int bin = x < bins ? bins - 1 - x : x - bins;
+                const fix& at = b.pings[static_cast<std::size_t>(row)];
+                if (instance != in::labels::no_instance) {
+                    contact& c = seen(instance, side, at, in_sight);
+                    c.area += 1;
+                    c.first_bin = (std::min)(c.first_bin, bin);
+                    c.last_bin = (std::max)(c.last_bin, bin);
+                } else if (shadow != in::labels::is_lit && shadow != in::labels::by_seabed) {
+                    contact& c = seen(shadow, side, at, in_sight);
+                    c.shadow_area += 1;
+                    c.shadow_end = (std::max)(c.shadow_end, bin);
+                }
+            }
+    }
+
+    /// Writes and forgets contacts that have not been seen since a ping.
+    void close(std::int64_t before, const in::side_scan& rig) {
+        for (auto at = open_.begin(); at != open_.end();) {
+            if (at->second.last_ping >= before) {
+                ++at;
+                continue;
+            }
+            write(at->first.first, at->second, rig);
+            at = open_.erase(at);
+        }
+    }
+
+  private:
+    contact& seen(std::uint16_t number, in::side side, const fix& at, const sight& in_sight) {
+        const auto [entry, is_new] = open_.try_emplace({number, side});
+        contact& c = entry->second;
+        if (is_new) {
+            const auto instance = std::find(in_sight.numbers.begin() + 1, in_sight.numbers.end(), number);
+            const in::target& t =
+                in_sight.scene.targets[static_cast<std::size_t>(instance - in_sight.numbers.begin()) - 1];
+            c = {t.class_name, side, t.placement.position, static_cast<double>(t.placement.yaw), -1e30, at.number};
+            const in::affine place = in::to_world(t.placement);
+            for (const glm::vec3& v : t.shape.positions)
+                c.height = (std::max)(c.height, in::transform_point(place, v).z);
+        }
+        c.last_ping = at.number;
+        const double along = in::ping_frame(at.at, side)(c.position).y;
+        if (along * along < c.closest_along) c.closest_along = along * along, c.closest = at;
+        return c;
+    }
+
+    void write(std::uint16_t target, const contact& c, const in::side_scan& rig) {
+        if (c.area + c.shadow_area == 0) return;
+        namespace geometry = in::range_geometry;
+        const double altitude = c.closest.at.position.z;
+        const double ground = in::ping_frame(c.closest.at, c.side)(c.position).x;
+        const double turn = 2 * in::numeric::pi, off = (c.yaw - c.closest.at.yaw) / turn;
+        const double aspect = turn * (off - static_cast<double>(in::numeric::floor_to_int(off)));
+        const double echo = geometry::slant_range(ground, altitude, c.height);
+        const double measured = c.shadow_end < 0 ? 0 : (c.shadow_end + 1) * rig.bin() - echo;
+        table_.line(std::to_string(target) + "," + c.class_name + (c.side == in::side::port ? ",port" : ",starboard") +
+                    "," + std::to_string(c.first_ping) + "," + std::to_string(c.last_ping) +
+                    format(",%d,%d,%d", c.first_bin, c.last_bin, c.shadow_end) + "," + std::to_string(c.area) + "," +
+                    std::to_string(c.shadow_area) +
+                    format(",%.3f,%.3f,%.3f,%.3f,%.3f,%.2f,%.1f,%.3f,%.3f", c.position.x, c.position.y, c.height,
+                           geometry::slant_range(ground, altitude), altitude,
+                           in::numeric::to_degrees(geometry::grazing_angle(ground, altitude)),
+                           in::numeric::to_degrees(aspect), geometry::slant_shadow_length(ground, altitude, c.height),
+                           measured));
+    }
+
+    std::map<std::pair<std::uint16_t, in::side>, contact> open_;
+    csv_stream table_;
+};
+
+}  // namespace survey

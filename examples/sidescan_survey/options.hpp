@@ -1,0 +1,69 @@
+// What a survey shall be: everything that the command line can say.
+#pragma once
+
+#include <insonify/insonify.hpp>
+
+#include "vehicle.hpp"
+#include <CLI/CLI.hpp>
+
+namespace survey {
+
+struct options {
+    std::string out, waypoints, bottom = "ripples+mud";
+    double length = 60, width = 80, between = 40;
+    handling driving{};
+    double range = 30, beam = 0.3, targets = 0.5;
+    int bins = 1024, page = 1024, threads = 0;
+    std::uint64_t seed = 1;
+};
+
+inline options parse(int argc, char** argv) {
+    options o;
+    CLI::App app{"Runs a side-scan survey and writes its waterfall, labels, navigation, contacts and map.",
+                 "sidescan_survey"};
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    app.add_option("--out", o.out, "Folder; made if need be")->required();
+    app.add_option("--waypoints", o.waypoints, "File of lines x,y in metres; otherwise legs to and fro");
+    app.add_option("--length", o.length, "Of a leg, metres (60)")->check(CLI::Range(1.0, 1e6));
+    app.add_option("--width", o.width, "Of the surveyed area, metres (80)")->check(CLI::Range(0.0, 1e6));
+    app.add_option("--between", o.between, "From leg to leg, metres (40)")->check(CLI::Range(1.0, 1e6));
+    app.add_option("--speed", o.driving.speed, "Metres per second (1.5)")->check(CLI::Range(0.01, 100.0));
+    app.add_option("--ping-rate", o.driving.ping_rate, "Per second (15)")->check(CLI::Range(0.1, 1000.0));
+    app.add_option("--turn-rate", o.driving.turn_rate, "Degrees per second at most (6)")
+        ->check(CLI::Range(0.1, 360.0));
+    app.add_option("--altitude", o.driving.altitude, "Metres (6)")->check(CLI::Range(0.1, 1000.0));
+    app.add_option("--altitude-change", o.driving.altitude_change, "Slow rise and fall, metres (1.5)");
+    app.add_option("--heave", o.driving.heave, "Rise and fall with the swell, metres (0.15)");
+    app.add_option("--range", o.range, "Of each side, metres (30)")->check(CLI::Range(1.0, 1e4));
+    app.add_option("--bins", o.bins, "Of each side (1024)")->check(CLI::Range(8, 65536));
+    app.add_option("--beam", o.beam, "Width along the track, degrees (0.3)")->check(CLI::Range(1e-3, 20.0));
+    app.add_option("--targets", o.targets, "How many, per square of 10 m (0.5)")->check(CLI::Range(0.0, 1.0));
+    app.add_option("--bottom", o.bottom, "ripples+mud, ripples+sand, sand+rock or mud+rock (ripples+mud)")
+        ->check(CLI::IsMember({"ripples+mud", "ripples+sand", "sand+rock", "mud+rock"}));
+    app.add_option("--page", o.page, "Rows of a page (1024)")->check(CLI::Range(16, 16384));
+    app.add_option("--seed", o.seed, "Another seed is another seabed, with other targets (1)");
+    app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a byte");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        std::exit(app.exit(error) == 0 ? 0 : 2);
+    }
+    return o;
+}
+
+/// The seabed that the options name.
+inline in::seabed::any bottom_of(const options& o) {
+    const auto kind = [&](const std::string& name) -> in::seabed::simple {
+        if (name == "ripples") return in::seabed::ripples{.wavelength = 0.7f, .height = 0.05f, .seed = o.seed};
+        if (name == "mud") return in::seabed::mud{.seed = o.seed};
+        if (name == "rock") return in::seabed::rock{.seed = o.seed};
+        return in::seabed::flat{.seed = o.seed};
+    };
+    const std::size_t plus = o.bottom.find('+');
+    return in::seabed::blend{.first = kind(o.bottom.substr(0, plus)),
+                             .second = kind(o.bottom.substr(plus + 1)),
+                             .patch = 18,
+                             .seed = o.seed};
+}
+
+}  // namespace survey

@@ -1,0 +1,73 @@
+// The sonar: what a block of pings sounds like, on both sides.
+#pragma once
+
+#include "field.hpp"
+#include "options.hpp"
+
+namespace survey {
+
+/// Some pings in a row: gray values and labels, a row per ping, port to the left. Targets have their contact numbers.
+struct block {
+    std::span<const fix> pings;
+    in::image<std::uint8_t> gray;
+    in::labels labels;
+};
+
+class sonar {
+  public:
+    sonar(const options& o, double spacing)
+        : rig_{.altitude = static_cast<float>(o.driving.altitude),
+               .ping_spacing = static_cast<float>(spacing),
+               .range = static_cast<float>(o.range),
+               .bins = o.bins},
+          beam_{static_cast<float>(in::numeric::to_radians(o.beam))},
+          speckle_{.seed = o.seed} {}
+
+    const in::side_scan& rig() const { return rig_; }
+    /// How many pings before and after it a ping shares its beam with.
+    int halo() const {
+        return static_cast<int>(beam_.reach(static_cast<double>(rig_.range)) / static_cast<double>(rig_.ping_spacing));
+    }
+
+    /// Hears `count` pings from the first + `before` on; the others are there for the beam.
+    block hear(const sight& in_sight, std::span<const fix> pings, int before, int count, auto& ex) {
+        const in::sonar_equation equation{
+            in::transmission_loss{},   in::absorption{}, in::vertical_beam{.side_lobes = 0.01f}, beam_, in::pulse{},
+            in::noise_floor{2.5e-13f}, in::level_gain{}};
+        using all = in::record_options<in::labels, in::lambert_backscatter, std::remove_const_t<decltype(equation)>>;
+        std::vector<in::ping> track;
+        for (const fix& f : pings) track.push_back(f.at);
+        const auto side = [&](in::side looks) {
+            rig_.side = looks;
+            auto heard =
+                in::record(in_sight.scene, std::span<const in::ping>(track), rig_, all{.equation = equation}, ex);
+            const auto cut = [&](auto& picture) {
+                picture =
+                    std::remove_reference_t<decltype(picture)>(picture.view().part(0, before, picture.width(), count));
+            };
+            cut(heard.image);
+            cut(heard.labels.instance);
+            cut(heard.labels.shadow);
+            cut(heard.labels.seabed);
+            heard.image = in::with_speckle(heard.image.view(), heard.labels.seabed.view(), speckle_,
+                                           {pings[static_cast<std::size_t>(before)].number, 1, looks}, ex);
+            return heard;
+        };
+        auto both = in::both_sides(side(in::side::port), side(in::side::starboard));
+        const auto global = [&](std::uint16_t& i) {
+            if (i != in::labels::by_seabed) i = in_sight.numbers[i];
+        };
+        for (std::uint16_t& i : both.labels.instance.pixels()) global(i);
+        for (std::uint16_t& i : both.labels.shadow.pixels()) global(i);
+        return {pings.subspan(static_cast<std::size_t>(before), static_cast<std::size_t>(count)),
+                in::apply(in::apply(std::move(both.image), in::display{.white = 6}, ex), in::to_uint8, ex),
+                std::move(both.labels)};
+    }
+
+  private:
+    in::side_scan rig_;
+    in::horizontal_beam beam_;
+    in::seabed_speckle speckle_;
+};
+
+}  // namespace survey

@@ -1,0 +1,93 @@
+// Files that grow by the row: pictures of which only the width is kept in memory, and tables.
+#pragma once
+
+#include <insonify/insonify.hpp>
+#include <insonify/io/png.hpp>
+
+#include <cstdio>
+#include <fstream>
+
+namespace survey {
+
+namespace in = insonify;
+
+/// A binary PGM whose rows are appended; the number of rows is known before.
+class pgm_stream {
+  public:
+    pgm_stream(const std::string& path, int width, std::int64_t height, int largest)
+        : path_(path), file_(path, std::ios::binary) {
+        file_ << "P5\n" << width << ' ' << height << '\n' << largest << '\n';
+        check();
+    }
+    void row(std::span<const std::uint8_t> pixels) {
+        file_.write(reinterpret_cast<const char*>(pixels.data()), static_cast<std::streamsize>(pixels.size()));
+        check();
+    }
+    /// 16 bits, the high one first, as PGM wants it.
+    void row(std::span<const std::uint16_t> pixels) {
+        bytes_.clear();
+        for (const std::uint16_t p : pixels) {
+            bytes_.push_back(static_cast<std::uint8_t>(p >> 8));
+            bytes_.push_back(static_cast<std::uint8_t>(p & 0xFF));
+        }
+        row(std::span<const std::uint8_t>(bytes_));
+    }
+
+  private:
+    void check() {
+        if (!file_) throw in::io_error(path_ + ": can't be written");
+    }
+    std::string path_;
+    std::ofstream file_;
+    std::vector<std::uint8_t> bytes_;
+};
+
+/// A table whose lines are appended.
+class csv_stream {
+  public:
+    csv_stream(const std::string& path, const std::string& header) : path_(path), file_(path) { line(header); }
+    void line(const std::string& text) {
+        file_ << text << '\n';
+        if (!file_) throw in::io_error(path_ + ": can't be written");
+    }
+
+  private:
+    std::string path_;
+    std::ofstream file_;
+};
+
+/// Text of numbers, printf's way.
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+    char text[512];
+    std::snprintf(text, sizeof text, pattern, values...);
+    return text;
+}
+
+/// Keeps the last rows and writes them as a picture when there are enough: gray, and copper to look at.
+class pages {
+  public:
+    pages(const std::string& folder, int width, int height) : folder_(folder), page_(width, height) {}
+
+    void row(std::span<const std::uint8_t> pixels) {
+        std::copy(pixels.begin(), pixels.end(), page_.row(used_).begin());
+        if (++used_ == page_.height()) finish();
+    }
+    /// Writes what there is.
+    void finish() {
+        if (used_ == 0) return;
+        const in::image<std::uint8_t> part(page_.view().part(0, 0, page_.width(), used_));
+        const std::string name = folder_ + format("/page_%04d", count_++);
+        in::write_png(name + ".png", part);
+        const auto gray = in::map_pixels(part, [](std::uint8_t p) { return static_cast<float>(p) / 255; });
+        in::write_png(name + "_copper.png", gray | in::colormap::copper);
+        used_ = 0;
+    }
+
+  private:
+    std::string folder_;
+    in::image<std::uint8_t> page_;
+    int used_ = 0, count_ = 0;
+};
+
+}  // namespace survey

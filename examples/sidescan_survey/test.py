@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""Runs a small survey and reads back what it left: test.py <sidescan_survey>"""
+
+import csv
+import hashlib
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SURVEY = sys.argv.pop(1)
+RANGE, BINS = 20, 256
+SMALL = ["--length", "15", "--width", "20", "--between", "20", "--range", RANGE, "--bins", BINS, "--page", "100",
+         "--turn-rate", "30", "--altitude", "4", "--altitude-change", "1", "--seed", "4"]
+
+
+def run(*options, expect=0):
+    result = subprocess.run([SURVEY, *map(str, options)], capture_output=True, text=True, timeout=300)
+    assert result.returncode == expect, f"exit {result.returncode}, expected {expect}:\n{result.stdout}{result.stderr}"
+    return result.stdout + result.stderr
+
+
+def digest(folder):
+    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+            for path in sorted(pathlib.Path(folder).rglob("*")) if path.is_file()}
+
+
+def read_pgm(path):
+    """Rows of numbers."""
+    data = path.read_bytes()
+    magic, size, largest, pixels = data.split(b"\n", 3)
+    width, height = map(int, size.split())
+    depth = 2 if int(largest) > 255 else 1
+    assert magic == b"P5" and len(pixels) == width * height * depth, path
+    row = width * depth
+    return [[int.from_bytes(pixels[y * row + x:y * row + x + depth], "big") for x in range(0, row, depth)]
+            for y in range(height)]
+
+
+class Survey(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = pathlib.Path(self.scratch.name)
+
+    def test_the_same_bytes_for_any_number_of_threads(self):
+        for threads in 1, 3:
+            run("--out", self.folder / f"t{threads}", "--threads", threads, *SMALL)
+        self.assertEqual(digest(self.folder / "t1"), digest(self.folder / "t3"))
+
+    def test_waterfall_labels_and_navigation_tell_one_story(self):
+        run("--out", self.folder, *SMALL)
+        track = list(csv.DictReader((self.folder / "navigation.csv").read_text().splitlines()))
+        image = read_pgm(self.folder / "waterfall.pgm")
+        targets = read_pgm(self.folder / "targets.pgm")
+        shadows = read_pgm(self.folder / "shadows.pgm")
+        seabed = read_pgm(self.folder / "seabed.pgm")
+        for rows in image, targets, shadows, seabed:
+            self.assertEqual((len(rows), len(rows[0])), (len(track), 2 * BINS))
+        self.assertGreater(len({round(float(p["heading_deg"])) for p in track}), 20)  # it turns
+
+        # The first return is the bottom right below, on both sides: relief and targets may come before.
+        late = 0
+        for row, ping in zip(seabed, track):
+            expected = float(ping["altitude_over_bottom_m"]) / RANGE * BINS
+            starboard = next(b for b in range(BINS) if row[BINS + b] != 255)
+            port = next(b for b in range(BINS) if row[BINS - 1 - b] != 255)
+            self.assertAlmostEqual(port, starboard, delta=3)
+            self.assertLess(starboard, expected + 1)
+            late += expected - starboard > 4
+        self.assertLess(late, len(track) / 10)
+        for row, ping in zip(image, track):  # dark before it
+            quiet = int(0.8 * float(ping["altitude_over_bottom_m"]) / RANGE * BINS)
+            self.assertLess(sum(row[BINS - quiet:BINS + quiet]) / (2 * quiet), 12)
+
+    def test_contacts_are_where_the_labels_are_and_as_high_as_their_shadows_say(self):
+        run("--out", self.folder, *SMALL, "--length", "40", "--targets", "1", "--bottom", "ripples+mud", "--heave", "0")
+        targets = read_pgm(self.folder / "targets.pgm")
+        contacts = list(csv.DictReader((self.folder / "contacts.csv").read_text().splitlines()))
+        self.assertGreater(len(contacts), 8)
+        self.assertEqual({c["side"] for c in contacts}, {"port", "starboard"})
+        checked = 0
+        for c in contacts:
+            first, last = int(c["first_bin"]), int(c["last_bin"])
+            number, area = int(c["target"]), 0
+            for y in range(int(c["first_ping"]), int(c["last_ping"]) + 1):
+                side = targets[y][BINS:] if c["side"] == "starboard" else targets[y][BINS - 1::-1]
+                found = [b for b, i in enumerate(side) if i == number]
+                area += len(found)
+                self.assertTrue(all(first <= b <= last for b in found))
+            self.assertEqual(area, int(c["target_px"]))
+            # Far from nadir and whole, a sphere's shadow is a little longer than that of a point as high as it.
+            if c["class"] == "sphere" and int(c["shadow_end_bin"]) < BINS - 1 and float(c["grazing_deg"]) < 35:
+                self.assertAlmostEqual(float(c["shadow_measured_m"]), 1.06 * float(c["shadow_theory_m"]),
+                                       delta=0.1 * float(c["shadow_theory_m"]) + 0.1)
+                checked += 1
+        self.assertGreaterEqual(checked, 3)
+
+    def test_a_longer_track_takes_no_more_memory(self):
+        def most_memory(length):
+            code = ("import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL);"
+                    "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)")
+            options = ["--out", self.folder / f"l{length}", "--length", length, "--width", 0, "--range", RANGE, "--bins",
+                       128, "--page", 64, "--altitude-change", 0, "--threads", 1]
+            return int(subprocess.run([sys.executable, "-c", code, SURVEY, *map(str, options)], capture_output=True,
+                                      text=True, check=True).stdout)
+        short, long = most_memory(60), most_memory(600)
+        self.assertLess(long, 1.25 * short)
+
+    def test_way_points_come_from_a_file_and_nonsense_is_refused(self):
+        (self.folder / "points.csv").write_text("# x,y\n0,0\n0,10\n8,10\n")
+        out = ["--out", self.folder / "a", "--range", RANGE, "--bins", BINS, "--turn-rate", 60]
+        run(*out, "--waypoints", self.folder / "points.csv")
+        track = list(csv.DictReader((self.folder / "a" / "navigation.csv").read_text().splitlines()))
+        self.assertLess(abs(float(track[-1]["x_m"]) - 8), 2.5)
+        self.assertLess(abs(float(track[-1]["y_m"]) - 10), 2.5)
+        (self.folder / "points.csv").write_text("here,there\n")
+        self.assertIn("is not x,y", run(*out, "--waypoints", self.folder / "points.csv", expect=1))
+        self.assertIn("can't be read", run(*out, "--waypoints", self.folder / "nowhere", expect=1))
+        self.assertIn("lava", run(*out, "--bottom", "lava", expect=2))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])

@@ -1,0 +1,109 @@
+// The vehicle: steers from way-point to way-point, heaves, and pings.
+#pragma once
+
+#include <insonify/sonar/side_scan.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+namespace survey {
+
+namespace in = insonify;
+
+/// How it moves. Lengths are metres, times seconds.
+struct handling {
+    double speed = 1.5, ping_rate = 15;
+    double turn_rate = 6;          ///< degrees per second at most
+    double altitude = 6;           ///< above the datum, on average
+    double altitude_change = 1.5;  ///< it rises and sinks by so much, slowly
+    double heave = 0.15;           ///< and by so much with the swell
+    double heave_period = 7;
+    double arrival = 2;  ///< a way-point is reached so near
+};
+
+/// One ping and when it was sent.
+struct fix {
+    std::int64_t number;
+    double time;
+    in::ping at;
+};
+
+/// Legs side by side, ploughed to and fro, within length x width metres from the origin.
+inline std::vector<glm::dvec2> lawnmower(double length, double width, double between) {
+    std::vector<glm::dvec2> points;
+    bool forwards = true;
+    for (double x = 0; x <= width + 1e-9; x += between, forwards = !forwards)
+        for (const double y : {forwards ? 0.0 : length, forwards ? length : 0.0}) points.emplace_back(x, y);
+    return points;
+}
+
+/// Way-points from a file of lines "x,y".
+/// @throws io_error for a file that can't be read or a line that isn't two numbers
+inline std::vector<glm::dvec2> read_waypoints(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) throw in::io_error(path + ": can't be read");
+    std::vector<glm::dvec2> points;
+    for (std::string line; std::getline(file, line);) {
+        if (line.empty() || line[0] == '#') continue;
+        double x = 0, y = 0;
+        if (std::sscanf(line.c_str(), "%lf,%lf", &x, &y) != 2)
+            throw in::io_error(path + ": \"" + line + "\" is not x,y");
+        points.emplace_back(x, y);
+    }
+    if (points.size() < 2) throw in::io_error(path + ": two way-points are needed at least");
+    return points;
+}
+
+/// Goes along a list of way-points, a ping at a time; what it remembers doesn't grow.
+class vehicle {
+  public:
+    vehicle(const handling& h, std::span<const glm::dvec2> points) : how_(h), points_(points), place_(points[0]) {
+        yaw_ = wanted();
+    }
+
+    /// @returns whether there was another ping before the last way-point
+    bool ping(fix& f) {
+        while (next_ < points_.size() && is_there()) ++next_;
+        if (next_ >= points_.size()) return false;
+        const double step = 1 / how_.ping_rate, time = static_cast<double>(number_) * step;
+        // The shorter way round, as fast as it can.
+        const double turn = 2 * in::numeric::pi, most = in::numeric::to_radians(how_.turn_rate) * step;
+        double off = wanted() - yaw_;
+        off -= turn * static_cast<double>(in::numeric::floor_to_int(off / turn + 0.5));
+        yaw_ += (std::min)((std::max)(off, -most), most);
+        const auto [sine, cosine] = in::numeric::sin_cos(yaw_);
+        place_ += how_.speed * step * glm::dvec2(-sine, cosine);
+
+        const auto wave = [&](double period) { return in::numeric::sin_cos_turns(time / period).sine; };
+        const double z =
+            how_.altitude + how_.altitude_change * wave(11 * how_.heave_period) + how_.heave * wave(how_.heave_period);
+        f = {number_++, time, {{place_.x, place_.y, z}, yaw_}};
+        return true;
+    }
+
+    double spacing() const { return how_.speed / how_.ping_rate; }
+
+  private:
+    double wanted() const {
+        const glm::dvec2 to = points_[(std::min)(next_, points_.size() - 1)] - place_;
+        return in::numeric::atan2(-to.x, to.y);
+    }
+    /// Reached, or passed: what lies within the turning circle can't be steered for.
+    bool is_there() const {
+        const glm::dvec2 to = points_[next_] - place_;
+        const auto [sine, cosine] = in::numeric::sin_cos(yaw_);
+        const double distance = in::numeric::square_root(to.x * to.x + to.y * to.y);
+        const double circle = 2 * how_.speed / in::numeric::to_radians(how_.turn_rate);
+        return distance < how_.arrival || (distance < circle && -to.x * sine + to.y * cosine < 0);
+    }
+
+    handling how_;
+    std::span<const glm::dvec2> points_;
+    glm::dvec2 place_;
+    double yaw_ = 0;
+    std::size_t next_ = 1;
+    std::int64_t number_ = 0;
+};
+
+}  // namespace survey

@@ -1,0 +1,258 @@
+// Speckle that belongs to the seabed: how echoes fluctuate depends on what the bottom is, and a ping's speckle is the
+// same whenever it is recorded.
+//
+// The fluctuation of a bin is a function of (seed, side, ping number, bin) and nothing else: recordings made in pieces
+// fit together, and the two sides are independent.
+//
+// Based on: E. Jakeman, P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation
+// 24, 1976 (the K-distribution). George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM
+// Transactions on Mathematical Software 26, 2000.
+#pragma once
+
+#include <insonify/core/executor.hpp>
+#include <insonify/core/random.hpp>
+#include <insonify/sonar/slant_range.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// How an intensity fluctuates around its mean, which stays what it was. As it is: Rayleigh amplitudes, exponential
+/// intensities. The scintillation index, variance / mean^2 of the intensity, is
+/// (1 + 1 / texture) (1 + (1 + 2 steady) / (looks (1 + steady)^2)) - 1.
+struct speckle_law {
+    int looks = 1;  ///< independent intensities that are averaged: 1 to 64
+    float texture =
+        0;  ///< shape of the gamma-distributed mean of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: none
+    float steady = 0;  ///< power of a steady echo among the others, over theirs: Rician amplitudes
+};
+
+/// Speckle by type of seabed. The defaults are illustrative: relief that is drawn makes its own fluctuations, so
+/// ripples take plain Rayleigh, and a texture stands for structure finer than the seabed is sampled.
+struct seabed_speckle {
+    std::array<speckle_law, 4> bottom{{{1, 15, 0}, {1, 0, 0}, {1, 0, 1}, {1, 1.5f, 0}}};  ///< by seabed::type
+    speckle_law elsewhere{};   ///< where the labels name no seabed: targets, and noise in the water column
+    float along_track = 1;     ///< pings at which the correlation of intensities has fallen to 1 / e, 0 to 16
+    float across_track = 1;    ///< the same in bins
+    float texture_length = 3;  ///< pings and bins over which a texture stays the same, 1 to 1024
+    std::uint64_t seed = 1;
+};
+
+/// Which speckle the rows of a picture have.
+struct ping_numbers {
+    std::int64_t first = 0;  ///< of the top row
+    int step = 1;            ///< from row to row
+    insonify::side side = insonify::side::starboard;
+};
+
+/// Those of a picture that `render` made: its top row is the last ping.
+template <across_track Axis>
+ping_numbers numbers_of(const side_scan_rig<Axis>& rig) {
+    return {rig.pings - 1, -1, rig.side};
+}
+
+namespace detail {
+
+/// What a number is drawn for; part of what a seed means.
+enum class speckle_stream : std::uint32_t { field = 0x73706B00, texture = 0x73706B02, choice = 0x73706B04 };
+
+/// Draws that are told apart by ping and bin.
+class ping_noise {
+  public:
+    ping_noise(std::uint64_t seed, side s, speckle_stream stream)
+        : key_(stream_key(seed, static_cast<std::uint32_t>(stream) + static_cast<std::uint32_t>(s))) {}
+
+    philox_counter operator()(std::int64_t ping, std::uint32_t bin, std::uint32_t draw) const {
+        const auto number = static_cast<std::uint64_t>(ping);
+        return philox4x32({bin, static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32), draw},
+                          key_);
+    }
+
+  private:
+    philox_key key_;
+};
+
+/// A gamma-distributed number of mean one.
+template <class Draw>
+double gamma_of_mean_one(double shape, const Draw& draw) {
+    // Shapes below one are those of one more, times a power of a uniform number.
+    const double d = (shape < 1 ? shape + 1 : shape) - 1.0 / 3, c = 1 / numeric::square_root(9 * d);
+    for (std::uint32_t trial = 0;; ++trial) {
+        const philox_counter words = draw(trial);
+        const double x = normal_pair(words[0], words[1])[0], u = uniform_open(words[2]);
+        const double root = 1 + c * x, v = root * root * root;
+        if (!(v > 0) || !(numeric::log(u) < 0.5 * x * x + d * (1 - v + numeric::log(v)))) continue;
+        return d * v / shape * (shape < 1 ? numeric::pow(uniform_open(words[3]), 1 / shape) : 1);
+    }
+}
+
+/// The taps of a Gaussian filter under which white noise keeps its variance, from the middle outwards.
+inline std::vector<float> correlation_taps(double length) {
+    const double deviation = length * 0.70710678118654752;
+    std::vector<double> taps{1};
+    double square = 1;
+    for (int i = 1; i <= 3 * deviation; ++i) {
+        taps.push_back(numeric::exp(-0.5 * i * i / (deviation * deviation)));
+        square += 2 * taps.back() * taps.back();
+    }
+    std::vector<float> result;
+    for (const double tap : taps) result.push_back(static_cast<float>(tap / numeric::square_root(square)));
+    return result;
+}
+
+/// A complex Gaussian field of unit power, by rows; real and imaginary parts take turns.
+class speckle_field {
+  public:
+    speckle_field(const ping_noise& noise, const seabed_speckle& s, int bins)
+        : noise_(noise),
+          bins_(static_cast<std::size_t>(bins)),
+          across_(correlation_taps(static_cast<double>(s.across_track))),
+          along_(correlation_taps(static_cast<double>(s.along_track))) {}
+
+    /// The field of one look at so many pings in a row, the lowest number first.
+    image<float> pings(std::int64_t first, int count, std::uint32_t look) const {
+        const int reach = static_cast<int>(along_.size()) - 1;
+        image<float> blurred(static_cast<int>(2 * bins_), count + 2 * reach);
+        for (int i = 0; i < blurred.height(); ++i) row(first - reach + i, look, blurred.row(i));
+        if (reach == 0) return blurred;
+        image<float> field(static_cast<int>(2 * bins_), count);
+        for (int i = 0; i < count; ++i) {
+            const auto to = field.row(i);
+            for (int j = -reach; j <= reach; ++j) {
+                const float tap = along_[static_cast<std::size_t>(j < 0 ? -j : j)];
+                const float* const from = blurred.row(i + reach + j).data();
+                for (std::size_t x = 0; x < to.size(); ++x) to[x] += tap * from[x];
+            }
+        }
+        return field;
+    }
+
+  private:
+    /// One ping, correlated across the track. A block of words serves two bins.
+    void row(std::int64_t ping, std::uint32_t look, std::span<float> out) const {
+        const std::size_t reach = across_.size() - 1, margin = reach + (reach & 1);
+        std::vector<float> white(2 * (bins_ + 2 * margin + 2));
+        for (std::size_t i = 0; i < bins_ + 2 * margin; i += 2) {
+            const philox_counter words = noise_(ping, static_cast<std::uint32_t>(i - margin), look);
+            for (std::size_t k = 0; k < 2; ++k) {
+                const auto [re, im] = normal_pair(words[2 * k], words[2 * k + 1]);
+                white[2 * (i + k)] = static_cast<float>(re * 0.70710678118654752);
+                white[2 * (i + k) + 1] = static_cast<float>(im * 0.70710678118654752);
+            }
+        }
+        for (std::size_t x = 0; x < out.size(); ++x) {
+            const float* const at = &white[x + 2 * margin];
+            float sum = across_[0] * *at;
+            for (std::size_t j = 1; j <= reach; ++j) sum += across_[j] * (*(at - 2 * j) + at[2 * j]);
+            out[x] = sum;
+        }
+    }
+
+    ping_noise noise_;
+    std::size_t bins_;
+    std::vector<float> across_, along_;
+};
+
+/// The K-distribution's mean: gamma-distributed at the nodes of a lattice. A bin takes that of one of the four nodes
+/// around it, by lot, the nearer the likelier: so textures are correlated, and distributed as they should be.
+class speckle_texture {
+  public:
+    speckle_texture(const seabed_speckle& s, side looks)
+        : nodes_(s.seed, looks, speckle_stream::texture),
+          lots_(s.seed, looks, speckle_stream::choice),
+          frequency_(1 / static_cast<double>(s.texture_length)) {}
+
+    float operator()(std::int64_t ping, std::uint32_t bin, float shape) const {
+        const philox_counter lot = lots_(ping, bin, 0);
+        // Rounding a coordinate plus a uniform number goes to either neighbour as often as it is near.
+        const std::int64_t row = numeric::floor_to_int(static_cast<double>(ping) * frequency_ + uniform_open(lot[0]));
+        const auto column = static_cast<std::uint32_t>(numeric::floor_to_int(bin * frequency_ + uniform_open(lot[1])));
+        return static_cast<float>(gamma_of_mean_one(static_cast<double>(shape),
+                                                    [&](std::uint32_t trial) { return nodes_(row, column, trial); }));
+    }
+
+  private:
+    ping_noise nodes_, lots_;
+    double frequency_;
+};
+
+inline void validate(const speckle_law& law) {
+    require(law.looks >= 1 && law.looks <= 64, "speckle_law.looks", law.looks, "1 to 64");
+    require(law.texture == 0 || (law.texture >= 0.01f && numeric::is_finite(law.texture)), "speckle_law.texture",
+            law.texture, "0, or at least 0.01");
+    require(law.steady >= 0 && numeric::is_finite(law.steady), "speckle_law.steady", law.steady, "0 or more");
+}
+
+}  // namespace detail
+
+/// Makes an image of intensities fluctuate.
+///
+/// @param mean     intensities; 0 stays 0
+/// @param types    a seabed::type for each pixel, as labels have it; anything else is `elsewhere`
+/// @param numbers  which pings the rows are
+/// @throws invalid_input for images of different sizes or a parameter out of its range
+template <executor_argument E = serial_executor>
+image<float> with_speckle(image_view<const float> mean, image_view<const std::uint8_t> types, const seabed_speckle& s,
+                          const ping_numbers& numbers, E&& ex = {}) {
+    using detail::require;
+    require(types.width() == mean.width(), "types.width()", types.width(), "that of the intensities");
+    require(types.height() == mean.height(), "types.height()", types.height(), "that of the intensities");
+    require(s.along_track >= 0 && s.along_track <= 16, "seabed_speckle.along_track", s.along_track, "0 to 16");
+    require(s.across_track >= 0 && s.across_track <= 16, "seabed_speckle.across_track", s.across_track, "0 to 16");
+    require(s.texture_length >= 1 && s.texture_length <= 1024, "seabed_speckle.texture_length", s.texture_length,
+            "1 to 1024");
+    require(numbers.step == 1 || numbers.step == -1, "ping_numbers.step", numbers.step, "1 or -1");
+    for (const speckle_law& law : s.bottom) detail::validate(law);
+    detail::validate(s.elsewhere);
+
+    // Looks that only some types have are drawn for all, and used by those.
+    std::vector<speckle_law> laws(256, s.elsewhere);
+    std::copy(s.bottom.begin(), s.bottom.end(), laws.begin());
+    int looks = s.elsewhere.looks;
+    for (const speckle_law& law : s.bottom) looks = (std::max)(looks, law.looks);
+
+    const detail::speckle_field field({s.seed, numbers.side, detail::speckle_stream::field}, s, mean.width());
+    const detail::speckle_texture texture(s, numbers.side);
+    image<float> out(mean.width(), mean.height());
+    constexpr std::size_t grain = 32;
+    bulk_ranges(ex, static_cast<std::size_t>(mean.height()), grain, [&](std::size_t from, std::size_t to) {
+        const int first = static_cast<int>(from), count = static_cast<int>(to - from);
+        const std::int64_t a = numbers.first + numbers.step * static_cast<std::int64_t>(from);
+        const std::int64_t lowest = numbers.step > 0 ? a : a - (count - 1);
+        for (int look = 0; look < looks; ++look) {
+            const image<float> gauss = field.pings(lowest, count, static_cast<std::uint32_t>(look));
+            for (int i = 0; i < count; ++i) {
+                const auto row = out.row(first + i);
+                const float* const g = gauss.row(numbers.step > 0 ? i : count - 1 - i).data();
+                for (std::size_t x = 0; x < row.size(); ++x) {
+                    const speckle_law& law = laws[types.row(first + i)[x]];
+                    if (look >= law.looks) continue;
+                    const float steady = numeric::square_root(law.steady);
+                    const float re = g[2 * x] + steady, im = g[2 * x + 1];
+                    row[x] += (re * re + im * im) / ((1 + law.steady) * static_cast<float>(law.looks));
+                }
+            }
+        }
+        for (int i = 0; i < count; ++i) {
+            const auto row = out.row(first + i);
+            for (std::size_t x = 0; x < row.size(); ++x) {
+                const float shape = laws[types.row(first + i)[x]].texture;
+                row[x] *= mean(static_cast<int>(x), first + i);
+                if (shape > 0) row[x] *= texture(a + numbers.step * i, static_cast<std::uint32_t>(x), shape);
+            }
+        }
+    });
+    return out;
+}
+
+/// The same recording with speckle: of one side, as `render` made it of this rig.
+template <across_track Axis, executor_argument E = serial_executor>
+recording<labels> with_speckle(recording<labels> r, const side_scan_rig<Axis>& rig, const seabed_speckle& s = {},
+                               E&& ex = {}) {
+    r.image = with_speckle(r.image.view(), r.labels.seabed.view(), s, numbers_of(rig), ex);
+    return r;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,87 @@
+// Targets as one ping meets them: the outline in its plane, cut from the mesh.
+#pragma once
+
+#include <insonify/geometry/bounds.hpp>
+#include <insonify/sonar/scene.hpp>
+#include <insonify/sonar/side_scan.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// A piece of outline in the plane of a ping.
+struct outline_piece {
+    struct corner {
+        double x, down;    ///< metres from the sonar
+        glm::vec3 normal;  ///< (x, u, z), of any length
+    };
+    corner a, b;
+    glm::vec3 facet;  ///< (x, u, z), of any length
+};
+
+/// A target in the world, ready to be cut.
+class sliced_target {
+  public:
+    explicit sliced_target(const target& t) : shape_(&t.shape), to_world_(to_world(t.placement)) {
+        const bounding_box box = bounds(t.shape);
+        if (box.empty()) return;
+        centre_ = transform_point(to_world_, box.centre());
+        const glm::dvec3 half = 0.5 * box.size();
+        radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
+    }
+
+    /// Height above the datum that nothing of it reaches over.
+    double top() const { return centre_.z + radius_; }
+
+    bool is_met_by(const ping_frame& p, double range) const {
+        const glm::dvec3 centre = p(centre_);
+        const double x = centre.x, u = centre.y;
+        return u <= radius_ && u >= -radius_ && x > -radius_ &&
+               numeric::dot(centre, centre) < (range + radius_) * (range + radius_);
+    }
+
+    /// Calls `visit(outline_piece)` for each triangle that the ping's plane cuts. Triangles that share an edge share
+    /// the corner on it to the last bit, so outlines have no gaps.
+    template <class Visit>
+    void cut(const ping_frame& p, const Visit& visit) const {
+        const glm::dvec3 offset = p(to_world_.offset);
+        glm::dmat3 turn;
+        for (int i = 0; i < 3; ++i) turn[i] = p.turned(to_world_.linear[i]);
+        const glm::mat3 normals(turn);  // scales are uniform
+        const double sign = numeric::determinant(turn) < 0 ? -1 : 1;
+        for (const glm::uvec3& t : shape_->triangles) {
+            glm::dvec3 v[3];
+            int behind = 0;
+            for (int i = 0; i < 3; ++i) {
+                v[i] = numeric::product(turn, glm::dvec3(shape_->positions[t[i]])) + offset;
+                behind += v[i].y < 0 ? 1 : 0;
+            }
+            if (behind == 0 || behind == 3 || !numeric::is_finite(v[0].x + v[1].x + v[2].x + v[0].z + v[1].z + v[2].z))
+                continue;
+            // The corner that is alone on its side, and the edges that leave it.
+            int alone = 0;
+            while ((v[alone].y < 0) != (behind == 1)) ++alone;
+            const auto corner = [&](int other) {
+                const int from = behind == 1 ? alone : other,
+                          to = behind == 1 ? other : alone;  // from behind to before
+                const double f = v[from].y / (v[from].y - v[to].y);
+                const glm::dvec3 at = v[from] + f * (v[to] - v[from]);
+                const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
+                return outline_piece::corner{at.x, -at.z,
+                                             numeric::product(normals, n + static_cast<float>(f) * (m - n))};
+            };
+            visit(outline_piece{corner((alone + 1) % 3), corner((alone + 2) % 3),
+                                glm::vec3(sign * numeric::cross(v[1] - v[0], v[2] - v[0]))});
+        }
+    }
+
+  private:
+    const mesh* shape_;
+    affine to_world_;
+    glm::dvec3 centre_{0, 0, -1e30};
+    double radius_ = 0;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,60 @@
+// How long a swath takes: swath [threads] [pings] [bins] prints the median of nine, in milliseconds, part by part.
+//
+// The scene is 40 m x 40 m of ripples with the four targets, heard from 5 m; everything is made anew in every picture.
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/insonify.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+namespace in = insonify;
+
+namespace {
+
+template <class Fn>
+void print_median(const char* what, const Fn& work) {
+    std::vector<double> times;
+    for (int i = 0; i < 9; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        work();
+        times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    }
+    std::nth_element(times.begin(), times.begin() + 4, times.end());
+    std::printf("  %-34s %7.1f ms\n", what, times[4]);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    in::thread_pool pool(argc > 1 ? std::atoi(argv[1]) : 2);
+    in::side_scan rig{.pings = argc > 2 ? std::atoi(argv[2]) : 1024, .bins = argc > 3 ? std::atoi(argv[3]) : 2048};
+    rig.ping_spacing = 40.96f / static_cast<float>(rig.pings);
+
+    in::scene scene;
+    scene.seabed = in::seabed::ripples{};
+    scene.add(in::cube{.size = glm::vec3(1)}, {.position = {12, 20, 0.5}, .yaw = 0.2f}, "cube");
+    scene.add(in::cylinder{.radius = 0.3f, .length = 2}, {.position = {20, 10, 0.3}, .yaw = 0.9f}, "cylinder");
+    scene.add(in::sphere{.radius = 0.5f}, {.position = {25, 30, 0.5}}, "sphere");
+    scene.add(in::cone{.radius = 0.5f, .height = 1}, {.position = {30, 20, 0.5}}, "cone");
+
+    const in::sonar_equation whole{in::transmission_loss{}, in::absorption{}, in::vertical_beam{},
+                                   in::horizontal_beam{},   in::pulse{},      in::level_gain{}};
+    using equation = std::remove_const_t<decltype(whole)>;
+    using bare = in::record_options<in::no_labels>;
+    const in::recording<> labelled = in::render(scene, rig, {}, pool);
+    std::printf("%d pings x %d bins, %llu vertices of seabed, %d threads\n", rig.pings, rig.bins,
+                static_cast<unsigned long long>(labelled.stats.seabed_vertices), pool.threads());
+    print_median("picture", [&] { in::render(scene, rig, bare{}, pool); });
+    print_median("picture, labels", [&] { in::render(scene, rig, {}, pool); });
+    print_median("picture, labels, sonar equation", [&] {
+        in::render(scene, rig, in::record_options<in::labels, in::lambert_backscatter, equation>{.equation = whole},
+                   pool);
+    });
+    print_median("speckle on top", [&] { in::with_speckle(labelled, rig, {}, pool); });
+    in::side_scan slanting = rig;
+    slanting.yaw = 0.7f;
+    print_median("picture, across the lattice", [&] { in::render(scene, slanting, bare{}, pool); });
+}

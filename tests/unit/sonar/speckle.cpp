@@ -1,0 +1,183 @@
+// Speckle against the moments of its distributions, and against what it is locked to.
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/insonify.hpp>
+
+#include <cmath>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+
+namespace {
+
+constexpr int wide = 700, high = 400;
+
+/// Unit intensities of one type under a law, correlated no more than asked for.
+in::image<float> speckled(const in::speckle_law& law, float along = 0, float across = 0,
+                          in::side side = in::side::starboard, std::uint64_t seed = 3) {
+    in::seabed_speckle s{.along_track = along, .across_track = across, .texture_length = 1, .seed = seed};
+    s.bottom[0] = law;
+    const in::image<float> mean(wide, high, 1.0f);
+    const in::image<std::uint8_t> types(wide, high, std::uint8_t{0});
+    return in::with_speckle(mean.view(), types.view(), s, {.first = 7, .side = side});
+}
+
+struct moments {
+    double mean, index;  // variance / mean^2
+};
+moments of(const in::image<float>& picture) {
+    double sum = 0, squares = 0;
+    for (const float v : picture.pixels()) {
+        sum += static_cast<double>(v);
+        squares += static_cast<double>(v) * static_cast<double>(v);
+    }
+    const double mean = sum / static_cast<double>(picture.size());
+    return {mean, squares / static_cast<double>(picture.size()) / (mean * mean) - 1};
+}
+
+/// Correlation of a picture with another, shifted.
+double correlation(const in::image<float>& a, const in::image<float>& b, int dx = 0, int dy = 0) {
+    const moments ma = of(a), mb = of(b);
+    double sum = 0;
+    for (int y = 0; y + dy < a.height(); ++y)
+        for (int x = 0; x + dx < a.width(); ++x)
+            sum += (static_cast<double>(a(x, y)) - ma.mean) * (static_cast<double>(b(x + dx, y + dy)) - mb.mean);
+    const double deviation = ma.mean * std::sqrt(ma.index) * mb.mean * std::sqrt(mb.index);
+    return sum / ((a.width() - dx) * (a.height() - dy)) / deviation;
+}
+
+}  // namespace
+
+TEST_CASE("Fully developed speckle: exponential intensities, Rayleigh amplitudes") {
+    const auto picture = speckled({});
+    const auto [mean, index] = of(picture);
+    CHECK(mean == Approx(1).epsilon(0.01));
+    CHECK(index == Approx(1).epsilon(0.02));
+    for (const double t : {0.1, 1.0, 3.0}) {
+        double above = 0;
+        for (const float v : picture.pixels()) above += static_cast<double>(v) > t;
+        CHECK(above / static_cast<double>(picture.size()) == Approx(std::exp(-t)).epsilon(0.02));
+    }
+    const auto amplitude = of(in::map_pixels(picture, [](float v) { return std::sqrt(v); }));
+    CHECK(amplitude.mean == Approx(0.8862).epsilon(0.005));
+    CHECK(std::sqrt(amplitude.index) == Approx(0.5227).epsilon(0.01));
+}
+
+TEST_CASE("Looks, K and Rician speckle have the scintillation index of their formulas, and a mean of one") {
+    for (const in::speckle_law law : {in::speckle_law{4, 0, 0},
+                                      {16, 0, 0},
+                                      {1, 2, 0},
+                                      {1, 20, 0},
+                                      {1, 0.5f, 0},
+                                      {1, 0, 1},
+                                      {1, 0, 10},
+                                      {3, 4, 2}}) {
+        const auto [mean, index] = of(speckled(law));
+        const auto steady = static_cast<double>(law.steady);
+        double expected = (1 + 2 * steady) / (law.looks * (1 + steady) * (1 + steady));
+        if (law.texture > 0) expected = (1 + 1 / static_cast<double>(law.texture)) * (1 + expected) - 1;
+        INFO("looks " << law.looks << ", texture " << law.texture << ", steady " << law.steady);
+        CHECK(mean == Approx(1).epsilon(0.015));
+        CHECK(index == Approx(expected).epsilon(0.05));
+    }
+    // The textbook's: 1 + 2 / shape.
+    CHECK(of(speckled({1, 2, 0})).index == Approx(2).epsilon(0.05));
+}
+
+TEST_CASE("Extreme shapes stay finite, and a very large one is no texture") {
+    for (const float shape : {0.05f, 1e6f}) {
+        const auto picture = speckled({1, shape, 0});
+        for (const float v : picture.pixels()) REQUIRE((v >= 0 && in::numeric::is_finite(v)));
+        CHECK(of(picture).mean == Approx(1).epsilon(shape < 1 ? 0.1 : 0.01));
+        if (shape > 1) CHECK(of(picture).index == Approx(1).epsilon(0.02));
+    }
+}
+
+TEST_CASE("Correlation falls to 1 / e at the length asked for, along and across by themselves") {
+    for (const auto& [along, across] : {std::pair{0.0f, 3.0f}, {3.0f, 0.0f}, {5.0f, 2.0f}, {1.0f, 1.0f}}) {
+        const auto picture = speckled({}, along, across);
+        INFO("along " << along << ", across " << across);
+        const double e = std::exp(-1.0);
+        if (across > 0)
+            CHECK(correlation(picture, picture, static_cast<int>(across), 0) == Approx(e).margin(0.06));
+        else
+            CHECK(correlation(picture, picture, 1, 0) == Approx(0).margin(0.01));
+        if (along > 0)
+            CHECK(correlation(picture, picture, 0, static_cast<int>(along)) == Approx(e).margin(0.06));
+        else
+            CHECK(correlation(picture, picture, 0, 1) == Approx(0).margin(0.01));
+        CHECK(of(picture).index == Approx(1).epsilon(0.06));
+    }
+}
+
+TEST_CASE("Textures are correlated over their length, and still distributed as they should be") {
+    in::seabed_speckle s{.along_track = 0, .across_track = 0, .texture_length = 8};
+    s.bottom[0] = {64, 1, 0};  // many looks: what is left is texture
+    const in::image<float> mean(wide, high, 1.0f);
+    const in::image<std::uint8_t> types(wide, high, std::uint8_t{0});
+    const auto picture = in::with_speckle(mean.view(), types.view(), s, {});
+    CHECK(of(picture).mean == Approx(1).epsilon(0.03));
+    CHECK(of(picture).index == Approx(2 * (1 + 1.0 / 64) - 1).epsilon(0.08));
+    CHECK(correlation(picture, picture, 2, 0) > 0.35);
+    CHECK(correlation(picture, picture, 20, 0) == Approx(0).margin(0.03));
+}
+
+TEST_CASE("The two sides, two seeds and two pings are independent") {
+    const auto starboard = speckled({1, 2, 0}, 1, 1), port = speckled({1, 2, 0}, 1, 1, in::side::port);
+    const auto other = speckled({1, 2, 0}, 1, 1, in::side::starboard, 4);
+    CHECK(correlation(starboard, port) == Approx(0).margin(0.01));
+    CHECK(correlation(starboard, other) == Approx(0).margin(0.01));
+    // Nor is one the other's mirror image.
+    CHECK(correlation(starboard, in::mirrored(port)) == Approx(0).margin(0.01));
+    CHECK(correlation(starboard, starboard, 0, 17) == Approx(0).margin(0.01));
+}
+
+TEST_CASE("A ping has its speckle whenever it is recorded, in whatever order and by however many threads") {
+    in::scene scene;
+    scene.seabed = in::seabed::blend{.first = in::seabed::ripples{}, .second = in::seabed::mud{}};
+    const in::side_scan rig{.altitude = 3, .pings = 70, .range = 12, .bins = 200};
+    in::thread_pool pool(3);
+    const auto whole = in::with_speckle(in::render(scene, rig, {}, pool), rig, {}, pool);
+    const auto track = in::track_of(rig);
+    for (int first = 0; first < 70; first += 33) {
+        const int count = (std::min)(33, 70 - first);
+        const auto part = in::record(
+            scene, std::span(track).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count)), rig);
+        const auto alone = in::with_speckle(part.image.view(), part.labels.seabed.view(), {}, {.first = first});
+        for (int i = 0; i < count; ++i)
+            REQUIRE(std::equal(alone.row(i).begin(), alone.row(i).end(), whole.image.row(69 - first - i).begin()));
+    }
+}
+
+TEST_CASE("Each type of seabed has its own law, and silence stays silent") {
+    in::seabed_speckle s{.along_track = 0, .across_track = 0, .texture_length = 1};
+    s.bottom = {{{1, 0, 0}, {4, 0, 0}, {1, 0, 10}, {1, 1, 0}}};
+    const double expected[] = {1, 0.25, 21.0 / 121, 3};
+    in::image<float> mean(4 * 200, 400, 2.0f);
+    in::image<std::uint8_t> types(4 * 200, 400);
+    for (int y = 0; y < 400; ++y)
+        for (int x = 0; x < 800; ++x) types(x, y) = static_cast<std::uint8_t>(x / 200);
+    mean(5, 5) = 0;
+    const auto picture = in::with_speckle(mean.view(), types.view(), s, {});
+    CHECK(picture(5, 5) == 0);
+    for (int t = 0; t < 4; ++t) {
+        const auto [level, index] = of(in::image<float>(picture.view().part(200 * t, 0, 200, 400)));
+        CHECK(level == Approx(2).epsilon(0.03));
+        CHECK(index == Approx(expected[t]).epsilon(0.08));
+    }
+}
+
+TEST_CASE("Speckle that can't be is refused by name") {
+    const in::image<float> mean(4, 4, 1.0f);
+    const in::image<std::uint8_t> types(4, 4), narrow(3, 4);
+    const auto refuses = [&](const in::seabed_speckle& s) {
+        CHECK_THROWS_AS(in::with_speckle(mean.view(), types.view(), s, {}), in::invalid_input);
+    };
+    refuses({.elsewhere = {.looks = 0}});
+    refuses({.elsewhere = {.texture = -1}});
+    refuses({.elsewhere = {.steady = std::numeric_limits<float>::quiet_NaN()}});
+    refuses({.along_track = 17});
+    refuses({.texture_length = 0});
+    CHECK_THROWS_AS(in::with_speckle(mean.view(), narrow.view(), {}, {}), in::invalid_input);
+    CHECK_THROWS_AS(in::with_speckle(mean.view(), types.view(), {}, {.step = 2}), in::invalid_input);
+}

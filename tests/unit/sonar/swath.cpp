@@ -1,0 +1,92 @@
+// Two sides in one picture: pieces put together the right way round.
+#include <insonify/insonify.hpp>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+using namespace in::literals;
+
+TEST_CASE("Pictures are mirrored, turned and put beside each other") {
+    const in::image<int> a{{1, 2, 3}, {4, 5, 6}};
+    CHECK(in::mirrored(a) == in::image<int>{{3, 2, 1}, {6, 5, 4}});
+    CHECK(in::turned(a) == in::image<int>{{6, 5, 4}, {3, 2, 1}});
+    CHECK(in::beside(a, in::image<int>{{7}, {8}}, 1, -1) == in::image<int>{{1, 2, 3, -1, 7}, {4, 5, 6, -1, 8}});
+    CHECK_THROWS_AS(in::beside(a, in::image<int>{{7}}), in::invalid_input);
+    CHECK_THROWS_AS(in::beside(a, a, -1), in::invalid_input);
+}
+
+TEST_CASE("The paper's stitched picture: two of its cameras back to back, shadows away from the gap, forward up") {
+    in::scene s;
+    s.seabed = in::seabed::flat{.surface = {.rms = 0}};
+    s.add(in::cube{.size = glm::vec3(0.3f)}, {.position = {1, 1, 0.15}}, "ahead to starboard");
+    s.add(in::cube{.size = glm::vec3(0.3f)}, {.position = {-1, -1, 0.15}}, "astern to port");
+    in::overhead rig{.altitude = 3, .field_of_view = 90_deg, .size = {100, 100}, .grazing = 20_deg};
+    const auto starboard = in::render(s, rig);
+    rig.yaw = 180_deg;
+    const auto port = in::render(s, rig);
+    const auto instance = in::beside(in::turned(port.labels.instance), starboard.labels.instance, 10);
+    const auto shadow = in::beside(in::turned(port.labels.shadow), starboard.labels.shadow, 10);
+    const auto image = in::beside(in::turned(port.image), starboard.image, 10, 0.25f);
+    REQUIRE(image.width() == 210);
+    CHECK(image(104, 50) == 0.25f);
+    // In each half, both cubes are seen, as a camera below the middle of that half sees them.
+    struct found {
+        int x = 0, y = 0, count = 0;
+    };
+    const auto middle = [](const in::image<std::uint16_t>& picture, int value, int from, int to) {
+        found f;
+        for (int y = 0; y < picture.height(); ++y)
+            for (int x = from; x < to; ++x)
+                if (picture(x, y) == value) f = {f.x + x, f.y + y, f.count + 1};
+        return found{f.x / (std::max)(f.count, 1), f.y / (std::max)(f.count, 1), f.count};
+    };
+    const found right = middle(instance, 1, 110, 210), left = middle(instance, 2, 0, 100);
+    REQUIRE((right.count > 20 && left.count > 20));
+    CHECK((right.x > 160 && right.y < 50));  // starboard of the middle, ahead
+    CHECK((left.x < 50 && left.y > 50));
+    CHECK(middle(shadow, 1, 110, 210).x > right.x);
+    CHECK(middle(shadow, 2, 0, 100).x < left.x);
+}
+
+TEST_CASE("Slant-range correction puts the bottom where it is, and needs as many altitudes as rows") {
+    in::scene s;
+    s.seabed = in::seabed::flat{.surface = {.rms = 0}};
+    s.add(in::cube{.size = {0.2f, 5, 0.01f}}, {.position = {9, 0, 0.005}}, "plate");  // too flat to lie over
+    const in::side_scan rig{.altitude = 6, .pings = 3, .range = 20, .bins = 2000};
+    const in::ground_range map{.altitude = 6, .pings = 3, .range = 15, .bins = 1500};
+    const auto heard = in::render(s, rig, {.cell = 0.01});
+    const auto on_ground = in::to_ground_range(heard, rig, map);
+    REQUIRE(on_ground.labels.targets.size() == 1);
+    const in::label_box box = on_ground.labels.targets[0].box;
+    CHECK(box.x * 0.01 == Approx(8.9).margin(0.025));
+    CHECK((box.x + box.width) * 0.01 == Approx(9.1).margin(0.025));
+    CHECK(box.height == 3);
+    for (int x = 100; x < 1500; ++x)  // no water column is left
+        REQUIRE(on_ground.labels.seabed(x, 0) != (on_ground.labels.instance(x, 0) == 0 ? in::labels::no_seabed : 0));
+    const std::vector<double> heights{6, 6, 6}, two{6, 6};
+    CHECK(in::to_ground_range(heard, rig, map, heights).image == on_ground.image);
+    CHECK_THROWS_AS(in::to_ground_range(heard, rig, map, two), in::invalid_input);
+    // Beyond what was recorded there is nothing.
+    const auto wide = in::to_ground_range(heard, rig, {.altitude = 6, .pings = 3, .range = 40, .bins = 400});
+    CHECK(wide.image(399, 0) == 0);
+    CHECK(wide.labels.seabed(399, 0) == in::labels::no_seabed);
+}
+
+TEST_CASE("Three geometries, one type to change: the same scene, the same labels, shadows to the right") {
+    in::scene s;
+    s.seabed = in::seabed::flat{.surface = {.rms = 0}};
+    s.add(in::cube{.size = glm::vec3(0.4f)}, {.position = {6, 2, 0.2}}, "cube");
+    const auto check = [&](const auto& rig) {
+        const auto picture = in::render(s, rig);
+        REQUIRE(picture.labels.targets.size() == 1);
+        const in::target_label& t = picture.labels.targets[0];
+        CHECK(t.class_name == "cube");
+        CHECK((t.area > 0 && t.shadow_area > 0));
+        CHECK(t.shadow_box.x + t.shadow_box.width > t.box.x + t.box.width);
+        CHECK(t.box.y + t.box.height / 2 < picture.image.height() / 2);  // ahead is up
+        for (const float v : picture.image.pixels()) REQUIRE(v >= 0);
+    };
+    check(in::overhead{.position = {5, 0}, .altitude = 4, .size = {400, 400}});
+    check(in::ground_range{.altitude = 4, .pings = 90, .range = 12, .bins = 400});
+    check(in::side_scan{.altitude = 4, .pings = 90, .range = 12, .bins = 400});
+}
