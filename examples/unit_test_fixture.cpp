@@ -22,7 +22,7 @@ int longest_dark_run(const float* row, int width, float threshold) {
 in::frame<> cube_on_sand() {
     in::scene scene;
     scene.seabed = in::seabed::flat{.surface = {.rms = 0}};
-    scene.add(in::cube{.size = glm::vec3(0.3f)}, {.position = {-1, 0, 0.15}}, "cube");
+    scene.add(in::cube{.size = glm::vec3(0.3f)}, {.position = {0.5, 0, 0.15}}, "cube");
     return in::render(scene, {.altitude = 3, .field_of_view = 90_deg, .size = {128, 128}, .grazing = 10_deg});
 }
 

@@ -82,10 +82,8 @@
 #include <insonify/sonar/render.hpp>
 #include <insonify/sonar/rig.hpp>
 #include <insonify/sonar/scene.hpp>
-<<<<<<< HEAD
-#include <insonify/sonar/shading.hpp>
-=======
 #include <insonify/sonar/sediment.hpp>
+#include <insonify/sonar/shading.hpp>
 #include <insonify/sonar/side_scan.hpp>
 #include <insonify/sonar/slant_range.hpp>
 #include <insonify/sonar/slant_to_ground.hpp>
@@ -93,5 +91,4 @@
 #include <insonify/sonar/speckle.hpp>
 #include <insonify/sonar/swath.hpp>
 #include <insonify/sonar/target_slices.hpp>
->>>>>>> slant
 #include <insonify/version.hpp>

@@ -90,9 +90,11 @@
 #if defined(__GNUC__)
 #define INSONIFY_INLINE inline __attribute__((always_inline))
 #define INSONIFY_INLINE_LAMBDA __attribute__((always_inline))
+#define INSONIFY_RARE __attribute__((noinline))
 #else
 #define INSONIFY_INLINE inline
 #define INSONIFY_INLINE_LAMBDA
+#define INSONIFY_RARE
 #endif
 
 #define INSONIFY_JOIN_RAW(a, b) a##b
@@ -937,6 +939,15 @@ struct lanes_of<T, 1> {
 template <class T, int N>
 using lanes = typename lanes_of<T, N>::type;
 
+/// Something that will be read soon.
+INSONIFY_INLINE void prefetch(const void* address) {
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+#else
+    (void)address;
+#endif
+}
+
 template <class T, class Lanes>
 INSONIFY_INLINE void load(Lanes& into, const T* from) {
     std::memcpy(&into, from, sizeof into);
@@ -992,6 +1003,91 @@ INSONIFY_INLINE void gather(Lanes& into, const From& from) {
     (std::make_integer_sequence<int, N>{});
 }
 
+/// Correctly rounded, as numeric::square_root.
+template <int N>
+INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& of) {
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (N % 4 == 0) {
+        using four = lanes<float, 4>;
+        if constexpr (N == 4) {
+            into = __builtin_ia32_sqrtps(of);
+        } else {
+            static_assert(N == 8);
+            const four low = __builtin_ia32_sqrtps(__builtin_shufflevector(of, of, 0, 1, 2, 3));
+            const four high = __builtin_ia32_sqrtps(__builtin_shufflevector(of, of, 4, 5, 6, 7));
+            into = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+        }
+    } else
+#endif
+        gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
+}
+
+/// Two neighbouring 32-bit values at N places: lane k of `first` and `second` is what from(k) points to.
+template <int N, class Lanes, class From>
+INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        constexpr int half = N / 2;
+        lanes<std::int64_t, half> low, high;
+        const auto pair = [&](int k) INSONIFY_INLINE_LAMBDA {
+            std::int64_t bits;
+            std::memcpy(&bits, from(k), sizeof bits);
+            return bits;
+        };
+        gather<half>(low, [&](int k) { return pair(k); });
+        gather<half>(high, [&](int k) { return pair(half + k); });
+        [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+            first = __builtin_shufflevector(Lanes(low), Lanes(high), 2 * I...);
+            second = __builtin_shufflevector(Lanes(low), Lanes(high), 2 * I + 1 ...);
+        }
+        (std::make_integer_sequence<int, N>{});
+    } else
+#endif
+    {
+        std::memcpy(&first, from(0), sizeof first);
+        std::memcpy(&second, from(0) + 1, sizeof second);
+    }
+}
+
+/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 4 or 8.
+template <int N, class Rows>
+INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
+#if INSONIFY_SIMD
+    // Four lanes of eight lie side by side with the other four and go the same way.
+    using floats = lanes<float, N>;
+    floats row[4], pair[4];
+    for (int k = 0; k < 4; ++k) {
+        if constexpr (N == 4) {
+            load(row[k], rows(k));
+        } else {
+            static_assert(N == 8);
+            lanes<float, 4> first, second;
+            load(first, rows(k));
+            load(second, rows(k + 4));
+            row[k] = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
+        }
+    }
+    for (int k = 0; k < 4; k += 2)
+        if constexpr (N == 4) {
+            pair[k] = __builtin_shufflevector(row[k], row[k + 1], 0, 4, 1, 5);
+            pair[k + 1] = __builtin_shufflevector(row[k], row[k + 1], 2, 6, 3, 7);
+        } else {
+            pair[k] = __builtin_shufflevector(row[k], row[k + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+            pair[k + 1] = __builtin_shufflevector(row[k], row[k + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+        }
+    for (int k = 0; k < 2; ++k)
+        if constexpr (N == 4) {
+            into[2 * k] = __builtin_shufflevector(pair[k], pair[k + 2], 0, 1, 4, 5);
+            into[2 * k + 1] = __builtin_shufflevector(pair[k], pair[k + 2], 2, 3, 6, 7);
+        } else {
+            into[2 * k] = __builtin_shufflevector(pair[k], pair[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+            into[2 * k + 1] = __builtin_shufflevector(pair[k], pair[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+#else
+    std::memcpy(into, rows(0), 4 * sizeof(float));
+#endif
+}
+
 /// 0, 1, ... N - 1.
 template <class T, int N>
 INSONIFY_INLINE void count_up(lanes<T, N>& into) {
@@ -1016,18 +1112,18 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify::inline INSONIFY_ABI::numeric {
 
 template <class T>
-T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 template <class T>
-glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
+INSONIFY_INLINE glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
 }
 
 /// m v, as GLM stores matrices: by columns.
 template <class T>
-glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::vec<3, T>& v) {
+INSONIFY_INLINE glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::vec<3, T>& v) {
     return {m[0].x * v.x + m[1].x * v.y + m[2].x * v.z, m[0].y * v.x + m[1].y * v.y + m[2].y * v.z,
             m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
 }
@@ -1072,6 +1168,46 @@ constexpr Code quantize(float value) {
     if (!(value > 0)) return 0;
     if (value >= 1) return static_cast<Code>(largest);
     return static_cast<Code>(static_cast<double>(value) * largest + 0.5);  // 24 + 16 bits: exact until the truncation
+}
+
+namespace detail {
+
+/// quantize, several pixels at a time.
+template <class Code>
+struct quantize_kernel {
+    const float* from;
+    Code* to;
+    std::size_t count;
+
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        constexpr int N = Width > 1 ? Width / 2 : 1;  // the product takes a double
+        constexpr double largest = (std::numeric_limits<Code>::max)();
+        using doubles = lanes<double, N>;
+        std::size_t i = 0;
+        for (; i + N <= count; i += N) {
+            lanes<float, N> value;
+            load(value, from + i);
+            doubles scaled;
+            convert(scaled, value);
+            scaled = scaled * largest + 0.5;
+            scaled = scaled > 0.0 ? scaled : doubles{};  // NaN too
+            scaled = scaled < largest ? scaled : doubles{} + largest;
+            lanes<std::int32_t, N> code;
+            convert(code, scaled);
+            for (int k = 0; k < N; ++k) to[i + static_cast<std::size_t>(k)] = static_cast<Code>(lane(code, k));
+        }
+        for (; i < count; ++i) to[i] = quantize<Code>(from[i]);
+    }
+};
+
+}  // namespace detail
+
+/// Quantizes as many values as `to` takes; the same codes at every level.
+/// @pre from.size() >= to.size()
+template <pixel_code Code>
+void quantize_row(std::span<const float> from, std::span<Code> to, isa level = best_isa()) {
+    detail::dispatch(detail::quantize_kernel<Code>{from.data(), to.data(), to.size()}, level);
 }
 
 /// The float nearest to code / largest code; `quantize<Code>` takes it back to the same code.
@@ -2381,9 +2517,23 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
 }
 
 /// The smallest box around all finite positions, whether a triangle uses them or not.
-inline bounding_box bounds(const mesh& m) {
+template <executor_argument E = serial_executor>
+bounding_box bounds(const mesh& m, E&& ex = {}) {
+    constexpr std::size_t grain = 65536;
+    std::vector<bounding_box> parts((m.positions.size() + grain - 1) / grain);
+    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        glm::vec3 lower(infinity), upper(-infinity);
+        for (std::size_t i = first; i < last; ++i) {
+            const glm::vec3& p = m.positions[i];
+            if (!(numeric::is_finite(p.x) && numeric::is_finite(p.y) && numeric::is_finite(p.z))) continue;
+            lower = {(std::min)(lower.x, p.x), (std::min)(lower.y, p.y), (std::min)(lower.z, p.z)};
+            upper = {(std::max)(upper.x, p.x), (std::max)(upper.y, p.y), (std::max)(upper.z, p.z)};
+        }
+        parts[first / grain] = {lower, upper};
+    });
     bounding_box box;
-    for (const glm::vec3& position : m.positions) box = include(box, position);
+    for (const bounding_box& part : parts) box = merge(box, part);
     return box;
 }
 
@@ -3910,6 +4060,16 @@ struct screen_vertex {
     double inverse_w;
 };
 
+/// A vertex's place on the grid, as millions of them are kept.
+struct grid_place {
+    std::int32_t x, y;
+
+    /// Not compact: has to be placed and clipped triangle by triangle.
+    static constexpr std::int32_t no_x = (std::numeric_limits<std::int32_t>::min)();
+    static constexpr grid_place off_grid() { return {no_x, 0}; }
+    bool is_off_grid() const { return x == no_x; }
+};
+
 /// A pixel rectangle, ends included; empty if last < first.
 struct pixel_box {
     int x0, y0, x1, y1;
@@ -3945,10 +4105,11 @@ struct pixel_grid {
     /// Pixels from the image's centre to where coordinates of so many bits end.
     double reach(int bits) const { return static_cast<double>(std::int64_t{1} << bits) / static_cast<double>(unit()); }
 
+    /// Added to a number below 2^51, it leaves the rounded integer in the low bits of the sum.
+    static constexpr double magic = 0x1.8p52;
+
     /// Rounds a distance in pixels from the centre of an axis, to nearest, ties to even; |pixels| < reach(51).
     std::int64_t snap(double pixels, int extent) const {
-        // Adding 1.5 * 2^52 leaves the rounded integer in the low bits of the sum.
-        constexpr double magic = 0x1.8p52;
         const double scaled = pixels * static_cast<double>(unit());
         const auto rounded = std::bit_cast<std::int64_t>(scaled + magic) - std::bit_cast<std::int64_t>(magic);
         return rounded + extent * half();
@@ -4158,136 +4319,6 @@ class tile_bins {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/clip.hpp ------------------------------------------------------------------
-// Clipping of the few triangles that need it: in front of the camera plane, beyond the depth range, or 2^50 sub-pixels
-// outside the picture. Everything else is left to the rectangle of the image.
-//
-// Where an edge crosses a plane, the new vertex is the same to the bit from whichever end it is computed. Both
-// triangles that share the edge get it: no crack opens, however many planes cut.
-
-#include <glm/vec4.hpp>
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-/// A corner of a clipped piece: where it is, and what share each vertex of the whole triangle has in it.
-struct clip_corner {
-    glm::dvec4 position;
-    glm::dvec3 shares;
-};
-
-/// A convex piece of a triangle: three corners and at most one more for each plane.
-struct clip_polygon {
-    static constexpr int planes = 7;
-    std::array<clip_corner, 3 + planes> corners;
-    int count = 0;
-    bool cut = false;  ///< by any plane
-};
-
-/// From clip space to the fixed-point grid.
-class projection {
-  public:
-    projection(const pixel_grid& grid, keep_depth keep)
-        : grid_(grid),
-          half_width_(0.5 * grid.width),
-          half_height_(0.5 * grid.height),
-          compact_x_(grid.reach(pixel_grid::compact_bits) / half_width_),
-          compact_y_(grid.reach(pixel_grid::compact_bits) / half_height_),
-          widest_x_(grid.reach(pixel_grid::widest_bits) / half_width_),
-          widest_y_(grid.reach(pixel_grid::widest_bits) / half_height_),
-          sign_(keep == keep_depth::smaller ? 1.0 : -1.0) {}
-
-    /// Distance to each clipping plane in clip space, >= 0 inside. The first keeps w away from zero.
-    double distance(int plane, const glm::dvec4& p) const {
-        switch (plane) {
-            case 0: return p.w - smallest_w;
-            case 1: return p.z;
-            case 2: return p.w - p.z;
-            case 3: return widest_x_ * p.w + p.x;
-            case 4: return widest_x_ * p.w - p.x;
-            case 5: return widest_y_ * p.w + p.y;
-            default: return widest_y_ * p.w - p.y;
-        }
-    }
-
-    /// Inside all planes and compact on the grid; false for NaN and infinity too.
-    bool is_compact(const glm::dvec4& p) const {
-        const double x = p.x < 0 ? -p.x : p.x, y = p.y < 0 ? -p.y : p.y;
-        return p.w >= smallest_w && p.z >= 0 && p.z <= p.w && x <= compact_x_ * p.w && y <= compact_y_ * p.w &&
-               p.w <= static_cast<double>((std::numeric_limits<float>::max)());
-    }
-
-    /// Internally smaller depth always wins; a target that keeps the larger one sees it negated.
-    screen_vertex to_screen(const glm::dvec4& p) const {
-        return {grid_.snap(p.x / p.w * half_width_, grid_.width), grid_.snap(-(p.y / p.w) * half_height_, grid_.height),
-                sign_ * (p.z / p.w), 1 / p.w};
-    }
-
-    /// The part of a triangle that lies inside all planes (Sutherland and Hodgman, 1974).
-    clip_polygon clip(const std::array<glm::dvec4, 3>& triangle) const {
-        clip_polygon piece;
-        for (int i = 0; i < 3; ++i) {
-            const glm::dvec3 share{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
-            piece.corners[static_cast<std::size_t>(i)] = {triangle[static_cast<std::size_t>(i)], share};
-        }
-        piece.count = 3;
-        for (int plane = 0; plane < clip_polygon::planes && piece.count > 0; ++plane) piece = cut(piece, plane);
-        for (int i = 0; i < piece.count; ++i) move_inside(piece.corners[static_cast<std::size_t>(i)].position);
-        return piece;
-    }
-
-  private:
-    static constexpr double smallest_w = 1e-30;
-
-    /// What rounding has left outside of a plane, by a little or, next to the eye, by a lot. It depends on the position
-    /// alone, so neighbours go on sharing their corners.
-    void move_inside(glm::dvec4& p) const {
-        p.w = (std::max)(p.w, smallest_w);
-        p.x = std::clamp(p.x, -widest_x_ * p.w, widest_x_ * p.w);
-        p.y = std::clamp(p.y, -widest_y_ * p.w, widest_y_ * p.w);
-        p.z = std::clamp(p.z, 0.0, p.w);
-    }
-
-    clip_polygon cut(const clip_polygon& whole, int plane) const {
-        clip_polygon kept;
-        kept.cut = whole.cut;
-        const auto keep = [&](const clip_corner& corner) {
-            kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
-        };
-        for (int i = 0; i < whole.count; ++i) {
-            const clip_corner& here = whole.corners[static_cast<std::size_t>(i)];
-            const clip_corner& next = whole.corners[static_cast<std::size_t>((i + 1) % whole.count)];
-            const double d_here = distance(plane, here.position), d_next = distance(plane, next.position);
-            const bool here_inside = d_here >= 0, next_inside = d_next >= 0;
-            if (here_inside) keep(here);
-            kept.cut |= !here_inside;
-            if (here_inside == next_inside) continue;
-            clip_corner crossed = crossing(here, d_here, next, d_next);
-            if (plane == 0) crossed.position.w = smallest_w;  // not what is left of two large numbers
-            keep(crossed);
-        }
-        return kept;
-    }
-
-    /// Where the edge between two corners on either side of a plane meets it. Both shares are positive, so a crossing
-    /// next to the eye doesn't cancel out beside an end that is far away; and exchanging the corners changes no bit.
-    static clip_corner crossing(const clip_corner& a, double d_a, const clip_corner& b, double d_b) {
-        const double share_a = d_b / (d_b - d_a), share_b = d_a / (d_a - d_b);
-        return {share_a * a.position + share_b * b.position, share_a * a.shares + share_b * b.shares};
-    }
-
-    pixel_grid grid_;
-    double half_width_, half_height_;
-    double compact_x_, compact_y_;  ///< |x| / w and |y| / w up to which vertices are compact
-    double widest_x_, widest_y_;    ///< and up to which they are not clipped
-    double sign_;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/raster/depth.hpp -----------------------------------------------------------------
 // Depth between the vertices, correctly rounded: the float nearest to the plane through the three snapped corners.
 //
@@ -4362,6 +4393,178 @@ inline float nearest_depth(const screen_vertex& a, const screen_vertex& b, const
     const double_double sum = wide(share.a) * a.z + wide(share.b) * b.z + wide(share.c) * c.z;
     return (sum / wide(share.a + share.b + share.c)).to_float();
 }
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/raster/clip.hpp ------------------------------------------------------------------
+// Clipping of the few triangles that need it: in front of the camera plane, beyond the depth range, or 2^50 sub-pixels
+// outside the picture. Everything else is left to the rectangle of the image.
+//
+// Where an edge crosses a plane, the new vertex is the same to the bit from whichever end it is computed. Both
+// triangles that share the edge get it: no crack opens, however many planes cut.
+
+#include <glm/vec4.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// A corner of a clipped piece: where it is, and what share each vertex of the whole triangle has in it.
+struct clip_corner {
+    glm::dvec4 position;
+    glm::dvec3 shares;
+};
+
+/// A convex piece of a triangle: three corners and at most one more for each plane.
+struct clip_polygon {
+    static constexpr int planes = 7;
+    std::array<clip_corner, 3 + planes> corners;
+    int count = 0;
+    bool cut = false;  ///< by any plane
+};
+
+/// From clip space to the fixed-point grid.
+class projection {
+  public:
+    /// @param exact  divides by w, to the nearest; else multiplies by 1 / w, which is as good but for the last bit
+    projection(const pixel_grid& grid, keep_depth keep, bool exact = true)
+        : grid_(grid),
+          half_width_(0.5 * grid.width),
+          half_height_(0.5 * grid.height),
+          compact_x_(grid.reach(pixel_grid::compact_bits) / half_width_),
+          compact_y_(grid.reach(pixel_grid::compact_bits) / half_height_),
+          widest_x_(grid.reach(pixel_grid::widest_bits) / half_width_),
+          widest_y_(grid.reach(pixel_grid::widest_bits) / half_height_),
+          sign_(keep == keep_depth::smaller ? 1.0 : -1.0),
+          exact_(exact) {}
+
+    /// Distance to each clipping plane in clip space, >= 0 inside. The first keeps w away from zero.
+    double distance(int plane, const glm::dvec4& p) const {
+        switch (plane) {
+            case 0: return p.w - smallest_w;
+            case 1: return p.z;
+            case 2: return p.w - p.z;
+            case 3: return widest_x_ * p.w + p.x;
+            case 4: return widest_x_ * p.w - p.x;
+            case 5: return widest_y_ * p.w + p.y;
+            default: return widest_y_ * p.w - p.y;
+        }
+    }
+
+    /// Inside all planes and compact on the grid; false for NaN and infinity too.
+    bool is_compact(const glm::dvec4& p) const {
+        const double x = p.x < 0 ? -p.x : p.x, y = p.y < 0 ? -p.y : p.y;
+        return p.w >= smallest_w && p.z >= 0 && p.z <= p.w && x <= compact_x_ * p.w && y <= compact_y_ * p.w &&
+               p.w <= static_cast<double>((std::numeric_limits<float>::max)());
+    }
+
+    /// Internally smaller depth always wins; a target that keeps the larger one sees it negated.
+    screen_vertex to_screen(const glm::dvec4& p) const {
+        const double inverse_w = 1 / p.w;
+        const glm::dvec3 over_w = exact_ ? glm::dvec3(p.x / p.w, p.y / p.w, p.z / p.w)
+                                         : glm::dvec3(p.x * inverse_w, p.y * inverse_w, p.z * inverse_w);
+        return {grid_.snap(over_w.x * half_width_, grid_.width), grid_.snap(-over_w.y * half_height_, grid_.height),
+                sign_ * over_w.z, inverse_w};
+    }
+
+    /// The same for N positions, by axis. What isn't compact gets the place of what is off the grid.
+    template <int N>
+    INSONIFY_INLINE void to_screen(const lanes<double, N> (&p)[4], lanes<std::int64_t, N>& x, lanes<std::int64_t, N>& y,
+                                   lanes<double, N>& z, lanes<double, N>& inverse_w) const {
+        using doubles = lanes<double, N>;
+        using masks = lanes<std::int64_t, N>;
+        const doubles& w = p[3];
+        const doubles size_x = p[0] < 0.0 ? 0.0 - p[0] : p[0], size_y = p[1] < 0.0 ? 0.0 - p[1] : p[1];
+        const masks compact = masks(w >= smallest_w) & masks(p[2] >= 0.0) & masks(p[2] <= w) &
+                              masks(size_x <= compact_x_ * w) & masks(size_y <= compact_y_ * w) &
+                              masks(w <= static_cast<double>((std::numeric_limits<float>::max)()));
+        inverse_w = 1.0 / w;
+        const auto over_w = [&](doubles& into, const doubles& value) INSONIFY_INLINE_LAMBDA {
+            if (exact_)
+                into = value / w;
+            else
+                into = value * inverse_w;
+        };
+        doubles right, down;
+        over_w(right, p[0]);
+        over_w(down, p[1]);
+        over_w(z, p[2]);
+        z = z * sign_;
+        snap<N>(x, right * half_width_, grid_.width);
+        snap<N>(y, (0.0 - down) * half_height_, grid_.height);
+        x = compact ? x : masks{} + std::int64_t{grid_place::no_x};
+        y = compact ? y : masks{};
+    }
+
+    /// The part of a triangle that lies inside all planes (Sutherland and Hodgman, 1974).
+    clip_polygon clip(const std::array<glm::dvec4, 3>& triangle) const {
+        clip_polygon piece;
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 share{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
+            piece.corners[static_cast<std::size_t>(i)] = {triangle[static_cast<std::size_t>(i)], share};
+        }
+        piece.count = 3;
+        for (int plane = 0; plane < clip_polygon::planes && piece.count > 0; ++plane) piece = cut(piece, plane);
+        for (int i = 0; i < piece.count; ++i) move_inside(piece.corners[static_cast<std::size_t>(i)].position);
+        return piece;
+    }
+
+  private:
+    static constexpr double smallest_w = 1e-30;
+
+    template <int N>
+    INSONIFY_INLINE void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& pixels, int extent) const {
+        const lanes<double, N> sum = pixels * static_cast<double>(grid_.unit()) + pixel_grid::magic;
+        std::memcpy(&into, &sum, sizeof into);
+        into = into - (std::bit_cast<std::int64_t>(pixel_grid::magic) - extent * grid_.half());
+    }
+
+    /// What rounding has left outside of a plane, by a little or, next to the eye, by a lot. It depends on the position
+    /// alone, so neighbours go on sharing their corners.
+    void move_inside(glm::dvec4& p) const {
+        p.w = (std::max)(p.w, smallest_w);
+        p.x = std::clamp(p.x, -widest_x_ * p.w, widest_x_ * p.w);
+        p.y = std::clamp(p.y, -widest_y_ * p.w, widest_y_ * p.w);
+        p.z = std::clamp(p.z, 0.0, p.w);
+    }
+
+    clip_polygon cut(const clip_polygon& whole, int plane) const {
+        clip_polygon kept;
+        kept.cut = whole.cut;
+        const auto keep = [&](const clip_corner& corner) {
+            kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
+        };
+        for (int i = 0; i < whole.count; ++i) {
+            const clip_corner& here = whole.corners[static_cast<std::size_t>(i)];
+            const clip_corner& next = whole.corners[static_cast<std::size_t>((i + 1) % whole.count)];
+            const double d_here = distance(plane, here.position), d_next = distance(plane, next.position);
+            const bool here_inside = d_here >= 0, next_inside = d_next >= 0;
+            if (here_inside) keep(here);
+            kept.cut |= !here_inside;
+            if (here_inside == next_inside) continue;
+            clip_corner crossed = crossing(here, d_here, next, d_next);
+            if (plane == 0) crossed.position.w = smallest_w;  // not what is left of two large numbers
+            keep(crossed);
+        }
+        return kept;
+    }
+
+    /// Where the edge between two corners on either side of a plane meets it. Both shares are positive, so a crossing
+    /// next to the eye doesn't cancel out beside an end that is far away; and exchanging the corners changes no bit.
+    static clip_corner crossing(const clip_corner& a, double d_a, const clip_corner& b, double d_b) {
+        const double share_a = d_b / (d_b - d_a), share_b = d_a / (d_a - d_b);
+        return {share_a * a.position + share_b * b.position, share_a * a.shares + share_b * b.shares};
+    }
+
+    pixel_grid grid_;
+    double half_width_, half_height_;
+    double compact_x_, compact_y_;  ///< |x| / w and |y| / w up to which vertices are compact
+    double widest_x_, widest_y_;    ///< and up to which they are not clipped
+    double sign_;
+    bool exact_;
+};
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
@@ -4516,12 +4719,17 @@ struct shader_varyings<S> {
     using type = std::remove_cvref_t<decltype(std::declval<const S&>()(std::declval<const vertex&>()).varyings)>;
 };
 
+inline glm::vec4 position_of(const glm::vec4& clip) {
+    return clip;
+}
+template <class Varyings>
+INSONIFY_INLINE glm::vec4 position_of(const placed_vertex<Varyings>& placed) {
+    return placed.clip;
+}
+
 template <vertex_shader S>
 INSONIFY_INLINE glm::vec4 clip_position(const S& shader, const vertex& v) {
-    if constexpr (position_shader<S>)
-        return shader(v);
-    else
-        return shader(v).clip;
+    return position_of(shader(v));
 }
 
 template <vertex_shader S>
@@ -4593,16 +4801,6 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// A vertex's place on the grid, as millions of them are kept.
-struct grid_place {
-    std::int32_t x, y;
-
-    /// Not compact: has to be placed and clipped triangle by triangle.
-    static constexpr std::int32_t no_x = (std::numeric_limits<std::int32_t>::min)();
-    static constexpr grid_place off_grid() { return {no_x, 0}; }
-    bool is_off_grid() const { return x == no_x; }
-};
-
 /// Where the corners of N triangles lie, and how far they extend.
 template <int N>
 struct corner_lanes {
@@ -4611,12 +4809,12 @@ struct corner_lanes {
     ints ax, ay, bx, by, cx, cy;
     ints west, north, east, south;
 
-    /// @param corner  corner(k, i): the place of corner i of triangle k
+    /// @param corner  corner(k, i): where the place of corner i of triangle k is kept
     template <class Corner>
     INSONIFY_INLINE explicit corner_lanes(const Corner& corner) {
-        read(ax, ay, [&](int k) { return corner(k, 0); });
-        read(bx, by, [&](int k) { return corner(k, 1); });
-        read(cx, cy, [&](int k) { return corner(k, 2); });
+        gather_pairs<N>(ax, ay, [&](int k) { return &corner(k, 0).x; });
+        gather_pairs<N>(bx, by, [&](int k) { return &corner(k, 1).x; });
+        gather_pairs<N>(cx, cy, [&](int k) { return &corner(k, 2).x; });
         extend(west, east, ax, bx, cx);
         extend(north, south, ay, by, cy);
     }
@@ -4646,27 +4844,6 @@ struct corner_lanes {
     }
 
   private:
-    template <class Place>
-    INSONIFY_INLINE static void read(ints& x, ints& y, const Place& place) {
-#if INSONIFY_SIMD
-        if constexpr (N > 1) {
-            // x and y of half the places at a time, then all x and all y.
-            constexpr int half = N / 2;
-            lanes<std::int64_t, half> first, second;
-            gather<half>(first, [&](int k) { return std::bit_cast<std::int64_t>(place(k)); });
-            gather<half>(second, [&](int k) { return std::bit_cast<std::int64_t>(place(half + k)); });
-            [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-                x = __builtin_shufflevector(ints(first), ints(second), 2 * I...);
-                y = __builtin_shufflevector(ints(first), ints(second), 2 * I + 1 ...);
-            }
-            (std::make_integer_sequence<int, N>{});
-        } else
-#endif
-        {
-            x = place(0).x;
-            y = place(0).y;
-        }
-    }
     INSONIFY_INLINE static void extend(ints& low, ints& high, const ints& a, const ints& b, const ints& c) {
         low = a < b ? a : b;
         low = low < c ? low : c;
@@ -4713,6 +4890,105 @@ struct small_setup {
         store(e.origin, ints((run * (y - from_y) - rise * (x - from_x) + inner) >> bits));
         store(e.dx, ints(none - rise));
         store(e.dy, run);
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/raster/placement.hpp -------------------------------------------------------------
+// Vertices on the screen: placed by the vertex callable one by one, divided by w and rounded to the grid several at a
+// time.
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// Vertices on the screen. Those that aren't compact are marked and seen to triangle by triangle.
+/// They are left as memory comes until they are set, every one.
+template <class Real>
+struct screen_vertices {
+    std::unique_ptr<grid_place[]> places;
+    std::unique_ptr<Real[]> depths;
+    std::unique_ptr<double[]> inverse_w;  ///< where weights_at will be asked for
+
+    screen_vertices(std::size_t count, bool weighed)
+        : places(std::make_unique_for_overwrite<grid_place[]>(count)),
+          depths(std::make_unique_for_overwrite<Real[]>(count)),
+          inverse_w(weighed ? std::make_unique_for_overwrite<double[]>(count) : nullptr) {}
+
+    screen_vertex operator[](std::size_t i) const {
+        return {places[i].x, places[i].y, static_cast<double>(depths[i]), inverse_w ? inverse_w[i] : 1};
+    }
+};
+
+inline vertex mesh_vertex(const mesh& m, std::uint32_t index) {
+    return {m.positions[index], m.normals.empty() ? glm::vec3(0) : m.normals[index], index};
+}
+
+/// Places a range of a mesh's vertices; `keep(index, placed)` is told what the vertex callable gives.
+template <class Shader, class Keep, class Real>
+struct placement_kernel {
+    const mesh& m;
+    const Shader& shader;
+    const Keep& keep;
+    const projection& screen;
+    screen_vertices<Real>& vertices;
+    std::size_t first, last;
+
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        constexpr int N = Width > 1 ? Width / 2 : 1;
+        for (std::size_t i = first; i < last; i += N) place<N>(i, (std::min)(last - i, std::size_t{N}));
+    }
+
+  private:
+    template <int N>
+    INSONIFY_INLINE void place(std::size_t start, std::size_t count) const {
+        using doubles = lanes<double, N>;
+        float clip[4][static_cast<unsigned>(N)];
+        for (std::size_t k = 0; k < std::size_t{N}; ++k) {
+            const std::size_t i = start + (k < count ? k : 0);
+            const auto placed = shader(mesh_vertex(m, static_cast<std::uint32_t>(i)));
+            if (k < count) keep(i, placed);
+            const glm::vec4 position = position_of(placed);
+            for (int axis = 0; axis < 4; ++axis) clip[axis][k] = position[axis];
+        }
+        doubles p[4];
+        for (int axis = 0; axis < 4; ++axis) {
+            lanes<float, N> narrow;
+            load(narrow, clip[axis]);
+            convert(p[axis], narrow);
+        }
+        lanes<std::int64_t, N> x, y;
+        doubles z, inverse_w;
+        screen.template to_screen<N>(p, x, y, z, inverse_w);
+
+        std::int64_t columns[static_cast<unsigned>(N)], rows[static_cast<unsigned>(N)];
+        store(columns, x);
+        store(rows, y);
+        lanes<Real, N> depth;
+        convert(depth, z);
+        Real depths[static_cast<unsigned>(N)];
+        store(depths, depth);
+        for (std::size_t k = 0; k < count; ++k) {
+            vertices.places[start + k] = {static_cast<std::int32_t>(columns[k]), static_cast<std::int32_t>(rows[k])};
+            vertices.depths[start + k] = depths[k];
+        }
+        if (!vertices.inverse_w) return;
+        double inverses[static_cast<unsigned>(N)];
+        store(inverses, inverse_w);
+        for (std::size_t k = 0; k < count; ++k) vertices.inverse_w[start + k] = inverses[k];
     }
 };
 
@@ -4782,25 +5058,6 @@ struct draw_options {
 
 namespace detail {
 
-/// Vertices on the screen. Those that aren't compact are marked and seen to triangle by triangle.
-template <class Real>
-struct screen_vertices {
-    std::vector<grid_place> places;
-    std::vector<Real> depths;
-    std::vector<double> inverse_w;  ///< where pixels are shaded
-
-    screen_vertices(std::size_t count, bool shaded) : places(count), depths(count), inverse_w(shaded ? count : 0) {}
-
-    void set(std::size_t i, const screen_vertex& v) {
-        places[i] = {static_cast<std::int32_t>(v.x), static_cast<std::int32_t>(v.y)};
-        depths[i] = static_cast<Real>(v.z);
-        if (!inverse_w.empty()) inverse_w[i] = v.inverse_w;
-    }
-    screen_vertex operator[](std::size_t i) const {
-        return {places[i].x, places[i].y, depths[i], inverse_w.empty() ? 1 : inverse_w[i]};
-    }
-};
-
 /// A triangle with a vertex that isn't compact, or a piece of one that was clipped.
 struct wide_triangle {
     std::array<screen_vertex, 3> corners;
@@ -4839,10 +5096,6 @@ struct screen_triangle {
     }
 };
 
-inline vertex mesh_vertex(const mesh& m, std::uint32_t index) {
-    return {m.positions[index], m.normals.empty() ? glm::vec3(0) : m.normals[index], index};
-}
-
 /// Names the triangles of a chunk that can be seen, and counts the others.
 struct assembled_chunk {
     tile_runs runs;
@@ -4859,16 +5112,22 @@ struct assembly_kernel;
 template <class Real>
 class screen_mesh {
   public:
-    /// @param shaded  whether weights_at will be asked for
-    template <vertex_shader Shader, executor E>
+    /// @param weighed  whether weights_at will be asked for
+    /// @param keep     keep(index, placed): takes what the vertex callable gives
+    template <vertex_shader Shader, class Keep, executor E>
     screen_mesh(const mesh& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
-                const draw_options& options, bool shaded, E& ex)
+                const draw_options& options, bool weighed, const Keep& keep, E& ex)
         : mesh_(m),
+          indices_(m.triangles.data()),
+          whole_(static_cast<std::uint32_t>(m.triangles.size())),
           grid_(grid),
-          projection_(grid, options.keep),
+          projection_(grid, options.keep, std::is_same_v<Real, double>),
           cull_(options.cull),
-          vertices_(m.positions.size(), shaded) {
-        place_vertices(shader, ex);
+          vertices_(m.positions.size(), weighed) {
+        bulk_ranges(ex, m.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
+            dispatch(placement_kernel<Shader, Keep, Real>{m, shader, keep, projection_, vertices_, first, last},
+                     options.level);
+        });
         const std::size_t grain = (std::max)(std::size_t{4096}, (m.triangles.size() / 64 + 16) / 16 * 16);
         std::vector<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
         bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
@@ -4914,32 +5173,29 @@ class screen_mesh {
         return t;
     }
 
+    bool has_wide() const { return !wide_.empty(); }
+    bool is_compact(std::uint32_t name) const { return name < whole(); }
+    /// The mesh's triangle that goes by a name, and its vertices.
+    std::uint32_t triangle(std::uint32_t name) const {
+        return is_compact(name) ? name : wide_[name - whole()].triangle;
+    }
+    const glm::uvec3& indices(std::uint32_t triangle) const { return indices_[triangle]; }
+    const grid_place* places() const { return vertices_.places.get(); }
+    std::uint32_t compact_names() const { return whole_; }
+
     /// Of a triangle that isn't wide, corner by corner in the mesh's order.
-    INSONIFY_INLINE grid_place place(std::size_t triangle, int corner) const {
-        return vertices_.places[mesh_.triangles[triangle][corner]];
+    INSONIFY_INLINE const grid_place& place(std::size_t triangle, int corner) const {
+        return vertices_.places[indices_[triangle][corner]];
     }
     INSONIFY_INLINE Real depth(std::size_t triangle, int corner) const {
-        return vertices_.depths[mesh_.triangles[triangle][corner]];
+        return vertices_.depths[indices_[triangle][corner]];
     }
 
   private:
     template <class Screen, class Shader>
     friend struct assembly_kernel;
 
-    std::uint32_t whole() const { return static_cast<std::uint32_t>(mesh_.triangles.size()); }
-
-    template <vertex_shader Shader, executor E>
-    void place_vertices(const Shader& shader, E& ex) {
-        bulk_ranges(ex, mesh_.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) {
-                const glm::dvec4 clip(clip_position(shader, mesh_vertex(mesh_, static_cast<std::uint32_t>(i))));
-                if (projection_.is_compact(clip))
-                    vertices_.set(i, projection_.to_screen(clip));
-                else
-                    vertices_.places[i] = grid_place::off_grid();
-            }
-        });
-    }
+    std::uint32_t whole() const { return whole_; }
 
     /// The first index without a position among some triangles.
     std::optional<std::uint32_t> bad_index(std::size_t first, std::size_t last) const {
@@ -5022,6 +5278,8 @@ class screen_mesh {
     }
 
     const mesh& mesh_;
+    const glm::uvec3* indices_;
+    std::uint32_t whole_;  ///< names below this are triangles of the mesh, the others wide ones
     pixel_grid grid_;
     projection projection_;
     cull_mode cull_;
@@ -5058,8 +5316,9 @@ struct assembly_kernel {
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle) const {
         using ints = lanes<std::int32_t, N>;
-        const corner_lanes<N> at(
-            [&](int k, int corner) { return screen.place(triangle + static_cast<std::size_t>(k), corner); });
+        const corner_lanes<N> at([&](int k, int corner) -> const grid_place& {
+            return screen.place(triangle + static_cast<std::size_t>(k), corner);
+        });
         if (!at.are_small()) return false;
         const pixel_box picture{0, 0, screen.grid_.width - 1, screen.grid_.height - 1};
         ints area, x0, y0, x1, y1;
@@ -5072,7 +5331,8 @@ struct assembly_kernel {
         const ints missed = ints((x1 < x0) | (y1 < y0));
 
         std::int32_t fates[static_cast<unsigned>(N)], tile[4][static_cast<unsigned>(N)];
-        store(fates, ints((degenerate & 1) | (culled & 2) | (missed & 4)));
+        const ints none = ints{};
+        store(fates, ints((degenerate ? none + 1 : none) | (culled ? none + 2 : none) | (missed ? none + 4 : none)));
         store(tile[0], ints(x0 >> tiles.log2_size));
         store(tile[1], ints(y0 >> tiles.log2_size));
         store(tile[2], ints(x1 >> tiles.log2_size));
@@ -5242,28 +5502,38 @@ class tile_buffer {
 
     explicit tile_buffer(int size)
         : stride_(size + slack),
-          depth_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
-          winner_(Winners ? depth_.size() : 0) {}
+          count_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
+          depth_(std::make_unique_for_overwrite<float[]>(count_)),
+          winner_(Winners ? std::make_unique_for_overwrite<std::uint32_t[]>(count_) : nullptr) {}
 
-    /// Puts the empty tile where its first pixel is (x, y) of the image.
+    /// Puts the tile where its first pixel is (x, y) of the image.
     void restart(int x, int y) {
         x_ = x;
         y_ = y;
-        std::fill(depth_.begin(), depth_.end(), std::numeric_limits<float>::infinity());
-        std::fill(winner_.begin(), winner_.end(), nobody);
+    }
+
+    template <int N>
+    INSONIFY_INLINE void clear() {
+        const lanes<float, N> farthest = lanes<float, N>{} + std::numeric_limits<float>::infinity();
+        const lanes<std::uint32_t, N> none = lanes<std::uint32_t, N>{} + nobody;
+        for (std::size_t i = 0; i < count_; i += N) {
+            store(depth_.get() + i, farthest);
+            if constexpr (Winners) store(winner_.get() + i, none);
+        }
     }
 
     std::ptrdiff_t stride() const { return stride_; }
-    float* depth(int x, int y) { return depth_.data() + index(x, y); }
-    std::uint32_t* winner(int x, int y) { return Winners ? winner_.data() + index(x, y) : nullptr; }
+    float* depth(int x, int y) { return depth_.get() + index(x, y); }
+    std::uint32_t* winner(int x, int y) { return Winners ? winner_.get() + index(x, y) : nullptr; }
 
   private:
     std::ptrdiff_t index(int x, int y) const { return static_cast<std::ptrdiff_t>(y - y_) * stride_ + (x - x_); }
 
     int stride_;
     int x_ = 0, y_ = 0;
-    std::vector<float> depth_;
-    std::vector<std::uint32_t> winner_;
+    std::size_t count_;
+    std::unique_ptr<float[]> depth_;
+    std::unique_ptr<std::uint32_t[]> winner_;
 };
 
 /// Keeps the nearer of what is there and what comes; a tie stays with whoever came first. `winner` may be null if
@@ -5405,6 +5675,7 @@ struct tile_kernel {
         // As many as fit a vector of depths.
         constexpr int N = exact && Width > 1 ? Width / 2 : Width;
         tile.restart(box.x0, box.y0);
+        tile.template clear<Width>();
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
         for (const triangle_run& run : triangles.runs()) {
             if (run.is_small)
@@ -5450,7 +5721,7 @@ struct tile_kernel {
     INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count) const {
         using reals = lanes<Real, N>;
         const auto name = [&](int k) { return names[k < count ? k : 0]; };
-        corner_lanes<N> at([&](int k, int corner) { return triangles.place(name(k), corner); });
+        corner_lanes<N> at([&](int k, int corner) -> const grid_place& { return triangles.place(name(k), corner); });
         reals az, bz, cz;
         gather<N>(az, [&](int k) { return triangles.depth(name(k), 0); });
         gather<N>(bz, [&](int k) { return triangles.depth(name(k), 1); });
@@ -5468,6 +5739,7 @@ struct tile_kernel {
         const small_setup<N> t(at, triangles.grid(), box);
         const small_planes<N, Real> planes(at, area, az, bz, cz);
         const auto unit = static_cast<int>(triangles.grid().unit());
+        for (int k = 0; k < count; ++k) triangles.prefetch(names[k]);
         for (int k = 0; k < count; ++k)
             fill_small<N>(t, planes, k, unit, tile, names[k],
                           [&](int x, int y) { return triangles.nearest_depth(names[k], x, y); });
@@ -5478,6 +5750,212 @@ struct tile_kernel {
         const Lanes old = a;
         a = where ? b : a;
         b = where ? old : b;
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/raster/fragment_lanes.hpp --------------------------------------------------------
+// Shading of several pixels at a time, for who can write a shader in lanes: what a row's next N pixels show.
+//
+// Where a triangle of a fine mesh covers two or three pixels, most of the work is to fetch its corners. So what the
+// vertex callable gives is kept for each vertex, beside what interpolation needs, in whole vectors of four floats; and
+// a pixel takes its three corners in a few loads.
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// What pixels read of a vertex: its varyings, float by float, and 1 / w; filled up to whole vectors of four.
+template <class Varyings>
+struct alignas((sizeof(Varyings) + sizeof(float) + 15) / 16 == 2 ? 32 : 16) vertex_record {
+    static constexpr int count = static_cast<int>(sizeof(Varyings) / sizeof(float));
+    static constexpr int blocks = (count + 1 + 3) / 4;
+    float values[static_cast<unsigned>(4 * blocks)];
+
+    void set(const Varyings& varyings, float inverse_w) {
+        std::memcpy(values, &varyings, sizeof varyings);
+        values[count] = inverse_w;
+    }
+};
+
+/// N neighbouring pixels of a row.
+template <int N, class Varyings>
+class fragment_lanes {
+  public:
+    using record = vertex_record<Varyings>;
+    using ints = lanes<std::int32_t, N>;
+    using floats = lanes<float, N>;
+
+    int x, y;      ///< of the first lane
+    ints visible;  ///< which lanes this draw has won
+    bool all_visible;
+    std::uint32_t triangles[static_cast<unsigned>(N)];  ///< of the mesh
+    ints front;                                         ///< seen from the counter-clockwise side
+    floats weights[3];                                  ///< of the corners, perspective-correct
+
+    /// @param names  of what each lane shows: somebody's where a lane isn't visible
+    template <class Screen>
+    INSONIFY_INLINE fragment_lanes(const Screen& screen, const record* records, int column, int row, const ints& shown,
+                                   bool all_shown, const std::uint32_t* names)
+        : x(column), y(row), visible(shown), all_visible(all_shown) {
+        lanes<std::uint32_t, N> name;
+        load(name, names);
+        if (!any(ints(name >= screen.compact_names()))) {
+            const grid_place* const places = screen.places();
+            std::memcpy(triangles, names, sizeof triangles);
+            const grid_place* place[3][count];
+            read_corners(
+                records, [&](int k) -> const glm::uvec3& { return screen.indices(names[k]); },
+                [&](int i, int k, std::uint32_t vertex) { place[i][k] = places + vertex; });
+            weigh(screen.grid(), corner_lanes<N>([&](int k, int i) -> const grid_place& { return *place[i][k]; }));
+        } else {
+            for (int k = 0; k < N; ++k) triangles[k] = screen.triangle(names[k]);
+            read_corners(
+                records, [&](int k) -> const glm::uvec3& { return screen.indices(triangles[k]); },
+                [](int, int, std::uint32_t) {});
+            weigh_one_by_one(screen, records, names);
+        }
+    }
+
+    /// Float k of the varyings; the same bits whichever way the triangle runs.
+    INSONIFY_INLINE void interpolate(floats& into, int k) const {
+        into = weights[0] * values_[0][k] + (weights[1] * values_[1][k] + weights[2] * values_[2][k]);
+    }
+    /// The same at a corner, in the mesh's order.
+    INSONIFY_INLINE const floats& at_corner(int corner, int k) const { return values_[corner][k]; }
+
+  private:
+    static constexpr auto count = static_cast<std::size_t>(N);
+
+    /// Reads the corners' records; `each(corner, lane, vertex)` is told which they are.
+    template <class Indices, class Each>
+    INSONIFY_INLINE void read_corners(const record* records, const Indices& indices, const Each& each) {
+        const record* corner[3][count];
+        for (int k = 0; k < N; ++k) {
+            const glm::uvec3& index = indices(k);
+            for (int i = 0; i < 3; ++i) {
+                corner[i][k] = records + index[i];
+                each(i, k, index[i]);
+            }
+        }
+        for (int i = 0; i < 3; ++i) {
+            if constexpr (N == 1)
+                std::memcpy(values_[i], corner[i][0]->values, sizeof values_[i]);
+            else
+                for (int block = 0; block < 4 * record::blocks; block += 4)
+                    transpose<N>(values_[i] + block, [&](int k) { return corner[i][k]->values + block; });
+        }
+    }
+
+    /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out. In float a
+    /// share is off by 2^-24 of the triangle's length squared.
+    INSONIFY_INLINE void weigh(const pixel_grid& grid, const corner_lanes<N>& at) {
+        ints column;
+        count_up<std::int32_t, N>(column);
+        const ints px = ((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half());
+        const ints py = ints{} + static_cast<std::int32_t>(grid.center(y));
+        floats ax, ay, bx, by, cx,
+            cy;  // from the pixel, so that exchanging two corners changes a sign and nothing else
+        convert(ax, ints(at.ax - px));
+        convert(ay, ints(at.ay - py));
+        convert(bx, ints(at.bx - px));
+        convert(by, ints(at.by - py));
+        convert(cx, ints(at.cx - px));
+        convert(cy, ints(at.cy - py));
+        weights[0] = bx * cy - by * cx;
+        weights[1] = cx * ay - cy * ax;
+        weights[2] = ax * by - ay * bx;
+        front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
+        for (int i = 0; i < 3; ++i) weights[i] = weights[i] * values_[i][record::count];
+        const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
+        for (int i = 0; i < 3; ++i) weights[i] = weights[i] * scale;
+    }
+    /// Where one of them was clipped, or is too large.
+    template <class Screen>
+    INSONIFY_INLINE void weigh_one_by_one(const Screen& screen, const record* records, const std::uint32_t* names) {
+        for (int k = 0; k < N; ++k) {
+            const weights_of_one one = weigh_one(screen, records, names[k], x + k, y);
+            set_lane(front, k, one.front ? std::int32_t{-1} : std::int32_t{0});
+            for (int i = 0; i < 3; ++i) set_lane(weights[i], k, one.weights[i]);
+        }
+    }
+    struct weights_of_one {
+        glm::vec3 weights;
+        bool front;
+    };
+    template <class Screen>
+    INSONIFY_RARE static weights_of_one weigh_one(const Screen& screen, const record* records, std::uint32_t name,
+                                                  int px, int py) {
+        if (!screen.is_compact(name)) {
+            const screen_triangle t = screen[name];
+            return {glm::vec3(t.weights_at(px, py, screen.grid())), t.front};
+        }
+        if constexpr (N == 1) {
+            return {};  // alone it would not have come here
+        } else {
+            const fragment_lanes<1, Varyings> one(screen, records, px, py, 1, true, &name);
+            return {{one.weights[0], one.weights[1], one.weights[2]}, one.front != 0};
+        }
+    }
+
+    floats values_[3][static_cast<unsigned>(4 * record::blocks)];  ///< of the corners
+};
+
+/// Hands the pixels of one tile that this draw has won to `shader(fragment_lanes)`.
+template <class Screen, class Varyings, class Shader>
+struct shading_kernel {
+    const Screen& screen;
+    const vertex_record<Varyings>* records;
+    tile_buffer<true>& tile;
+    pixel_box box;
+    const Shader& shader;
+    std::uint64_t& shaded;
+
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        constexpr int N = Width;
+        using ints = lanes<std::int32_t, N>;
+        ints column;
+        count_up<std::int32_t, N>(column);
+        for (int y = box.y0; y <= box.y1; ++y)
+            for (int x = box.x0; x <= box.x1; x += N) {
+                const std::uint32_t* const names = tile.winner(x, y);
+                lanes<std::uint32_t, N> shown;
+                load(shown, names);
+                const ints visible = ints(shown != tile_buffer<true>::nobody) & ints(column <= box.x1 - x);
+                if (!any(ints(visible == 0))) {
+                    shaded += N;
+                    shader(fragment_lanes<N, Varyings>(screen, records, x, y, visible, true, names));
+                } else if (any(visible)) {
+                    shade_some<N>(x, y, visible, names);
+                }
+            }
+    }
+
+  private:
+    template <int N>
+    INSONIFY_INLINE void shade_some(int x, int y, const lanes<std::int32_t, N>& visible,
+                                    const std::uint32_t* names) const {
+        std::uint32_t shown[static_cast<unsigned>(N)], somebody = 0;
+        for (int k = 0; k < N; ++k)
+            if (lane(visible, k) != 0) {
+                somebody = names[k];
+                ++shaded;
+            }
+        for (int k = 0; k < N; ++k) shown[k] = lane(visible, k) != 0 ? names[k] : somebody;
+        shader(fragment_lanes<N, Varyings>(screen, records, x, y, visible, false, shown));
     }
 };
 
@@ -5514,11 +5992,20 @@ struct tile_triangles {
     const screen_mesh<Real>& screen;
     std::span<const triangle_run> bin;
     pixel_box box;
+    const void* records = nullptr;  ///< of vertices, which shading will read soon
+    std::size_t record_size = 0;
 
     std::span<const triangle_run> runs() const { return bin; }
     const pixel_grid& grid() const { return screen.grid(); }
-    INSONIFY_INLINE grid_place place(std::uint32_t name, int corner) const { return screen.place(name, corner); }
+    INSONIFY_INLINE const grid_place& place(std::uint32_t name, int corner) const { return screen.place(name, corner); }
     INSONIFY_INLINE Real depth(std::uint32_t name, int corner) const { return screen.depth(name, corner); }
+
+    INSONIFY_INLINE void prefetch(std::uint32_t name) const {
+        if (records == nullptr) return;
+        const glm::uvec3& index = screen.indices(name);
+        for (int i = 0; i < 3; ++i)
+            detail::prefetch(static_cast<const char*>(records) + std::size_t{index[i]} * record_size);
+    }
 
     INSONIFY_INLINE triangle_setup setup(std::uint32_t name) const {
         const screen_triangle t = screen[name];
@@ -5530,7 +6017,7 @@ struct tile_triangles {
     pixel_box box_of(const screen_triangle& t) const {
         return intersect(box, t.is_run() ? t.wide->run : center_box(t.a, t.b, t.c, grid()));
     }
-    float nearest_depth(std::uint32_t name, int x, int y) const {
+    INSONIFY_RARE float nearest_depth(std::uint32_t name, int x, int y) const {
         const screen_triangle t = screen[name];
         return detail::nearest_depth(t.a, t.b, t.c, x, y, grid());
     }
@@ -5584,17 +6071,20 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
     return shaded;
 }
 
-/// Everything but the shading, which `finish(tile triangles, tile buffer)` does; it returns the pixels it shaded.
-template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Finish>
+/// Everything but the shading, which `finish(tile triangles, tile buffer, depth sign)` does; it returns the pixels that
+/// it shaded. `keep(index, placed)` takes what the vertex callable gives.
+template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Keep, class Finish>
 draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float> depth, const draw_options& options,
-                      E& ex, Finish&& finish) {
+                      E& ex, const Keep& keep_vertex, Finish&& finish, const void* records = nullptr,
+                      std::size_t record_size = 0) {
     check(options, depth);
     require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
             "0 or one per position");
     if (depth.empty()) return {};
     const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
     const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));
-    const screen_mesh<Real> screen(m, place, grid, tiles, options, Winners, ex);
+    const screen_mesh<Real> screen(m, place, grid, tiles, options, Winners && std::is_same_v<Real, double>, keep_vertex,
+                                   ex);
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
     // A few tiles share a buffer; how many doesn't matter to the result.
@@ -5607,7 +6097,7 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
             const int y = static_cast<int>(tile / static_cast<std::size_t>(tiles.columns)) * options.tile;
             const pixel_box box =
                 intersect({x, y, x + options.tile - 1, y + options.tile - 1}, {0, 0, grid.width - 1, grid.height - 1});
-            const tile_triangles<Real> triangles{screen, screen.bin(tile), box};
+            const tile_triangles<Real> triangles{screen, screen.bin(tile), box, records, record_size};
             const bool keep = options.load == depth_load::keep;
             if (triangles.bin.empty() && keep) continue;
             dispatch(tile_kernel<tile_triangles<Real>, Winners, Real>{triangles, buffer, depth, box, sign, keep},
@@ -5618,6 +6108,46 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
     draw_stats stats = screen.stats();
     for (const std::uint64_t pixels : shaded) stats.pixels += pixels;
     return stats;
+}
+
+/// Draws quick depths and hands the pixels that this draw has won, several at a time, to `shader(fragment_lanes)`.
+template <varying_shader VertexShader, class LaneShader, executor E>
+draw_stats draw_lanes(const mesh& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
+                      const draw_options& options, E& ex) {
+    using varyings = varyings_of<VertexShader>;
+    const auto records = std::make_unique_for_overwrite<vertex_record<varyings>[]>(m.positions.size());
+    return draw_tiles<true, float>(
+        m, place, depth, options, ex,
+        [&](std::size_t i, const placed_vertex<varyings>& v) { records[i].set(v.varyings, 1 / v.clip.w); },
+        [&](const auto& triangles, tile_buffer<true>& tile, float) {
+            std::uint64_t shaded = 0;
+            dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.get(), tile,
+                                                                              triangles.box, shader, shaded},
+                     options.level);
+            return shaded;
+        },
+        records.get(), sizeof(vertex_record<varyings>));
+}
+
+/// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle; where nothing is, the
+/// name says nothing.
+template <vertex_shader VertexShader, executor E>
+draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float> depth,
+                      image_view<std::uint32_t> names, const draw_options& options, E& ex) {
+    return draw_tiles<true, float>(
+        m, place, depth, options, ex, [](auto&&...) {},
+        [&](const auto& triangles, tile_buffer<true>& tile, float) {
+            const pixel_box& box = triangles.box;
+            for (int y = box.y0; y <= box.y1; ++y) {
+                const std::uint32_t* const winner = tile.winner(box.x0, y);
+                std::uint32_t* const to = names.data() + y * names.stride() + box.x0;
+                std::memcpy(to, winner, static_cast<std::size_t>(box.width()) * sizeof *to);
+                if (!triangles.screen.has_wide()) continue;
+                for (int x = 0; x < box.width(); ++x)
+                    if (to[x] != tile_buffer<true>::nobody) to[x] = triangles.screen.triangle(to[x]);
+            }
+            return std::uint64_t{0};
+        });
 }
 
 }  // namespace detail
@@ -5635,16 +6165,16 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh& m, const VertexShader& place, const depth_target& target, const draw_options& options = {},
                 E&& ex = {}) {
-    return detail::draw_tiles<false, double>(m, place, target.depth, options, ex,
-                                             [](auto&&...) { return std::uint64_t{0}; });
+    return detail::draw_tiles<false, double>(
+        m, place, target.depth, options, ex, [](auto&&...) {}, [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// The same with quick depths.
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh& m, const VertexShader& place, const quick_depth_target& target,
                 const draw_options& options = {}, E&& ex = {}) {
-    return detail::draw_tiles<false, float>(m, place, target.depth, options, ex,
-                                            [](auto&&...) { return std::uint64_t{0}; });
+    return detail::draw_tiles<false, float>(
+        m, place, target.depth, options, ex, [](auto&&...) {}, [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// Draws depth and shades every pixel that this draw won, once.
@@ -5662,10 +6192,11 @@ draw_stats draw(const mesh& m, const VertexShader& place, const FragmentShader& 
         detail::require(target.color.height() == target.depth.height(), "color height", target.color.height(),
                         "the depth image's");
     }
-    return detail::draw_tiles<true, double>(m, place, target.depth, options, ex,
-                                            [&](const auto& triangles, auto& tile, float sign) {
-                                                return detail::shade(m, place, shader, target, triangles, tile, sign);
-                                            });
+    return detail::draw_tiles<true, double>(
+        m, place, target.depth, options, ex, [](auto&&...) {},
+        [&](const auto& triangles, auto& tile, float sign) {
+            return detail::shade(m, place, shader, target, triangles, tile, sign);
+        });
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
@@ -6878,6 +7409,30 @@ inline heightfield from_image(image_view<const float> picture, double spacing, f
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/seabed/none.hpp ------------------------------------------------------------------
+// No seabed at all: for scenes that bring theirs as a mesh.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// Nothing there: no height is known anywhere (NaN), nothing is drawn and nothing rests on it.
+struct none {
+    static constexpr type kind = type::sand;
+
+    struct sampler {
+        void row(const scanline&, std::span<float> heights) const {
+            std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
+        }
+    };
+    sampler prepare() const { return {}; }
+    float operator()(double, double) const { return std::numeric_limits<float>::quiet_NaN(); }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/any.hpp -------------------------------------------------------------------
 // Every kind of seabed a scene can be given.
 
@@ -6885,7 +7440,7 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 /// One of the library's seabeds, by value: `any bottom = ripples{.wavelength = 0.6f};`. `prepare` and `sample` take it
 /// as they take a recipe. Other recipes join as the heightfield that `sample` makes of them.
-using any = std::variant<flat, ripples, mud, rock, blend, heightfield>;
+using any = std::variant<flat, ripples, mud, rock, blend, heightfield, none>;
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
@@ -7168,6 +7723,65 @@ map_extent extent_of(const mesh& m, const affine& to_world, const light_frame& f
     return whole;
 }
 
+/// A grid of rays: where its texels lie in the light's frame, and between which heights it tells things apart.
+struct map_grid {
+    glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
+    double texel = 1;     ///< metres
+    double floor = 0, relief = 1;
+    int columns = 0, rows = 0;
+
+    map_grid() = default;
+
+    /// @param texel_length  metres, the same along u and v; grows if more than `largest` texels a side were needed
+    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
+    map_grid(const map_extent& extent, double texel_length, int largest) : origin(extent.lowest), floor(extent.floor) {
+        detail::require(texel_length > 0 && numeric::is_finite(texel_length), "texel", texel_length,
+                        "a positive length");
+        detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
+        if (extent.empty()) return;
+        const glm::dvec2 size = extent.highest - extent.lowest;
+        texel = (std::max)(texel_length, (std::max)(size.x, size.y) / (largest - 0.5));
+        const auto texels = [&](double length) {
+            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(length / texel)) + 1);
+        };
+        // A little room below and above, so that rounding can't clip the highest caster away.
+        const double height = extent.ceiling - extent.floor;
+        const double room = 1e-3 * height + 1e-6;
+        floor -= room;
+        relief = height + 2 * room;
+        columns = texels(size.x);
+        rows = texels(size.y);
+    }
+
+    bool empty() const { return columns == 0; }
+
+    /// The vertex callable that puts a mesh on the grid. The whole way from mesh to clip space is one affine map; it is
+    /// made in double and small when narrowed. Row 0 is where v is smallest, so triangles appear mirrored.
+    auto placing(const light_frame& frame, const affine& to_world) const {
+        const glm::dvec2 scale{2 / (texel * columns), 2 / (texel * rows)};
+        const auto to_clip = [&](const glm::dvec3& uvz) {
+            return glm::dvec3((uvz.x - origin.x) * scale.x - 1, 1 - (uvz.y - origin.y) * scale.y,
+                              (uvz.z - floor) / relief);
+        };
+        const glm::dvec3 zero = to_clip(frame(to_world.offset));
+        glm::mat3 axes;
+        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame(to_world.offset + to_world.linear[i])) - zero);
+        const glm::vec3 start(zero);
+        return [=](const vertex& v) { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); };
+    }
+};
+
+/// An extent that holds everything in a box, a little larger than it has to be.
+inline map_extent extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
+    map_extent extent;
+    if (box.empty()) return extent;
+    for (const double x : {box.lower.x, box.upper.x})
+        for (const double y : {box.lower.y, box.upper.y})
+            for (const double z : {box.lower.z, box.upper.z})
+                extent.include(frame(transform_point(to_world, {x, y, z})));
+    return extent;
+}
+
 /// Heights of casters over a grid of rays.
 class height_map {
   public:
@@ -7176,43 +7790,18 @@ class height_map {
 
     /// @param frame    of the light
     /// @param extent   which rays, and between which heights; casters outside are left out
-    /// @param texel    metres, the same along u and v; grows if more than `largest` texels a side were needed
-    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
+    /// @throws invalid_input as map_grid does
     height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
-        : frame_(frame), origin_(extent.lowest), floor_(extent.floor) {
-        detail::require(texel > 0 && numeric::is_finite(texel), "texel", texel, "a positive length");
-        detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
-        if (extent.empty()) return;
-        const glm::dvec2 size = extent.highest - extent.lowest;
-        texel_ = (std::max)(texel, (std::max)(size.x, size.y) / (largest - 0.5));
-        const auto texels = [&](double length) {
-            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(length / texel_)) + 1);
-        };
-        // A little room below and above, so that rounding can't clip the highest caster away.
-        const double relief = extent.ceiling - extent.floor;
-        const double room = 1e-3 * relief + 1e-6;
-        floor_ -= room;
-        relief_ = relief + 2 * room;
-        heights_ = image<float>(texels(size.x), texels(size.y), empty_depth(keep_depth::larger));
-    }
+        : frame_(frame),
+          grid_(extent, texel, largest),
+          heights_(grid_.columns, grid_.rows, empty_depth(keep_depth::larger)) {}
 
     /// Lets a mesh cast; several may share a map.
     /// @param to_world  from the mesh's frame to the one in which the light is described
     template <executor_argument E = serial_executor>
     draw_stats cast(const mesh& m, const affine& to_world, E&& ex = {}) {
         if (heights_.empty()) return {};
-        // The whole way from mesh to clip space is one affine map; it is made in double and small when narrowed.
-        const glm::dvec2 scale{2 / (texel_ * heights_.width()), 2 / (texel_ * heights_.height())};
-        const auto to_clip = [&](const glm::dvec3& uvz) {
-            return glm::dvec3((uvz.x - origin_.x) * scale.x - 1, 1 - (uvz.y - origin_.y) * scale.y,
-                              (uvz.z - floor_) / relief_);
-        };
-        const glm::dvec3 zero = to_clip(frame_(to_world.offset));
-        glm::mat3 axes;
-        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame_(to_world.offset + to_world.linear[i])) - zero);
-        const glm::vec3 start(zero);
-        const auto place = [=](const vertex& v) { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); };
-        return draw(m, place, quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
+        return draw(m, grid_.placing(frame_, to_world), quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
     }
 
     const light_frame& frame() const { return frame_; }
@@ -7220,22 +7809,22 @@ class height_map {
     int columns() const { return heights_.width(); }
     int rows() const { return heights_.height(); }
     /// Metres between texels.
-    double texel() const { return texel_; }
+    double texel() const { return grid_.texel; }
 
     /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
     /// and its height as the map stores heights.
     glm::vec3 on_map(const glm::dvec3& uvz) const {
-        return glm::vec3((uvz.x - origin_.x) / texel_, (uvz.y - origin_.y) / texel_, (uvz.z - floor_) / relief_);
+        return glm::vec3((uvz.x - grid_.origin.x) / grid_.texel, (uvz.y - grid_.origin.y) / grid_.texel,
+                         (uvz.z - grid_.floor) / grid_.relief);
     }
     /// A slope dz / du in stored heights per texel.
-    float on_map(double slope) const { return static_cast<float>(slope * (texel_ / relief_)); }
+    float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel / grid_.relief)); }
     /// What a texel's ray meets first: a stored height, minus infinity for nothing.
     float operator()(int column, int row) const { return heights_(column, row); }
 
   private:
     light_frame frame_;
-    glm::dvec2 origin_{};
-    double floor_ = 0, relief_ = 1, texel_ = 1;
+    map_grid grid_;
     image<float> heights_;
 };
 
@@ -7264,6 +7853,14 @@ struct pcf {
     int radius = 1;  ///< texels, 0 to 8
 };
 
+/// Hard edges where the casters' triangles have them: the map says who casts near a point, and where its texels
+/// disagree the triangles are asked. What no texel's centre meets is missed, so texels should not be larger than
+/// pixels.
+struct refined {
+    float texels_per_pixel = 1;
+    int largest = 8192;
+};
+
 /// @throws invalid_input for a value out of its range
 inline void validate(const none&) {}
 inline void validate(const map& m) {
@@ -7276,8 +7873,12 @@ inline void validate(const pcf& p) {
     detail::require(p.radius >= 0 && p.radius <= 8, "radius", p.radius, "0 to 8 texels");
 }
 
+inline void validate(const refined& r) {
+    validate(map{r.texels_per_pixel, r.largest});
+}
+
 template <class P>
-concept policy = std::same_as<P, none> || std::same_as<P, map> || std::same_as<P, pcf>;
+concept policy = std::same_as<P, none> || std::same_as<P, map> || std::same_as<P, pcf> || std::same_as<P, refined>;
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow
 
@@ -7383,6 +7984,219 @@ inline float lit(const height_map& map, const receiver& r, const pcf& how) {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/shadow/refined.hpp ---------------------------------------------------------------
+// Hard shadows with the edges of the casters themselves: a map says who stands in the light near a point, and where its
+// texels disagree about the point, the triangles that they name are asked.
+//
+// A ray towards the light that leaves the outside of something solid enters through a side that faces away from the
+// light. So for solids only those sides are drawn into the map: half of the triangles, and no lit surface is ever
+// compared with itself, which needs no bias.
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::shadow {
+
+/// One mesh as a caster: for every ray of a grid of them the height of what it meets first, and which triangle that is.
+class caster_map {
+  public:
+    /// Casts nothing.
+    caster_map() : frame_(directional_light{}) {}
+
+    /// @param frame     of the light
+    /// @param m         the mesh, which has to outlive the map
+    /// @param to_world  from the mesh's frame to the one in which the light is described
+    /// @param is_solid  nothing that can be asked about lies inside or below it
+    /// @param extent    which rays, and between which heights
+    /// @param texel     metres, the same along u and v; grows if more than `largest` texels a side were needed
+    /// @throws invalid_input as height_map does
+    template <executor E>
+    caster_map(const light_frame& frame, const mesh& m, const affine& to_world, bool is_solid, const map_extent& extent,
+               double texel, int largest, E& ex)
+        : frame_(frame), mesh_(&m), grid_(extent, texel, largest) {
+        if (grid_.empty()) return;
+        const std::size_t width = pitch(), height = static_cast<std::size_t>(grid_.rows) + 2;
+        heights_ = std::make_unique_for_overwrite<float[]>(width * height);
+        names_ = std::make_unique_for_overwrite<std::uint32_t[]>(width * height);
+        // A frame of empty texels around it all saves asking whether a neighbour is on the map.
+        const float nothing = empty_depth(keep_depth::larger);
+        std::fill_n(heights_.get(), width, nothing);
+        std::fill_n(heights_.get() + (height - 1) * width, width, nothing);
+        for (std::size_t row = 1; row + 1 < height; ++row)
+            heights_[row * width] = heights_[(row + 1) * width - 1] = nothing;
+
+        const double texels = 1 / grid_.texel;
+        const glm::dvec2& travel = frame.travel();
+        to_map_[0] = glm::vec3(texels * glm::dvec3(travel.x, travel.y, frame.cot_elevation()));
+        to_map_[1] = glm::vec3(texels * glm::dvec3(-travel.y, travel.x, 0));
+        to_map_[2] = {0, 0, static_cast<float>(1 / grid_.relief)};
+        start_ = glm::vec3(0.5 - texels * grid_.origin.x, 0.5 - texels * grid_.origin.y, -grid_.floor / grid_.relief);
+
+        to_light_.offset = frame(to_world.offset);
+        for (int i = 0; i < 3; ++i)
+            to_light_.linear[i] = frame(to_world.offset + to_world.linear[i]) - to_light_.offset;
+        axes_ = glm::mat3(to_light_.linear);
+
+        const bool mirrored = numeric::determinant(to_world.linear) < 0;
+        const cull_mode lit_side = mirrored ? cull_mode::front : cull_mode::back;  // see map_grid::placing
+        insonify::detail::draw_names(
+            m, grid_.placing(frame, to_world),
+            image_view<float>(heights_.get() + width + 1, grid_.columns, grid_.rows,
+                              static_cast<std::ptrdiff_t>(width)),
+            image_view<std::uint32_t>(names_.get() + width + 1, grid_.columns, grid_.rows,
+                                      static_cast<std::ptrdiff_t>(width)),
+            {.cull = is_solid ? lit_side : cull_mode::none, .keep = keep_depth::larger, .load = depth_load::clear}, ex);
+    }
+
+    bool empty() const { return grid_.empty(); }
+
+    /// Marks which of the `asked` points are dark; positions are in the frame in which the light is described.
+    template <int N>
+    INSONIFY_INLINE void darken(insonify::detail::lanes<std::int32_t, N>& dark,
+                                const insonify::detail::lanes<std::int32_t, N>& asked,
+                                const insonify::detail::lanes<float, N> (&position)[3]) const {
+        using namespace insonify::detail;
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        dark = ints{};
+        if (empty()) return;
+        // Continuous texels from the outer frame's first centre, so the four around a point are those of its floor and
+        // one on.
+        const floats& x = position[0];
+        const floats& y = position[1];
+        const floats& z = position[2];
+        const floats column = x * to_map_[0].x + y * to_map_[0].y + z * to_map_[0].z + start_.x;
+        const floats row = x * to_map_[1].x + y * to_map_[1].y + start_.y;
+        const floats height = z * to_map_[2].z + start_.z;
+        const ints on_map = asked & ints(column >= 0.0f) & ints(column < static_cast<float>(grid_.columns + 1)) &
+                            ints(row >= 0.0f) & ints(row < static_cast<float>(grid_.rows + 1));
+        if (!any(on_map)) return;
+        ints first_column, first_row;
+        convert(first_column, floats(on_map ? column : floats{}));
+        convert(first_row, floats(on_map ? row : floats{}));
+        const auto width = static_cast<std::int32_t>(pitch());
+        const ints first = first_row * width + first_column;
+        floats h[4];
+        const float* const heights = heights_.get();
+        gather_pairs<N>(h[0], h[1], [&](int k) { return heights + lane(first, k); });
+        gather_pairs<N>(h[2], h[3], [&](int k) { return heights + lane(first, k) + width; });
+        floats low = h[0], high = h[0];
+        for (int i = 1; i < 4; ++i) {
+            low = h[i] < low ? h[i] : low;
+            high = h[i] > high ? h[i] : high;
+        }
+        // All four below by more than they differ, or above by as much: that is how far a surface may go on changing.
+        // Nothing is minus infinity: beside something, it makes the difference infinite.
+        const floats spread = high - low;
+        const ints is_lit = ints(height > high + spread) | ints(high < 0.0f);
+        const ints is_dark = ints(height < low - spread);
+        dark = on_map & is_dark;
+        const ints doubtful = on_map & ints(ints(is_lit | is_dark) == 0);
+        if (!any(doubtful)) return;
+        for (int k = 0; k < N; ++k)
+            if (lane(doubtful, k) != 0) {
+                const glm::dvec3 uvz = frame_(glm::dvec3(lane(x, k), lane(y, k), lane(z, k)));
+                const bool behind = is_behind_one_of(static_cast<std::size_t>(lane(first, k)), uvz);
+                set_lane(dark, k, behind ? std::int32_t{-1} : std::int32_t{0});
+            }
+    }
+
+  private:
+    std::size_t pitch() const { return static_cast<std::size_t>(grid_.columns) + 2; }
+
+    /// Asks the triangles that the four texels from `first` on name. One that covers the point decides if it is above.
+    /// Else the point lies between them, inside of a surface if all four pass above; or at its edge, where triangles
+    /// are thin under grazing light and may have met no texel's centre: there their neighbours in the mesh are asked
+    /// too.
+    INSONIFY_RARE bool is_behind_one_of(std::size_t first, const glm::dvec3& uvz) const {
+        const glm::vec3 start(to_light_.offset - uvz);
+        std::uint32_t names[4];
+        int count = 0;
+        for (const std::size_t texel : {first, first + 1, first + pitch(), first + pitch() + 1})
+            if (heights_[texel] >= 0) names[count++] = names_[texel];
+        if (count == 0) return false;
+        const sight named = see(start, [&](int k) { return names[(std::min)(k, count - 1)]; });
+        if (named.is_behind) return true;
+        if (count == 4 && named.above == 4) return true;
+        if (named.above == 0) return false;
+
+        // Meshes are mostly written such that neighbours come after one another.
+        const auto last = static_cast<std::uint32_t>(mesh_->triangles.size() - 1);
+        for (int i = 0; i < count; ++i) {
+            if (i > 0 && names[i] == names[i - 1]) continue;
+            const auto before = [&](int k) {
+                return names[i] - (std::min)(names[i], static_cast<std::uint32_t>(k + 1));
+            };
+            const auto after = [&](int k) {
+                return names[i] + (std::min)(last - names[i], static_cast<std::uint32_t>(k + 1));
+            };
+            if (see(start, before).is_behind || see(start, after).is_behind) return true;
+        }
+        return false;
+    }
+
+    /// Four triangles, as the light sees them at a point.
+    struct sight {
+        bool is_behind;  ///< one of them covers the point and passes above
+        int above;       ///< how many of their planes pass above
+    };
+    /// @param start  from the point to the mesh's origin, in the light's frame
+    /// @param name   name(k): the triangles
+    template <class Name>
+    sight see(const glm::vec3& start, const Name& name) const {
+        using namespace insonify::detail;
+        constexpr int N = INSONIFY_SIMD ? 4 : 1;
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        sight all{false, 0};
+        for (int first = 0; first < 4; first += N) {
+            floats u[3], v[3], z[3];
+            for (int i = 0; i < 3; ++i) {
+                const auto corner = [&](int k) -> const glm::vec3& {
+                    return mesh_->positions[mesh_->triangles[name(first + k)][i]];
+                };
+                floats px, py, pz;
+                gather<N>(px, [&](int k) { return corner(k).x; });
+                gather<N>(py, [&](int k) { return corner(k).y; });
+                gather<N>(pz, [&](int k) { return corner(k).z; });
+                u[i] = px * axes_[0].x + py * axes_[1].x + pz * axes_[2].x + start.x;
+                v[i] = px * axes_[0].y + py * axes_[1].y + pz * axes_[2].y + start.y;
+                z[i] = px * axes_[0].z + py * axes_[1].z + pz * axes_[2].z + start.z;
+            }
+            const floats a = u[1] * v[2] - v[1] * u[2], b = u[2] * v[0] - v[2] * u[0], c = u[0] * v[1] - v[0] * u[1];
+            const ints covered = (ints(a >= 0.0f) & ints(b >= 0.0f) & ints(c >= 0.0f)) |
+                                 (ints(a <= 0.0f) & ints(b <= 0.0f) & ints(c <= 0.0f));
+            const floats height = (a * z[0] + b * z[1] + c * z[2]) / (a + b + c);
+            all.is_behind |= any(ints(covered & ints(height > tolerance)));
+            for (int k = 0; k < N; ++k) all.above += lane(height, k) > 0 ? 1 : 0;
+        }
+        return all;
+    }
+    /// Metres; what lies no higher touches. Floats hold what is close to the point to that.
+    static constexpr float tolerance = 1e-5f;
+
+    light_frame frame_;
+    const mesh* mesh_ = nullptr;
+    affine to_light_;  ///< from the mesh to (u, v, z)
+    glm::mat3 axes_;   ///< its linear part
+    map_grid grid_;
+    glm::vec3 to_map_[3], start_;             ///< from positions to column, row and height
+    std::unique_ptr<float[]> heights_;        ///< with the frame of empty texels
+    std::unique_ptr<std::uint32_t[]> names_;  ///< the same texels
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::shadow
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/backscatter.hpp ------------------------------------------------------------
 // How much of the sound comes back from a surface that is met at an angle.
 
@@ -7395,7 +8209,8 @@ struct material {
     float reflectivity = 0.5f;  ///< relative, 0 to 1 and above: tunes highlights as the paper tunes its light
 };
 
-/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear.
+/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. One that
+/// has `in_lanes` too is asked for several pixels at a time, by reference.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
@@ -7404,12 +8219,332 @@ concept backscatter_law = requires(const L& law, float s) {
 /// Optical Lambert, s: what the paper's game engine draws.
 struct lambert {
     float operator()(float s) const { return s; }
+    template <class Lanes>
+    INSONIFY_INLINE void in_lanes(Lanes& into, const Lanes& s) const {
+        into = s;
+    }
 };
 
 /// Lambert's law for backscattered intensity, s^2 (K. V. Mackenzie. Bottom Reverberation for 530- and 1030-cps Sound in
 /// Deep Water. JASA 33, 1961, without its level): both the sound that arrives and the sound that returns spread by s.
 struct lambert_backscatter {
     float operator()(float s) const { return s * s; }
+    template <class Lanes>
+    INSONIFY_INLINE void in_lanes(Lanes& into, const Lanes& s) const {
+        into = s * s;
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/side_scan.hpp --------------------------------------------------------------
+// A side-scan sonar on its way: where each ping is sent from, and which ranges are listened to.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Which way a channel looks: to the left or to the right of the track.
+enum class side : std::uint8_t { port, starboard };
+
+/// What a column of the picture is a step of.
+enum class across_track {
+    slant_range,   ///< the time of the echo: water column, layover, front faces folded towards the sonar
+    ground_range,  ///< the place on the bottom: a map, with the shadows of the same source
+};
+
+/// One ping.
+struct ping {
+    glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum
+    double yaw = 0;                ///< radians: 0 travels towards +y, with starboard at +x; counter-clockwise
+};
+
+/// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
+/// all else stays the same.
+///
+/// A picture of it has a row per ping and a column per bin. Its top row is the last ping, so that up is forward; its
+/// left column is the first bin on either side, so that range grows and shadows fall to the right.
+template <across_track Axis>
+struct side_scan_rig {
+    static constexpr across_track axis = Axis;
+
+    glm::dvec2 position{0, 0};   ///< of the first ping over the datum, metres
+    float altitude = 5;          ///< above the datum, metres
+    float yaw = 0;               ///< radians, as a ping's
+    float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
+    int pings = 1024;            ///< 1 to 2^20
+    float first_range = 0;       ///< where the first bin begins, metres, >= 0
+    float range = 40;            ///< where the last bin ends, metres
+    int bins = 2048;             ///< 1 to 2^20
+    insonify::side side = insonify::side::starboard;
+
+    /// Metres per bin.
+    double bin() const { return (static_cast<double>(range) - static_cast<double>(first_range)) / bins; }
+};
+using side_scan = side_scan_rig<across_track::slant_range>;
+using ground_range = side_scan_rig<across_track::ground_range>;
+
+/// @throws invalid_input for a value that can't be right
+template <across_track Axis>
+void validate(const side_scan_rig<Axis>& rig) {
+    using detail::require;
+    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "side_scan.position",
+            rig.position.x + rig.position.y, "finite coordinates");
+    require(numeric::is_finite(rig.altitude), "side_scan.altitude", rig.altitude, "a finite height");
+    require(numeric::is_finite(rig.yaw), "side_scan.yaw", rig.yaw, "a finite angle");
+    require(rig.ping_spacing > 0 && numeric::is_finite(rig.ping_spacing), "side_scan.ping_spacing", rig.ping_spacing,
+            "above 0");
+    require(rig.pings >= 1 && rig.pings <= 1 << 20, "side_scan.pings", rig.pings, "1 to 2^20");
+    require(rig.first_range >= 0 && numeric::is_finite(rig.first_range), "side_scan.first_range", rig.first_range,
+            "0 or more");
+    require(rig.range > rig.first_range && rig.range <= 1e5f, "side_scan.range", rig.range,
+            "above first_range and at most 10^5 metres");
+    require(rig.bins >= 1 && rig.bins <= 1 << 20, "side_scan.bins", rig.bins, "1 to 2^20");
+}
+
+/// A ping of the rig's track; those before the first and after the last are on the same line.
+template <across_track Axis>
+ping ping_of(const side_scan_rig<Axis>& rig, int number) {
+    const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
+    const double along = static_cast<double>(rig.ping_spacing) * number;
+    return {{rig.position.x - along * sine, rig.position.y + along * cosine, static_cast<double>(rig.altitude)},
+            static_cast<double>(rig.yaw)};
+}
+
+/// The track of a rig, a ping after the other.
+template <across_track Axis>
+std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
+    validate(rig);
+    std::vector<ping> track;
+    track.reserve(static_cast<std::size_t>(rig.pings));
+    for (int i = 0; i < rig.pings; ++i) track.push_back(ping_of(rig, i));
+    return track;
+}
+
+/// A ping's own frame: x away from it on the side it looks to, u along the track, z up from the sonar.
+class ping_frame {
+  public:
+    ping_frame(const ping& p, side looks) : position_(p.position) {
+        const auto [sine, cosine] = numeric::sin_cos(p.yaw);
+        const double sign = looks == side::starboard ? 1 : -1;
+        across_ = {sign * cosine, sign * sine};
+        along_ = {-sine, cosine};
+    }
+    const glm::dvec3& position() const { return position_; }
+    /// Unit vectors on the ground.
+    const glm::dvec2& across() const { return across_; }
+    const glm::dvec2& along() const { return along_; }
+
+    /// World coordinates of the bottom's datum below (x, u).
+    glm::dvec2 world(double x, double u) const {
+        return {position_.x + x * across_.x + u * along_.x, position_.y + x * across_.y + u * along_.y};
+    }
+    /// (x, u, z) of a world vector.
+    glm::dvec3 turned(const glm::dvec3& v) const {
+        return {v.x * across_.x + v.y * across_.y, v.x * along_.x + v.y * along_.y, v.z};
+    }
+    /// (x, u, z) of a world position.
+    glm::dvec3 operator()(const glm::dvec3& world) const { return turned(world - position_); }
+
+  private:
+    glm::dvec3 position_;
+    glm::dvec2 across_, along_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/bottom_tiles.hpp -----------------------------------------------------------
+// The bottom under a track that goes anywhere: heights and slopes in square tiles, sampled where pings look and nowhere
+// else.
+//
+// Tiles lie on a lattice of the world, so that a place is sampled the same whatever track passes over it.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// The bottom at a vertex, and between vertices.
+struct bottom_vertex {
+    float height;            ///< metres above the datum; NaN where there is none
+    float slope_x, slope_y;  ///< rise per metre, by central differences
+    std::uint32_t type;
+};
+
+class bottom_tiles {
+  public:
+    static constexpr int cells = 64;  ///< along a tile's side
+
+    /// @param spacing  metres between vertices; what `even` makes of it is taken
+    bottom_tiles(const seabed::any& source, double spacing)
+        : prepared_(seabed::prepare(source)), spacing_(even(spacing)), scale_(1 / spacing_) {}
+
+    /// The nearest length of eight bits: its multiples are exact, so a vertex is the same in whatever row it is
+    /// sampled.
+    static double even(double length) {
+        require(length > 1e-9 && length < 1e9, "cell", length, "metres above 0");
+        double unit = 1;
+        while (unit * 256 <= length) unit *= 2;
+        while (unit * 128 > length) unit /= 2;
+        return static_cast<double>(numeric::floor_to_int(length / unit + 0.5)) * unit;
+    }
+
+    /// Samples what a fan of pings looks at, and forgets the rest.
+    /// @param reach  metres from each ping, on the side it looks to
+    template <executor E>
+    void cover(std::span<const ping_frame> pings, double reach, E& ex) {
+        const double side = cells * spacing_;
+        // Lines of sight in steps of half a tile: the boxes around the steps hold every tile that is touched.
+        const int steps = static_cast<int>(numeric::floor_to_int(2 * reach / side)) + 1;
+        const auto tile_of = [&](const glm::dvec2& p) {
+            require(p.x > -1e9 && p.x < 1e9 && p.y > -1e9 && p.y < 1e9, "ping.position", p.x, "within 1e9 metres");
+            return std::pair{numeric::floor_to_int(p.x / side), numeric::floor_to_int(p.y / side)};
+        };
+        std::int64_t last_x = -(std::int64_t{1} << 60), last_y = last_x;
+        first_x_ = first_y_ = -last_x;
+        for (const ping_frame& p : pings)
+            for (const double x : {0.0, reach * (steps + 1) / steps}) {
+                const auto [tile_x, tile_y] = tile_of(p.world(x, 0));
+                first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
+                last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
+            }
+        columns_ = last_x - first_x_ + 1;
+        const std::int64_t rows = last_y - first_y_ + 1;
+        require(columns_ * rows < (1 << 26), "seabed tiles", columns_ * rows, "below 2^26: take larger cells");
+        slots_.assign(static_cast<std::size_t>(columns_ * rows), absent);
+        for (const ping_frame& p : pings)
+            for (int i = 0; i < steps; ++i) {
+                const auto [ax, ay] = tile_of(p.world(reach * i / steps, 0));
+                const auto [bx, by] = tile_of(p.world(reach * (i + 1) / steps, 0));
+                for (std::int64_t y = (std::min)(ay, by); y <= (std::max)(ay, by); ++y)
+                    for (std::int64_t x = (std::min)(ax, bx); x <= (std::max)(ax, bx); ++x) slots_[slot_of(x, y)] = 0;
+            }
+
+        // Recipes like long rows: neighbours along x are sampled together.
+        std::vector<tile_run> runs;
+        std::uint32_t tiles = 0;
+        for (std::int64_t y = 0; y < rows; ++y)
+            for (std::int64_t x = 0; x < columns_; ++x) {
+                std::uint32_t& slot = slots_[static_cast<std::size_t>(y * columns_ + x)];
+                if (slot == absent) continue;
+                slot = tiles++;
+                const bool goes_on = !runs.empty() && runs.back().count < longest_run && x > 0 &&
+                                     slots_[static_cast<std::size_t>(y * columns_ + x - 1)] != absent;
+                if (goes_on)
+                    ++runs.back().count;
+                else
+                    runs.push_back({first_x_ + x, first_y_ + y, slot, 1});
+            }
+        vertices_.reset(new bottom_vertex[tiles * tile_size]);
+        ex.bulk(runs.size(), [&](std::size_t i) { sample(runs[i]); });
+        sampled_ += tiles * tile_size;
+    }
+
+    /// The bottom at a world position that is covered; bilinear in the cell, of the nearest vertex's type.
+    bottom_vertex at(double x, double y) const {
+        const double u = x * scale_, v = y * scale_;
+        const std::int64_t cell_x = numeric::floor_to_int(u), cell_y = numeric::floor_to_int(v);
+        const auto right = static_cast<float>(u - static_cast<double>(cell_x));
+        const auto up = static_cast<float>(v - static_cast<double>(cell_y));
+        const std::int64_t tile_x = cell_x >> shift, tile_y = cell_y >> shift;
+        const std::size_t slot = slots_[slot_of(tile_x, tile_y)];
+        INSONIFY_ASSERT(slot != absent);
+        const bottom_vertex* const a =
+            &vertices_[slot * tile_size + static_cast<std::size_t>(cell_y & (cells - 1)) * stride +
+                       static_cast<std::size_t>(cell_x & (cells - 1))];
+        const bottom_vertex &b = a[1], &c = a[stride], &d = a[stride + 1];
+        const float wa = (1 - right) * (1 - up), wb = right * (1 - up), wc = (1 - right) * up, wd = right * up;
+        const bottom_vertex& nearest = up < 0.5f ? (right < 0.5f ? *a : b) : (right < 0.5f ? c : d);
+        return {wa * a->height + wb * b.height + wc * c.height + wd * d.height,
+                wa * a->slope_x + wb * b.slope_x + wc * c.slope_x + wd * d.slope_x,
+                wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
+    }
+
+    /// Vertices evaluated so far.
+    std::uint64_t sampled() const { return sampled_; }
+
+  private:
+    static constexpr int shift = 6;
+    static constexpr std::size_t stride = cells + 1;  // the next tile's first vertices too
+    static constexpr std::size_t tile_size = stride * stride;
+    static constexpr std::uint32_t absent = 0xFFFFFFFFu;
+    static_assert(1 << shift == cells);
+
+    std::size_t slot_of(std::int64_t x, std::int64_t y) const {
+        return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
+    }
+
+    /// Tiles side by side.
+    struct tile_run {
+        std::int64_t x, y;
+        std::uint32_t slot, count;
+    };
+    static constexpr std::uint32_t longest_run = 8;
+
+    /// The vertices of a run, with a ring of neighbours for the slopes.
+    void sample(const tile_run& run) const {
+        const std::size_t width = run.count * cells + 3, height = stride + 2;
+        std::vector<float> heights(width * height);
+        std::vector<seabed::type> types(width * height);
+        for (std::size_t j = 0; j < height; ++j) {
+            const auto vertex = [&](std::int64_t tile, std::size_t i) {
+                return static_cast<double>(tile * cells + static_cast<std::int64_t>(i) - 1) * spacing_;
+            };
+            prepared_.row({.y = vertex(run.y, j), .origin = vertex(run.x, 0), .spacing = spacing_},
+                          std::span(heights).subspan(j * width, width), std::span(types).subspan(j * width, width));
+        }
+        const auto scale = static_cast<float>(0.5 * scale_);
+        const auto slope = [&](float before, float after) {
+            const float rise = scale * (after - before);
+            return numeric::is_finite(rise) ? rise : 0.0f;  // beside a hole
+        };
+        for (std::size_t tile = 0; tile < run.count; ++tile) {
+            bottom_vertex* out = &vertices_[(run.slot + tile) * tile_size];
+            for (std::size_t j = 0; j < stride; ++j) {
+                const std::size_t start = (j + 1) * width + tile * cells + 1;
+                for (std::size_t i = start; i < start + stride; ++i)
+                    *out++ = {heights[i], slope(heights[i - 1], heights[i + 1]),
+                              slope(heights[i - width], heights[i + width]), static_cast<std::uint32_t>(types[i])};
+            }
+        }
+    }
+
+    decltype(seabed::prepare(std::declval<const seabed::any&>())) prepared_;
+    double spacing_, scale_;
+    std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0;
+    std::vector<std::uint32_t> slots_;
+    std::unique_ptr<bottom_vertex[]> vertices_;
+    std::uint64_t sampled_ = 0;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/display.hpp ----------------------------------------------------------------
+// From intensities to gray values: the last step, and the only one that isn't linear.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A filter that makes gray values in [0, 1] of intensities: their square root, the amplitude, is what sonars show.
+struct display {
+    float white = 6;  ///< the intensity that is white, above 0; brighter ones are cut
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a `white` that isn't positive
+    auto pass() const {
+        detail::require(white > 0 && numeric::is_finite(white), "display.white", white, "above 0");
+        return [scale = 1 / white]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
+            const float share = intensity * scale;
+            return share > 0 ? (share < 1 ? numeric::square_root(share) : 1.0f) : 0.0f;
+        };
+    }
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
@@ -7429,6 +8564,9 @@ struct target {
     pose placement;
     std::string class_name;
     material surface{.reflectivity = 0.9f};
+    /// Nothing that a picture shows lies inside or below it: a closed surface, or one that lies on everything, as a
+    /// heightfield does. Shadows are then cheaper; said of something open, shadows of its back side are missing.
+    bool is_solid = false;
 };
 
 /// The bottom and what lies on it. Heights are metres above the datum z = 0.
@@ -7439,13 +8577,15 @@ struct scene {
 
     /// Adds a mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
     /// Targets are told apart by instance numbers, 1 for the first. A mesh without normals gets smooth ones.
+    /// Whether it is solid is found out for up to 2^16 triangles; of larger ones you may know.
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
     target& add(const Shape& shape, const pose& placement, std::string class_name, const material& surface = {0.9f}) {
         targets.push_back({mesh_of(shape), placement, std::move(class_name), surface});
         mesh& added = targets.back().shape;
-        if (added.normals.empty()) added.normals = smooth_normals(added);
         validate(added);
+        if (added.normals.empty()) added.normals = smooth_normals(added);
+        targets.back().is_solid = added.triangles.size() <= (std::size_t{1} << 16) && inspect(added).closed();
         return targets.back();
     }
 
@@ -7596,87 +8736,734 @@ INSONIFY_ARITHMETIC_END
 // Who is in whose shadow: one map for the seabed, and a small tight one for each target, so that a target's shadow is
 // fine whatever the size of the picture, and the label of a shadow is the name of who casts it.
 
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// How much light arrives at a point, and who stops the rest.
-struct light_share {
-    float lit;
-    std::uint16_t caster;
+/// How much light arrives at N points, and who stops the rest.
+template <int N>
+struct light_shares {
+    lanes<float, N> lit{};
+    lanes<std::int32_t, N> caster{};  ///< as in labels::shadow
+
+    INSONIFY_INLINE light_shares() { lit = lanes<float, N>{} + 1.0f; }
+
+    /// Less light, by `by`'s fault if nobody has been blamed before.
+    INSONIFY_INLINE void darken(const lanes<float, N>& share, std::uint16_t by) {
+        using ints = lanes<std::int32_t, N>;
+        const ints blamed = ints(share < 0.5f) & ints(caster == labels::is_lit);
+        caster = blamed ? ints{} + std::int32_t{by} : caster;
+        lit = share < lit ? share : lit;
+    }
 };
 
-/// Nothing is ever dark, and nobody needs to know which way a facet looks.
+/// N points of a surface, in the rig's frame.
+template <int N>
+struct surface_points {
+    lanes<std::int32_t, N> visible;
+    lanes<float, N> position[3];
+    lanes<float, N> facet[3];  ///< normal of the triangle, of any length, on the side that is seen
+    std::uint16_t itself;      ///< to blame where the surface faces away and nobody else stands in the light
+};
+
+/// Nothing is ever dark.
 struct no_shadow_maps {
-    template <class Facet>
-    light_share operator()(const glm::vec3&, const Facet&, std::uint16_t) const {
-        return {1, labels::is_lit};
-    }
+    template <int N>
+    INSONIFY_INLINE void operator()(light_shares<N>&, const surface_points<N>&, const lanes<std::int32_t, N>&) const {}
 };
 
 /// An object in the rig's frame.
 struct placed_mesh {
     const mesh* shape;
+    bounding_box box;  ///< of the shape, in its own frame
     affine to_rig;
+    bool is_solid;      ///< see target
     glm::mat3 normals;  ///< takes normals along
 
-    placed_mesh(const mesh& m, const affine& map) : shape(&m), to_rig(map), normals(numeric::cofactors(map.linear)) {}
+    placed_mesh(const mesh& m, const bounding_box& around, const affine& map, bool solid)
+        : shape(&m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
 };
 
 /// The maps of all casters of a scene.
 template <class Policy>
 class shadow_maps {
+    static constexpr bool refined = std::same_as<Policy, shadow::refined>;
+    using caster_map = std::conditional_t<refined, shadow::caster_map, shadow::height_map>;
+
   public:
-    /// @param bottom     the seabed, which also receives; it need not cast beyond `receivers`
+    /// @param bottom     the seabed, which also receives; it need not cast beyond `receivers`. Null for none
     /// @param targets    in the order of their instance numbers
     /// @param receivers  which rays reach something that the picture may show
     /// @param texel      metres
     template <executor E>
-    shadow_maps(const Policy& policy, const shadow::light_frame& light, const placed_mesh& bottom,
+    shadow_maps(const Policy& policy, const shadow::light_frame& light, const placed_mesh* bottom,
                 std::span<const placed_mesh> targets, const shadow::map_extent& receivers, double texel, E& ex)
-        : policy_(policy), light_(light), bottom_(cast(bottom, receivers, texel, ex)) {
+        : policy_(policy), light_(light) {
+        if (bottom != nullptr) bottom_ = cast(*bottom, receivers, texel, ex);
         targets_.reserve(targets.size());
         for (const placed_mesh& t : targets) targets_.push_back(cast(t, receivers, texel, ex));
     }
 
-    /// @param position  in the rig's frame
-    /// @param facet     called for the normal of the triangle at that point, of any length
-    /// @param itself    who is to blame if the surface faces away and nobody else stands in the light
-    template <class Facet>
-    light_share operator()(const glm::vec3& position, const Facet& facet, std::uint16_t itself) const {
-        // A target's shadow goes on over what would be dark without it.
-        const shadow::receiver at(light_, glm::dvec3(position), glm::dvec3(facet()));
-        light_share share{1, labels::is_lit};
-        for (std::size_t i = 0; i < targets_.size(); ++i)
-            darken(share, shadow::lit(targets_[i], at, policy_), static_cast<std::uint16_t>(i + 1));
-        if (!at.faces_light)
-            darken(share, 0, itself);
-        else if (share.lit > 0)
-            darken(share, shadow::lit(bottom_, at, policy_), labels::by_seabed);
-        return share;
+    /// @param useful  where a shadow would change what is seen; the others' shares need not be right
+    template <int N>
+    INSONIFY_INLINE void operator()(light_shares<N>& shares, const surface_points<N>& at,
+                                    const lanes<std::int32_t, N>& useful) const {
+        if constexpr (refined)
+            ask_in_lanes(shares, at, useful);
+        else
+            ask_one_by_one(shares, at);
     }
 
   private:
-    static void darken(light_share& share, float lit, std::uint16_t caster) {
-        if (lit < 0.5f && share.caster == labels::is_lit) share.caster = caster;
-        share.lit = (std::min)(share.lit, lit);
+    template <int N>
+    INSONIFY_INLINE void ask_in_lanes(light_shares<N>& shares, const surface_points<N>& at,
+                                      const lanes<std::int32_t, N>& useful) const {
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        // A target's shadow goes on over what would be dark without it.
+        ints dark;
+        for (std::size_t i = 0; i < targets_.size(); ++i) {
+            targets_[i].template darken<N>(dark, useful, at.position);
+            shares.darken(dark ? floats{} : floats{} + 1.0f, static_cast<std::uint16_t>(i + 1));
+        }
+        const glm::dvec2& travel = light_.travel();
+        const floats facing =
+            at.facet[2] - static_cast<float>(light_.cot_elevation()) *
+                              (at.facet[0] * static_cast<float>(travel.x) + at.facet[1] * static_cast<float>(travel.y));
+        dark = ints(facing <= 0.0f);
+        shares.darken(dark ? floats{} : floats{} + 1.0f, at.itself);
+        bottom_.template darken<N>(dark, ints(useful & ints(shares.lit > 0.0f)), at.position);
+        shares.darken(dark ? floats{} : floats{} + 1.0f, labels::by_seabed);
+    }
+
+    template <int N>
+    INSONIFY_INLINE void ask_one_by_one(light_shares<N>& shares, const surface_points<N>& at) const {
+        for (int k = 0; k < N; ++k) {
+            if (lane(at.visible, k) == 0) continue;
+            light_shares<1> share;
+            const glm::dvec3 position(lane(at.position[0], k), lane(at.position[1], k), lane(at.position[2], k));
+            const glm::dvec3 facet(lane(at.facet[0], k), lane(at.facet[1], k), lane(at.facet[2], k));
+            ask_one(share, position, facet, at.itself);
+            set_lane(shares.lit, k, share.lit);
+            set_lane(shares.caster, k, share.caster);
+        }
+    }
+    void ask_one(light_shares<1>& share, const glm::dvec3& position, const glm::dvec3& facet,
+                 std::uint16_t itself) const {
+        if constexpr (!refined) {
+            const shadow::receiver at(light_, position, facet);
+            for (std::size_t i = 0; i < targets_.size(); ++i)
+                share.darken(shadow::lit(targets_[i], at, policy_), static_cast<std::uint16_t>(i + 1));
+            if (!at.faces_light)
+                share.darken(0, itself);
+            else if (share.lit > 0)
+                share.darken(shadow::lit(bottom_, at, policy_), labels::by_seabed);
+        }
     }
 
     template <executor E>
-    shadow::height_map cast(const placed_mesh& caster, const shadow::map_extent& receivers, double texel, E& ex) const {
-        const shadow::map_extent own = shadow::extent_of(*caster.shape, caster.to_rig, light_, ex);
-        shadow::height_map map(light_, own.clipped_to(receivers), texel, policy_.largest);
-        map.cast(*caster.shape, caster.to_rig, ex);
-        return map;
+    caster_map cast(const placed_mesh& caster, const shadow::map_extent& receivers, double texel, E& ex) const {
+        const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(receivers);
+        if constexpr (refined) {
+            return {light_, *caster.shape, caster.to_rig, caster.is_solid, own, texel, policy_.largest, ex};
+        } else {
+            shadow::height_map map(light_, own, texel, policy_.largest);
+            map.cast(*caster.shape, caster.to_rig, ex);
+            return map;
+        }
     }
 
     Policy policy_;
     shadow::light_frame light_;
-    shadow::height_map bottom_;
-    std::vector<shadow::height_map> targets_;
+    caster_map bottom_;
+    std::vector<caster_map> targets_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/ping_fan.hpp ---------------------------------------------------------------
+// The rays of a ping, in the vertical plane across the track: nadir first, one after the other outwards.
+//
+// Level ground is met at equal steps. Beyond its end come rays for what stands up there, at equal angles: neighbours
+// are at most a bin apart on an upright wall.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// What a fan is made for. Heights of the sonar above things are rounded so that few different fans serve a whole
+/// track.
+struct fan_shape {
+    double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: nothing to be seen
+    double above_highest = 1;  ///< over the highest bottom
+    double above_all = 1;      ///< over the highest of targets and bottom; not above 0: rays go up to 45 degrees
+
+    friend bool operator==(const fan_shape&, const fan_shape&) = default;
+
+    static fan_shape around(double lowest, double highest, double top) {
+        return {rounded(lowest, true), rounded(highest, false), rounded(top, false)};
+    }
+
+  private:
+    /// To an eighth of a power of two.
+    static double rounded(double length, bool up) {
+        if (!(length > 1e-3)) return up && length > 0 ? 1e-3 : 0;
+        double unit = 0x1p-12;
+        while (unit * 16 <= length) unit *= 2;
+        const std::int64_t units = up ? -numeric::floor_to_int(-length / unit) : numeric::floor_to_int(length / unit);
+        return static_cast<double>(units) * unit;
+    }
+};
+
+class ping_fan {
+  public:
+    struct ray {
+        double sine, cosine;  ///< across and down
+        double width;         ///< radians that it stands for
+    };
+
+    ping_fan() = default;
+
+    /// @param step         metres between rays on level ground, and between neighbours on a wall at the largest range
+    /// @param first_range  what is nearer than this need not be seen
+    /// @param range        the same for what is farther, metres
+    ping_fan(const fan_shape& shape, double step, double first_range, double range) : shape_(shape) {
+        const double low = shape.above_lowest;
+        if (!(low > 0)) return;
+        // Tangents from nadir: where level ground is at a slant range.
+        const auto tangent_at = [](double r, double height) {
+            return r > height ? numeric::square_root(r * r - height * height) / height : 0;
+        };
+        const double spacing = step / low, level_end = tangent_at(range, low);
+        const double end = shape.above_highest > 0
+                               ? (std::min)(tangent_at(range, shape.above_highest), 2 * level_end + 1)
+                               : 2 * level_end + 1;
+        const std::int64_t first = numeric::floor_to_int(tangent_at(first_range, low) / spacing);
+        const std::int64_t last = numeric::floor_to_int(end / spacing) + 1;
+        require(last - first < (1 << 24), "rays of a ping", last - first, "below 2^24: take wider bins");
+        rays_.reserve(static_cast<std::size_t>(last - first));
+        for (std::int64_t i = first; i < last; ++i) {
+            const double tangent = (static_cast<double>(i) + 0.5) * spacing;
+            const double cosine = 1 / numeric::square_root(1 + tangent * tangent);
+            rays_.push_back({tangent * cosine, cosine, spacing * cosine * cosine});
+        }
+        const double from = numeric::atan2(static_cast<double>(last) * spacing, 1);
+        const double up_to = shape.above_all > 0 ? numeric::atan2(range, shape.above_all) : 0.75 * numeric::pi;
+        const double angle = step / range;
+        for (std::int64_t i = 0; from + angle * static_cast<double>(i) < up_to; ++i) {
+            const auto [sine, cosine] = numeric::sin_cos(from + angle * (static_cast<double>(i) + 0.5));
+            rays_.push_back({sine, cosine, angle});
+        }
+    }
+
+    const fan_shape& shape() const { return shape_; }
+    std::size_t size() const { return rays_.size(); }
+    const ray& operator[](std::size_t i) const { return rays_[i]; }
+
+    /// How far beyond a ray a point lies, times its distance: above 0 where it is farther out.
+    static double beyond(const ray& r, double x, double down) { return x * r.cosine - down * r.sine; }
+
+    /// The first ray that passes through the point or beyond it.
+    std::size_t first_over(double x, double down) const {
+        const auto at =
+            std::partition_point(rays_.begin(), rays_.end(), [&](const ray& r) { return beyond(r, x, down) > 0; });
+        return static_cast<std::size_t>(at - rays_.begin());
+    }
+
+  private:
+    fan_shape shape_{0, 0, 0};
+    std::vector<ray> rays_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/target_slices.hpp ----------------------------------------------------------
+// Targets as one ping meets them: the outline in its plane, cut from the mesh.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// A piece of outline in the plane of a ping.
+struct outline_piece {
+    struct corner {
+        double x, down;    ///< metres from the sonar
+        glm::vec3 normal;  ///< (x, u, z), of any length
+    };
+    corner a, b;
+    glm::vec3 facet;  ///< (x, u, z), of any length
+};
+
+/// A target in the world, ready to be cut.
+class sliced_target {
+  public:
+    explicit sliced_target(const target& t) : shape_(&t.shape), to_world_(to_world(t.placement)) {
+        const bounding_box box = bounds(t.shape);
+        if (box.empty()) return;
+        centre_ = transform_point(to_world_, box.centre());
+        const glm::dvec3 half = 0.5 * box.size();
+        radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
+    }
+
+    /// Height above the datum that nothing of it reaches over.
+    double top() const { return centre_.z + radius_; }
+
+    bool is_met_by(const ping_frame& p, double range) const {
+        const glm::dvec3 centre = p(centre_);
+        const double x = centre.x, u = centre.y;
+        return u <= radius_ && u >= -radius_ && x > -radius_ &&
+               numeric::dot(centre, centre) < (range + radius_) * (range + radius_);
+    }
+
+    /// Calls `visit(outline_piece)` for each triangle that the ping's plane cuts. Triangles that share an edge share
+    /// the corner on it to the last bit, so outlines have no gaps.
+    template <class Visit>
+    void cut(const ping_frame& p, const Visit& visit) const {
+        const glm::dvec3 offset = p(to_world_.offset);
+        glm::dmat3 turn;
+        for (int i = 0; i < 3; ++i) turn[i] = p.turned(to_world_.linear[i]);
+        const glm::mat3 normals(turn);  // scales are uniform
+        const double sign = numeric::determinant(turn) < 0 ? -1 : 1;
+        for (const glm::uvec3& t : shape_->triangles) {
+            glm::dvec3 v[3];
+            int behind = 0;
+            for (int i = 0; i < 3; ++i) {
+                v[i] = numeric::product(turn, glm::dvec3(shape_->positions[t[i]])) + offset;
+                behind += v[i].y < 0 ? 1 : 0;
+            }
+            if (behind == 0 || behind == 3 || !numeric::is_finite(v[0].x + v[1].x + v[2].x + v[0].z + v[1].z + v[2].z))
+                continue;
+            // The corner that is alone on its side, and the edges that leave it.
+            int alone = 0;
+            while ((v[alone].y < 0) != (behind == 1)) ++alone;
+            const auto corner = [&](int other) {
+                const int from = behind == 1 ? alone : other,
+                          to = behind == 1 ? other : alone;  // from behind to before
+                const double f = v[from].y / (v[from].y - v[to].y);
+                const glm::dvec3 at = v[from] + f * (v[to] - v[from]);
+                const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
+                return outline_piece::corner{at.x, -at.z,
+                                             numeric::product(normals, n + static_cast<float>(f) * (m - n))};
+            };
+            visit(outline_piece{corner((alone + 1) % 3), corner((alone + 2) % 3),
+                                glm::vec3(sign * numeric::cross(v[1] - v[0], v[2] - v[0]))});
+        }
+    }
+
+  private:
+    const mesh* shape_;
+    affine to_world_;
+    glm::dvec3 centre_{0, 0, -1e30};
+    double radius_ = 0;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/ping_echo.hpp --------------------------------------------------------------
+// What comes back of one ping, bin by bin.
+//
+// The source is where the receiver is: what a ray meets first is what it insonifies and what it hears. Each ray's
+// power is spread evenly over the bins between the ranges at which its upper and its lower edge meet the surface; so
+// level ground has no gaps and no beats, whatever the ratio of rays to bins. Bottom that is met by no ray is in shadow,
+// and belongs to whatever stands in front of it.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// What a bin hears, and what lies in it; lengths are in bins.
+struct echo_bin {
+    float bottom = 0, target = 0;  ///< power
+    float lit = 0;                 ///< of the bottom
+    float dark_by_seabed = 0, dark_by_target = 0;
+    float most_bottom = 0, most_target = 0;  ///< the largest single contributions: what named the bin
+    std::uint16_t instance = labels::no_instance, caster = labels::is_lit;
+    std::uint8_t seabed = labels::no_seabed;
+};
+
+/// Hears pings, one after the other. Rig is a side_scan or a ground_range; what labels need is left out if !Labelled.
+template <class Rig, class Law, class Equation, bool Labelled>
+class ping_listener {
+  public:
+    ping_listener(const scene& s, std::span<const sliced_target> targets, const bottom_tiles& bottom, const Rig& rig,
+                  const Law& law, const Equation& equation, double cell)
+        : scene_(s),
+          targets_(targets),
+          tiles_(bottom),
+          law_(law),
+          equation_(equation),
+          range_(static_cast<double>(rig.range)),
+          first_range_(static_cast<double>(rig.first_range)),
+          bin_(rig.bin()),
+          step_((std::min)(bin_, cell)),
+          profile_step_((std::max)(step_, 0.5 * cell)),
+          spacing_(rig.ping_spacing),
+          bins_(static_cast<std::size_t>(rig.bins)) {
+        top_ = -1e30;
+        for (const sliced_target& t : targets) top_ = (std::max)(top_, t.top());
+    }
+
+    /// @returns one per bin, until the next ping
+    std::span<const echo_bin> hear(const ping_frame& p) {
+        std::fill(bins_.begin(), bins_.end(), echo_bin{});
+        sample_bottom(p);
+        const double altitude = p.position().z;
+        const fan_shape shape =
+            fan_shape::around(altitude - lowest_, altitude - highest_, altitude - (std::max)(top_, highest_));
+        if (!(shape == fan_.shape())) spread_out(shape);
+        if (!(altitude > lowest_) || profile_[0].down <= 0) return bins_;  // it lies in the ground
+        gather_targets(p);
+        hear_bottom();
+        if (some_target_) hear_targets();
+        return bins_;
+    }
+
+    /// How far from the track pings look, metres on the ground: what has to be covered.
+    static double reach(const Rig& rig, double cell) { return static_cast<double>(rig.range) + 4 * cell; }
+
+  private:
+    static constexpr float most = 2;  // bins that an echo may spread to either side of its ray, whatever the slope
+    static constexpr bool counts_time = Rig::axis == across_track::slant_range;
+
+    struct bottom_point {
+        double down;  ///< below the sonar
+        float slope, slope_along;
+        std::uint8_t type;
+    };
+    struct target_hit {
+        float range = std::numeric_limits<float>::infinity();
+        float low = 0, high = 0;  ///< where it is heard, in bins
+        float power = 0;
+        std::uint16_t instance = 0;
+    };
+
+    /// A new fan, and what each of its rays carries for every metre of range.
+    void spread_out(const fan_shape& shape) {
+        const auto slant = [&](double r) {
+            return counts_time ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
+        };
+        farthest_ = slant(range_);
+        fan_ = ping_fan(shape, step_, slant(first_range_), farthest_);
+        carried_.resize(fan_.size());
+        for (std::size_t k = 0; k < fan_.size(); ++k)
+            carried_[k] =
+                spacing_ * static_cast<float>(fan_[k].width * equation_.over_direction(fan_[k].sine, fan_[k].cosine));
+    }
+
+    /// The profile below the ping, from nadir outwards.
+    void sample_bottom(const ping_frame& p) {
+        const auto count = static_cast<std::size_t>(numeric::floor_to_int(range_ / profile_step_)) + 2;
+        profile_.resize(count);
+        lowest_ = 1e30, highest_ = -1e30;
+        const glm::vec2 across(p.across()), along(p.along());
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::dvec2 at = p.world(profile_step_ * static_cast<double>(i), 0);
+            const bottom_vertex v = tiles_.at(at.x, at.y);
+            const auto height = static_cast<double>(v.height);
+            profile_[i] = {p.position().z - height, v.slope_x * across.x + v.slope_y * across.y,
+                           v.slope_x * along.x + v.slope_y * along.y, static_cast<std::uint8_t>(v.type)};
+            lowest_ = (std::min)(height, lowest_);  // NaN stays out
+            highest_ = (std::max)(height, highest_);
+        }
+    }
+
+    /// Which rays meet which target first.
+    void gather_targets(const ping_frame& p) {
+        some_target_ = false;
+        for (std::size_t i = 0; i < targets_.size(); ++i) {
+            if (!targets_[i].is_met_by(p, farthest_)) continue;
+            if (!some_target_) hits_.assign(fan_.size(), target_hit{});
+            some_target_ = true;
+            targets_[i].cut(p, [&](const outline_piece& piece) {
+                meet(piece, static_cast<std::uint16_t>(i + 1), scene_.targets[i].surface.reflectivity);
+            });
+        }
+    }
+
+    void meet(outline_piece o, std::uint16_t instance, float reflectivity) {
+        if (o.a.x * o.b.down > o.a.down * o.b.x) std::swap(o.a, o.b);  // b is farther out
+        if (!(o.a.x > 0 || o.b.x > 0)) return;
+        const auto cut_at_nadir = [](outline_piece::corner& from, const outline_piece::corner& to) {
+            if (from.x > 0) return;
+            const double f = from.x / (from.x - to.x);
+            from = {0, from.down + f * (to.down - from.down),
+                    from.normal + static_cast<float>(f) * (to.normal - from.normal)};
+        };
+        cut_at_nadir(o.a, o.b);
+        cut_at_nadir(o.b, o.a);
+        // A ray's echo ends where the piece ends.
+        const auto a = static_cast<float>(place(o.a.x, o.a.down)), b = static_cast<float>(place(o.b.x, o.b.down));
+        const float nearest = (std::min)(a, b), farthest = (std::max)(a, b);
+        const std::size_t last = fan_.first_over(o.b.x, o.b.down);
+        for (std::size_t k = fan_.first_over(o.a.x, o.a.down); k < last; ++k) {
+            const ping_fan::ray& ray = fan_[k];
+            const double before = ping_fan::beyond(ray, o.a.x, o.a.down),
+                         after = ping_fan::beyond(ray, o.b.x, o.b.down);
+            const double f = before / (before - after);
+            const double dx = o.b.x - o.a.x, ddown = o.b.down - o.a.down;
+            const double range = (o.a.x + f * dx) * ray.sine + (o.a.down + f * ddown) * ray.cosine;
+            target_hit& hit = hits_[k];
+            if (!(range > 0 && range < static_cast<double>(hit.range))) continue;
+            const glm::vec3 n = o.a.normal + static_cast<float>(f) * (o.b.normal - o.a.normal);
+            const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
+            const bool outside = o.facet.z * cosine - o.facet.x * sine > 0;
+            const float facing =
+                (outside ? 1.0f : -1.0f) * (n.z * cosine - n.x * sine) / numeric::square_root(numeric::dot(n, n));
+            const float at = column(ray, range), half = half_length(ray, range, dx, ddown);
+            hit = {static_cast<float>(range), at - (std::min)(half, (std::max)(most, at - nearest)),
+                   at + (std::min)(half, (std::max)(most, farthest - at)), power_of(k, range, facing) * reflectivity,
+                   instance};
+        }
+    }
+
+    /// Walks along the profile; rays meet it in order, and what lies below the last one met is hidden.
+    void hear_bottom() {
+        double horizon_x = 0, horizon_down = 1;
+        std::size_t k = 0;
+        const std::size_t rays = fan_.size();
+        for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
+            const double px = profile_step_ * static_cast<double>(i), qx = profile_step_ * static_cast<double>(i + 1);
+            const bottom_point &p = profile_[i], &q = profile_[i + 1];
+            const double dx = qx - px, ddown = q.down - p.down;
+            const double above = qx * horizon_down - q.down * horizon_x;
+            if (!(above > 0)) {
+                if (Labelled && ddown == ddown) name(p, q, px, dx, 0, 1, hider(qx, q.down));
+                continue;
+            }
+            // The part over the horizon begins here; labels cut it between rays, so that shadows end where rays say.
+            const double below = px * horizon_down - p.down * horizon_x;
+            double from = below / (below - above);
+            if (Labelled && from > 0) name(p, q, px, dx, 0, from, hider(px + from * dx, p.down + from * ddown));
+            double last_met = from;
+            const std::size_t first = k;
+            for (; k < rays && ping_fan::beyond(fan_[k], qx, q.down) >= 0; ++k) {
+                const ping_fan::ray& ray = fan_[k];
+                const double before = ping_fan::beyond(ray, px, p.down);
+                const double f = before / (before - ping_fan::beyond(ray, qx, q.down));
+                const double range = (px + f * dx) * ray.sine + (p.down + f * ddown) * ray.cosine;
+                if (Labelled && some_target_ && k > first) {
+                    const double between = 0.5 * (last_met + f);
+                    name(p, q, px, dx, from, between, screen(k - 1, px + last_met * dx, p.down + last_met * ddown));
+                    from = between;
+                }
+                last_met = f;
+                if (range <= farthest_ + bin_) hear_bottom_at(ray, k, range, dx, ddown, p, q, static_cast<float>(f));
+            }
+            if constexpr (Labelled)
+                name(p, q, px, dx, from, 1,
+                     some_target_ ? screen(k > first ? k - 1 : k, px + last_met * dx, p.down + last_met * ddown)
+                                  : labels::is_lit);
+            horizon_x = qx, horizon_down = q.down;
+        }
+    }
+
+    void hear_bottom_at(const ping_fan::ray& ray, std::size_t k, double range, double dx, double ddown,
+                        const bottom_point& p, const bottom_point& q, float f) {
+        if (some_target_) {
+            if (static_cast<double>(hits_[k].range) < range) return;
+            hits_[k].range = std::numeric_limits<float>::infinity();  // buried, or behind a rise
+        }
+        const float at = column(ray, range), half = (std::min)(half_length(ray, range, dx, ddown), most);
+        const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
+        const float slope = p.slope + f * (q.slope - p.slope);
+        const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
+        const float facing =
+            (slope * sine + cosine) / numeric::square_root(1 + slope * slope + slope_along * slope_along);
+        const float power = power_of(k, range, facing) *
+                            scene_.bottom[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
+        spread(at - half, at + half, [&](echo_bin& bin, float share, float) { bin.bottom += power * share; });
+    }
+
+    void hear_targets() {
+        for (std::size_t k = 0; k < hits_.size(); ++k) {
+            const target_hit& hit = hits_[k];
+            if (!(static_cast<double>(hit.range) < 1e30)) continue;
+            spread(hit.low, hit.high, [&](echo_bin& bin, float share, float) {
+                const float power = hit.power * share;
+                bin.target += power;
+                if (power > bin.most_target) bin.most_target = power, bin.instance = hit.instance;
+            });
+        }
+    }
+
+    /// The target that stands between the sonar and a point of a ray, or is_lit.
+    std::uint16_t screen(std::size_t k, double x, double down) const {
+        const double range = numeric::square_root(x * x + down * down);
+        return k < hits_.size() && static_cast<double>(hits_[k].range) < range ? hits_[k].instance : labels::is_lit;
+    }
+    /// Who hides bottom below the horizon; what a target keeps dark is the target's, even if the seabed would too.
+    std::uint16_t hider(double x, double down) const {
+        const std::uint16_t target = some_target_ ? screen(fan_.first_over(x, down), x, down) : labels::is_lit;
+        return target == labels::is_lit ? labels::by_seabed : target;
+    }
+
+    /// Notes for the labels who keeps the bottom dark between two shares of the way from p to q.
+    void name(const bottom_point& p, const bottom_point& q, double px, double dx, double from, double to,
+              std::uint16_t caster) {
+        const double down = q.down - p.down;
+        const double a = place(px + from * dx, p.down + from * down), b = place(px + to * dx, p.down + to * down);
+        const std::uint8_t type = from + to < 1 ? p.type : q.type;
+        spread(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
+               [&](echo_bin& bin, float, float length) {
+                   if (caster == labels::is_lit)
+                       bin.lit += length;
+                   else if (caster == labels::by_seabed)
+                       bin.dark_by_seabed += length;
+                   else
+                       bin.dark_by_target += length, bin.caster = caster;
+                   if (length > bin.most_bottom) bin.most_bottom = length, bin.seabed = type;
+               });
+    }
+
+    /// Calls `visit(bin, share, length)` for the bins from `low` to `high`.
+    template <class Visit>
+    void spread(float low, float high, const Visit& visit) {
+        if (!(high > 0 && low < static_cast<float>(bins_.size()))) return;
+        const auto first = static_cast<std::int64_t>(low > 0 ? low : 0.0f);
+        const auto last = (std::min)(static_cast<std::int64_t>(high), static_cast<std::int64_t>(bins_.size()) - 1);
+        if (first == last && low >= static_cast<float>(first) && high <= static_cast<float>(first + 1)) {
+            visit(bins_[static_cast<std::size_t>(first)], 1.0f, high - low);
+            return;
+        }
+        const float scale = 1 / (high - low);
+        for (std::int64_t b = first; b <= last; ++b) {
+            const float from = (std::max)(low, static_cast<float>(b)), to = (std::min)(high, static_cast<float>(b + 1));
+            if (to > from) visit(bins_[static_cast<std::size_t>(b)], (to - from) * scale, to - from);
+        }
+    }
+
+    /// Where an echo is heard, in bins.
+    float column(const ping_fan::ray& ray, double range) const {
+        const double r = counts_time ? range : range * ray.sine;
+        return static_cast<float>((r - first_range_) / bin_);
+    }
+    double place(double x, double down) const {
+        const double r = counts_time ? numeric::square_root(x * x + down * down) : x;
+        return (r - first_range_) / bin_;
+    }
+
+    /// Half of the bins between the two edges of a ray on a surface along (dx, ddown).
+    float half_length(const ping_fan::ray& ray, double range, double dx, double ddown) const {
+        const double outwards = counts_time ? dx * ray.sine + ddown * ray.cosine : dx;
+        const double turning = dx * ray.cosine - ddown * ray.sine;
+        const double half = 0.5 * range * ray.width * outwards / (turning * bin_);
+        return static_cast<float>(half < 0 ? -half : half);
+    }
+
+    /// What a surface of reflectivity one sends back of a ray: its area, seen from here, over the sine of grazing, by
+    /// law.
+    float power_of(std::size_t k, double range, float facing) const {
+        const float sine = (std::min)((std::max)(facing, 1e-3f), 1.0f);
+        return static_cast<float>(range) * carried_[k] * law_(sine) / sine;
+    }
+
+    const scene& scene_;
+    std::span<const sliced_target> targets_;
+    const bottom_tiles& tiles_;
+    Law law_;
+    const Equation& equation_;
+    double range_, first_range_, bin_, step_, profile_step_, farthest_ = 0;
+    float spacing_;
+    double top_, lowest_ = 0, highest_ = 0;
+    ping_fan fan_;
+    std::vector<float> carried_;
+    std::vector<bottom_point> profile_;
+    std::vector<target_hit> hits_;
+    bool some_target_ = false;
+    std::vector<echo_bin> bins_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/range_geometry.hpp ---------------------------------------------------------
+// The closed forms of side-scan geometry over a level bottom: ranges, shadows, layover and what is measured from them.
+//
+// Lengths are metres. `altitude` is the sonar's above the bottom, `ground` a distance across the track on the bottom,
+// `height` that of a point above the bottom. Answers that don't exist are 0 (a distance inside the water column) or
+// infinity (the shadow of what reaches the sonar's height), never NaN for finite arguments.
+//
+// Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::range_geometry {
+
+/// Distance from the sonar to a point.
+inline double slant_range(double ground, double altitude, double height = 0) {
+    const double down = altitude - height;
+    return numeric::square_root(ground * ground + down * down);
+}
+
+/// Where the bottom is at a slant range; 0 in the water column.
+inline double ground_range(double slant, double altitude) {
+    return slant > altitude ? numeric::square_root(slant * slant - altitude * altitude) : 0;
+}
+
+/// Angle of the sound with the bottom, radians: pi / 2 below the sonar.
+inline double grazing_angle(double ground, double altitude) {
+    return numeric::atan2(altitude, ground);
+}
+
+/// Where the shadow of a point ends on the bottom.
+inline double shadow_tip(double ground, double altitude, double height) {
+    return height < altitude ? ground * altitude / (altitude - height) : std::numeric_limits<double>::infinity();
+}
+
+/// Length of a shadow on the bottom, from below the point that casts it.
+inline double shadow_length(double ground, double altitude, double height) {
+    return height < altitude ? height * ground / (altitude - height) : std::numeric_limits<double>::infinity();
+}
+
+/// Length of a shadow in a picture of slant ranges, from the echo of the point that casts it.
+inline double slant_shadow_length(double ground, double altitude, double height) {
+    if (!(height < altitude)) return std::numeric_limits<double>::infinity();
+    return slant_range(shadow_tip(ground, altitude, height), altitude) - slant_range(ground, altitude, height);
+}
+
+/// Where a raised point appears after `ground_range`: layover moves it towards the sonar, to 0 at most.
+inline double apparent_ground(double ground, double altitude, double height) {
+    return ground_range(slant_range(ground, altitude, height), altitude);
+}
+
+/// Height of what casts a shadow, from the slant ranges of its top and of the shadow's tip.
+inline double height_from_slant(double top, double tip, double altitude) {
+    return tip > 0 ? altitude * (tip - top) / tip : 0;
+}
+
+/// The same from distances on the bottom.
+inline double height_from_ground(double foot, double tip, double altitude) {
+    return tip > 0 ? altitude * (tip - foot) / tip : 0;
+}
+
+/// Metres of bottom in a bin of slant range; infinite straight below the sonar.
+inline double ground_resolution(double bin, double grazing) {
+    const double cosine = numeric::sin_cos(grazing).cosine;
+    return cosine > 0 ? bin / cosine : std::numeric_limits<double>::infinity();
+}
+
+/// Metres of track between the half-power points of a beam of so many radians, one way.
+inline double along_track_footprint(double slant, double beam_width) {
+    return slant * beam_width;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::range_geometry
 
 INSONIFY_ARITHMETIC_END
 
@@ -7691,7 +9478,7 @@ namespace insonify::inline INSONIFY_ABI {
 /// the left, so ranges and shadows grow to the right, as on a starboard channel.
 ///
 /// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky x share of the
-/// sky that the surface looks at), cut at 1.
+/// sky that the surface looks at + ambient), cut at 1.
 struct overhead {
     glm::dvec2 position{0, 0};                                      ///< of the camera over the datum, metres
     float altitude = 10;                                            ///< above the datum, metres
@@ -7702,6 +9489,7 @@ struct overhead {
     float light_azimuth = 0;  ///< where the light travels, from image right towards image up, radians
     float intensity = 4;      ///< of the light on a surface that faces it
     float sky = 0.05f;        ///< light from everywhere, which no shadow stops; 0 for none
+    float ambient = 0;        ///< light that reaches every surface alike, whatever its slope; 0 for none
 };
 
 /// @throws invalid_input for a value that can't be right
@@ -7720,6 +9508,7 @@ inline void validate(const overhead& rig) {
     require(numeric::is_finite(rig.light_azimuth), "overhead.light_azimuth", rig.light_azimuth, "a finite angle");
     require(rig.intensity >= 0 && numeric::is_finite(rig.intensity), "overhead.intensity", rig.intensity, "0 or more");
     require(rig.sky >= 0 && numeric::is_finite(rig.sky), "overhead.sky", rig.sky, "0 or more");
+    require(rig.ambient >= 0 && numeric::is_finite(rig.ambient), "overhead.ambient", rig.ambient, "0 or more");
 }
 
 /// What follows from a rig. Everything is drawn in the rig's own frame (origin on the datum below the camera, x to the
@@ -7787,8 +9576,13 @@ class overhead_geometry {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/render.hpp -----------------------------------------------------------------
-// One picture: the seabed sampled where the rig looks, shadows, the image in linear values, and its labels.
+// ------------ insonify/sonar/shading.hpp ----------------------------------------------------------------
+// From what a pixel shows to its value and its labels, several pixels at a time.
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -7797,8 +9591,173 @@ namespace insonify::inline INSONIFY_ABI {
 /// Asks for no labels: none are stored or computed.
 struct no_labels {};
 
+namespace detail {
+
+/// What pixels between the vertices are shaded from, in the rig's frame.
+struct surface_varyings {
+    glm::vec3 position;
+    glm::vec3 normal;
+};
+
+/// What is the same all over an object: one material, one name.
+struct whole_object {
+    material surface;
+    std::uint16_t instance;
+    std::uint8_t seabed;  ///< as in labels::seabed
+
+    static constexpr bool uniform = true;
+};
+
+/// The seabed: a material for each of its types, which a pixel takes from the vertex that weighs most.
+struct typed_bottom {
+    const mesh& surface;
+    const seabed::heightfield& field;
+    const std::array<material, 4>& materials;
+    static constexpr std::uint16_t instance = labels::no_instance;
+    static constexpr bool uniform = false;
+
+    template <class Fragments>
+    INSONIFY_INLINE std::uint8_t type_at(const Fragments& f, int k) const {
+        const glm::uvec3& t = surface.triangles[f.triangles[k]];
+        const float a = lane(f.weights[0], k), b = lane(f.weights[1], k), c = lane(f.weights[2], k);
+        const std::uint32_t vertex = a >= b ? (a >= c ? t.x : t.z) : (b >= c ? t.y : t.z);
+        return static_cast<std::uint8_t>(field.types.pixels()[vertex]);
+    }
+};
+
+/// Shades an object's visible pixels into a picture and its labels.
+template <class Shadows, class Labels, class Law, class Object>
+class surface_shader {
+  public:
+    surface_shader(const overhead_geometry& view, const Law& law, const Shadows& shadows, const Object& object,
+                   image<float>& picture, Labels& marks)
+        : rig_(view.rig()),
+          to_light_(view.light().to_light()),
+          law_(law),
+          shadows_(shadows),
+          object_(object),
+          picture_(picture),
+          labels_(marks) {}
+
+    template <int N>
+    INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
+        floats normal[3];
+        for (int i = 0; i < 3; ++i) f.interpolate(normal[i], 3 + i);
+        const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+        floats length;
+        square_root<N>(length, square);
+        const floats turned = side / length;
+        floats sine = turned * (normal[0] * to_light_.x + normal[1] * to_light_.y + normal[2] * to_light_.z);
+        sine = sine < 1.0f ? sine : floats{} + 1.0f;
+
+        light_shares<N> shares;
+        if constexpr (!std::is_same_v<Shadows, no_shadow_maps>) {
+            // A label wants to know who stands in the light even of what faces away.
+            const ints useful = labelled ? f.visible : ints(f.visible & ints(sine > 0.0f));
+            if (any(useful)) {
+                surface_points<N> at;
+                at.visible = f.visible;
+                at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
+                for (int i = 0; i < 3; ++i) f.interpolate(at.position[i], i);
+                facet_normal<N>(at.facet, f, side);
+                shadows_(shares, at, useful);
+            }
+        }
+
+        const floats open_sky = 0.5f * (1.0f + turned * normal[2]);
+        const ints is_bright = ints(sine > 0.0f) & ints(shares.lit > 0.0f);
+        floats direct;
+        law<N>(direct, is_bright ? sine : floats{});
+        direct = is_bright ? direct : floats{};
+        const floats light = rig_.intensity * direct * shares.lit + rig_.sky * open_sky + rig_.ambient;
+        std::uint8_t types[static_cast<unsigned>(N)];
+        floats reflectivity;
+        if constexpr (Object::uniform) {
+            reflectivity = floats{} + object_.surface.reflectivity;
+            for (std::uint8_t& type : types) type = object_.seabed;
+        } else {
+            for (int k = 0; k < N; ++k) types[k] = object_.type_at(f, k);
+            gather<N>(reflectivity, [&](int k) { return object_.materials[types[k]].reflectivity; });
+        }
+        const floats one = floats{} + 1.0f;
+        floats value = reflectivity * light;
+        value = value > one ? one : value;
+        store_visible<N>(f, value, picture_);
+        if constexpr (labelled)
+            for (int k = 0; k < N; ++k) {
+                if (lane(f.visible, k) == 0) continue;
+                labels_.instance(f.x + k, f.y) = object_.instance;
+                labels_.shadow(f.x + k, f.y) = static_cast<std::uint16_t>(lane(shares.caster, k));
+                labels_.seabed(f.x + k, f.y) = types[k];
+            }
+    }
+
+  private:
+    static constexpr bool labelled = std::is_same_v<Labels, labels>;
+
+    /// Normal of the triangle that a pixel shows, on the side that is seen; not unit.
+    template <int N>
+    INSONIFY_INLINE static void facet_normal(lanes<float, N> (&into)[3], const fragment_lanes<N, surface_varyings>& f,
+                                             const lanes<float, N>& side) {
+        using floats = lanes<float, N>;
+        floats ab[3], ac[3];
+        for (int i = 0; i < 3; ++i) {
+            ab[i] = f.at_corner(1, i) - f.at_corner(0, i);
+            ac[i] = f.at_corner(2, i) - f.at_corner(0, i);
+        }
+        into[0] = side * (ab[1] * ac[2] - ac[1] * ab[2]);
+        into[1] = side * (ab[2] * ac[0] - ac[2] * ab[0]);
+        into[2] = side * (ab[0] * ac[1] - ac[0] * ab[1]);
+    }
+
+    template <int N>
+    INSONIFY_INLINE static void store_visible(const fragment_lanes<N, surface_varyings>& f,
+                                              const lanes<float, N>& value, image<float>& picture) {
+        if (f.all_visible)
+            store(&picture(f.x, f.y), value);
+        else
+            for (int k = 0; k < N; ++k)
+                if (lane(f.visible, k) != 0) picture(f.x + k, f.y) = lane(value, k);
+    }
+
+    template <int N>
+    INSONIFY_INLINE void law(lanes<float, N>& into, const lanes<float, N>& sine) const {
+        if constexpr (requires { law_.in_lanes(into, sine); })
+            law_.in_lanes(into, sine);
+        else
+            gather<N>(into, [&](int k) { return law_(lane(sine, k)); });
+    }
+
+    overhead rig_;
+    glm::vec3 to_light_;
+    Law law_;
+    const Shadows& shadows_;
+    Object object_;
+    image<float>& picture_;
+    Labels& labels_;
+};
+
+}  // namespace detail
+}  // namespace insonify::inline INSONIFY_ABI
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/render.hpp -----------------------------------------------------------------
+// One picture: the seabed sampled where the rig looks, shadows, the image in linear values, and its labels.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
 /// How to draw a picture; the types say what is in it.
-template <shadow::policy Shadow = shadow::pcf, class Labels = labels, backscatter_law Law = lambert>
+template <shadow::policy Shadow = shadow::refined, class Labels = labels, backscatter_law Law = lambert>
 struct render_options {
     Shadow shadow{};
     Law law{};
@@ -7823,29 +9782,20 @@ struct frame {
 
 namespace detail {
 
-/// What a pixel is shaded from, in the rig's frame.
-struct surface_point {
-    glm::vec3 position;
-    glm::vec3 normal;
-};
-
 /// A picture under construction, in the rig's frame.
 template <class Shadow, class Labels, class Law>
 class overhead_painter {
   public:
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
-        : scene_(s),
-          view_(rig),
-          to_light_(view_.light().to_light()),
-          options_(options),
-          depth_(rig.size.x, rig.size.y) {
+        : scene_(s), view_(rig), options_(options), depth_(rig.size.x, rig.size.y) {
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y);
         validate(options.shadow);
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y);
-        for (const target& t : s.targets) targets_.emplace_back(t.shape, view_.rig_from(to_world(t.placement)));
-        sample_seabed(ex);
+        for (const target& t : s.targets)
+            targets_.emplace_back(t.shape, bounds(t.shape, ex), view_.rig_from(to_world(t.placement)), t.is_solid);
+        if (has_bottom()) sample_seabed(ex);
     }
 
     template <executor E>
@@ -7853,16 +9803,15 @@ class overhead_painter {
         if constexpr (std::is_same_v<Shadow, shadow::none>)
             draw_all(no_shadow_maps{}, ex);
         else
-            draw_all(shadow_maps<Shadow>(
-                         options_.shadow, view_.light(), bottom_in_rig(), targets_, receivers(),
-                         view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel), ex),
-                     ex);
+            draw_all(cast_shadows(ex), ex);
         if constexpr (labelled) describe_targets(out_.labels, scene_.targets);
         return std::move(out_);
     }
 
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
+
+    bool has_bottom() const { return !std::holds_alternative<seabed::none>(scene_.seabed); }
 
     /// Heights where the picture looks, and up-light of there as far as the relief can throw a shadow.
     template <executor E>
@@ -7929,24 +9878,41 @@ class overhead_painter {
 
     placed_mesh bottom_in_rig() const {
         const affine under_rig = view_.rig_from({glm::dmat3(1), glm::dvec3(view_.rig().position, 0)});
-        return {bottom_, compose(under_rig, {glm::dmat3(1), glm::dvec3(bottom_origin_, 0)})};
+        const glm::dvec2 far_corner =
+            field_.spacing * glm::dvec2(field_.heights.width() - 1, field_.heights.height() - 1);
+        return {bottom_,
+                {{0, 0, lowest_}, {far_corner, highest_}},
+                compose(under_rig, {glm::dmat3(1), glm::dvec3(bottom_origin_, 0)}),
+                true};
+    }
+
+    template <executor E>
+    shadow_maps<Shadow> cast_shadows(E& ex) const {
+        const double texel = view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel);
+        const placed_mesh bottom = bottom_in_rig();
+        return {options_.shadow, view_.light(), has_bottom() ? &bottom : nullptr, targets_, receivers(), texel, ex};
     }
 
     /// All rays of the light that reach something which the picture may show.
     shadow::map_extent receivers() const {
-        shadow::map_extent extent;
-        double top = static_cast<double>(highest_);
-        for (const placed_mesh& t : targets_) {
-            const bounding_box box = bounds(*t.shape);
-            if (!box.empty())
-                for (int corner = 0; corner < 8; ++corner)
-                    top = (std::max)(top, transform_point(t.to_rig, {(corner & 1 ? box.upper : box.lower).x,
-                                                                     (corner & 2 ? box.upper : box.lower).y,
-                                                                     (corner & 4 ? box.upper : box.lower).z})
-                                              .z);
+        double low = static_cast<double>(lowest_), top = static_cast<double>(highest_);
+        if (!has_bottom()) {
+            low = (std::numeric_limits<double>::max)();
+            top = -low;
         }
-        for (const double height : {static_cast<double>(lowest_), top}) {
-            const glm::dvec2 half = view_.half_extent(static_cast<double>(lowest_));
+        for (const placed_mesh& t : targets_)
+            for (int corner = 0; corner < 8 && !t.box.empty(); ++corner) {
+                const glm::dvec3 at(corner & 1 ? t.box.upper.x : t.box.lower.x,
+                                    corner & 2 ? t.box.upper.y : t.box.lower.y,
+                                    corner & 4 ? t.box.upper.z : t.box.lower.z);
+                const double z = transform_point(t.to_rig, at).z;
+                top = (std::max)(top, z);
+                if (!has_bottom()) low = (std::min)(low, z);
+            }
+        shadow::map_extent extent;
+        if (low > top) return extent;
+        for (const double height : {low, top}) {
+            const glm::dvec2 half = view_.half_extent(low);
             for (const double x : {-half.x, half.x})
                 for (const double y : {-half.y, half.y}) extent.include(view_.light()(glm::dvec3(x, y, height)));
         }
@@ -7955,81 +9921,44 @@ class overhead_painter {
 
     template <class Shadows, executor E>
     void draw_all(const Shadows& shadows, E& ex) {
-        const auto type_of = [&](const fragment<surface_point>& f) {
-            return field_.types.empty() ? field_.fallback : field_.types.pixels()[nearest_vertex(f)];
-        };
-        const placed_mesh bottom = bottom_in_rig();
-        out_.stats.seabed = draw_one(
-            bottom, depth_load::clear,
-            [&](const fragment<surface_point>& f) {
-                const seabed::type type = type_of(f);
-                shade(f, bottom, scene_.bottom_of(type), shadows, labels::no_instance, static_cast<std::uint8_t>(type));
-            },
-            ex);
-        for (std::size_t i = 0; i < targets_.size(); ++i)
-            out_.stats.targets += draw_one(
-                targets_[i], depth_load::keep,
-                [&](const fragment<surface_point>& f) {
-                    shade(f, targets_[i], scene_.targets[i].surface, shadows, static_cast<std::uint16_t>(i + 1),
-                          labels::no_seabed);
-                },
-                ex);
+        depth_load load = depth_load::clear;
+        if (has_bottom()) {
+            const placed_mesh bottom = bottom_in_rig();
+            if (field_.types.empty())
+                out_.stats.seabed = draw_one(bottom, load, shadows,
+                                             whole_object{scene_.bottom_of(field_.fallback), labels::no_instance,
+                                                          static_cast<std::uint8_t>(field_.fallback)},
+                                             ex);
+            else
+                out_.stats.seabed = draw_one(bottom, load, shadows, typed_bottom{bottom_, field_, scene_.bottom}, ex);
+            load = depth_load::keep;
+        }
+        for (std::size_t i = 0; i < targets_.size(); ++i) {
+            const whole_object target{scene_.targets[i].surface, static_cast<std::uint16_t>(i + 1), labels::no_seabed};
+            out_.stats.targets += draw_one(targets_[i], load, shadows, target, ex);
+            load = depth_load::keep;
+        }
     }
 
-    template <class Fragment, executor E>
-    draw_stats draw_one(const placed_mesh& object, depth_load load, const Fragment& fragment_callable, E& ex) {
-        const glm::mat3 linear(object.to_rig.linear);
-        const glm::vec3 offset(object.to_rig.offset);
+    template <class Shadows, class Object, executor E>
+    draw_stats draw_one(const placed_mesh& shape, depth_load load, const Shadows& shadows, const Object& object,
+                        E& ex) {
+        const glm::mat3 linear(shape.to_rig.linear);
+        const glm::vec3 offset(shape.to_rig.offset);
         const auto place = [&, linear, offset](const vertex& v) {
             const glm::vec3 position = numeric::product(linear, v.position) + offset;
-            return placed_vertex<surface_point>{view_.clip(position),
-                                                {position, numeric::product(object.normals, v.normal)}};
+            return placed_vertex<surface_varyings>{view_.clip(position),
+                                                   {position, numeric::product(shape.normals, v.normal)}};
         };
-        return draw(*object.shape, place, fragment_callable, framebuffer<void>{depth_},
-                    {.keep = keep_depth::larger, .load = load, .tile = options_.tile, .level = options_.level}, ex);
-    }
-
-    /// The seabed's vertex that weighs most at a pixel.
-    std::size_t nearest_vertex(const fragment<surface_point>& f) const {
-        const glm::uvec3& t = bottom_.triangles[f.triangle];
-        return f.weights.x >= f.weights.y ? (f.weights.x >= f.weights.z ? t.x : t.z)
-                                          : (f.weights.y >= f.weights.z ? t.y : t.z);
-    }
-
-    /// Normal of the triangle that a pixel shows, on the side that is seen; not unit.
-    static glm::vec3 facet_normal(const placed_mesh& object, const fragment<surface_point>& f) {
-        const glm::uvec3& t = object.shape->triangles[f.triangle];
-        const glm::vec3& a = object.shape->positions[t.x];
-        const glm::vec3 ab = object.shape->positions[t.y] - a, ac = object.shape->positions[t.z] - a;
-        return numeric::product(object.normals, numeric::cross(f.front ? ab : ac, f.front ? ac : ab));
-    }
-
-    template <class Shadows>
-    void shade(const fragment<surface_point>& f, const placed_mesh& object, const material& surface,
-               const Shadows& shadows, std::uint16_t instance, std::uint8_t type) {
-        const glm::vec3& n = f.varyings.normal;
-        const float length = numeric::square_root(n.x * n.x + n.y * n.y + n.z * n.z);
-        const glm::vec3& to_light = to_light_;
-        const float sine = (f.front ? 1.0f : -1.0f) * (n.x * to_light.x + n.y * to_light.y + n.z * to_light.z) / length;
-        const light_share share = shadows(
-            f.varyings.position, [&] { return facet_normal(object, f); },
-            instance == labels::no_instance ? labels::by_seabed : instance);
-
-        const overhead& rig = view_.rig();
-        const bool is_dark = !(sine > 0) || share.lit == 0;
-        const float direct = is_dark ? 0 : rig.intensity * options_.law((std::min)(sine, 1.0f)) * share.lit;
-        const float open_sky = 0.5f * (1 + (f.front ? n.z : -n.z) / length);
-        out_.image(f.x, f.y) = (std::min)(surface.reflectivity * (direct + rig.sky * open_sky), 1.0f);
-        if constexpr (labelled) {
-            out_.labels.instance(f.x, f.y) = instance;
-            out_.labels.shadow(f.x, f.y) = share.caster;
-            out_.labels.seabed(f.x, f.y) = type;
-        }
+        const surface_shader<Shadows, Labels, Law, Object> shader(view_, options_.law, shadows, object, out_.image,
+                                                                  out_.labels);
+        return draw_lanes(*shape.shape, place, shader, depth_,
+                          {.keep = keep_depth::larger, .load = load, .tile = options_.tile, .level = options_.level},
+                          ex);
     }
 
     const scene& scene_;
     overhead_geometry view_;
-    glm::vec3 to_light_;
     render_options<Shadow, Labels, Law> options_;
     image<float> depth_;
     frame<Labels> out_;
@@ -8050,11 +9979,966 @@ class overhead_painter {
 /// @param ex       who runs it; the result is the same bytes for any executor
 /// @returns a picture of rig.size pixels, linear in [0, 1], with labels of the same size and what was drawn
 /// @throws invalid_input for a rig, a seabed, a pose or an option that can't be right
-template <shadow::policy Shadow = shadow::pcf, class Labels = labels, backscatter_law Law = lambert,
+template <shadow::policy Shadow = shadow::refined, class Labels = labels, backscatter_law Law = lambert,
           executor_argument E = serial_executor>
 frame<Labels> render(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options = {},
                      E&& ex = {}) {
     return detail::overhead_painter<Shadow, Labels, Law>(s, rig, options, ex).paint(ex);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/sonar_equation.hpp ---------------------------------------------------------
+// The sonar equation as a list of parts: what is not in the list is not computed, and not compiled.
+//
+// A picture's pixels are intensities (power), linear. Without any part, a bin holds the backscattering cross-section of
+// what lies in it: reflectivity x law(sine of grazing) x area, summed over the surfaces, in square metres for one
+// metre of source level. In decibels, with the parts in the order in which sound meets them (R. J. Urick. Principles of
+// Underwater Sound, 3rd edition, 1983):
+//
+//   RL = source_level + vertical_beam - transmission_loss - absorption + 10 log10(cross-section x footprint / spacing),
+//   then pulse and horizontal_beam blur it, noise_floor adds to it, and time_varied_gain or level_gain amplify it all.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// 10^(decibels / 10): for powers.
+inline double from_decibels(double decibels) {
+    return numeric::exp(decibels * 0.23025850929940458);
+}
+
+/// The level of the source.
+struct source_level {
+    float decibels = 0;
+    double over_range(double) const { return from_decibels(static_cast<double>(decibels)); }
+};
+
+/// Spherical spreading, there and back: 40 log10 R, R in metres.
+struct transmission_loss {
+    double over_range(double range) const { return 1 / (range * range * range * range); }
+};
+
+/// What sea water takes, there and back: 2 alpha R. About 76, 116, 169, 322 dB/km at 300, 450, 600, 900 kHz in salt
+/// water, 30, 68, 122, 274 in fresh (M. A. Ainslie, J. G. McColm. A Simplified Formula for Viscous and Chemical
+/// Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m).
+struct absorption {
+    float decibels_per_km = 169;
+    double over_range(double range) const {
+        return from_decibels(-0.002 * static_cast<double>(decibels_per_km) * range);
+    }
+};
+
+/// The beam in the vertical plane, twice (there and back): Gaussian about an axis that points down from the horizon,
+/// over side lobes that hear everywhere alike. They are what lets the first return be heard from straight below.
+struct vertical_beam {
+    float width = static_cast<float>(numeric::to_radians(50));  ///< between the -3 dB points of one way, radians
+    float tilt = static_cast<float>(numeric::to_radians(20));   ///< of the axis below the horizon, radians
+    float side_lobes = 1e-3f;                                   ///< power, both ways, over that on the axis
+    /// @param across, down  of the unit vector along the ray
+    double over_direction(double across, double down) const {
+        const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(width);
+        return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off * off);  // 8 ln 2
+    }
+};
+
+/// The beam along the track, twice: a Gaussian that widens with range. It blurs over the neighbouring pings, and makes
+/// the area that a ping insonifies grow with range.
+struct horizontal_beam {
+    float width = static_cast<float>(numeric::to_radians(0.3));  ///< between the -3 dB points of one way, radians
+    /// Metres of track that are heard fully, as it were: the integral of the pattern.
+    double footprint(double range) const { return 0.7526967 * range * static_cast<double>(width); }
+    /// Metres to either side beyond which nothing is heard.
+    double reach(double range) const { return range * static_cast<double>(width); }
+    double pattern(double along, double range) const {
+        const double off = along / (range * static_cast<double>(width));
+        return numeric::exp(-5.545177444479562 * off * off);
+    }
+};
+
+/// The pulse: every echo lasts as long, centred where its range is.
+struct pulse {
+    float length = 0.03f;  ///< metres of range: half of the speed of sound times the duration, or over twice the band
+    double duration() const { return static_cast<double>(length); }
+};
+
+/// What the receiver hears where nothing is: a mean intensity. Under `speckle` it fluctuates as noise does.
+struct noise_floor {
+    float intensity = 1e-3f;
+    double noise() const { return static_cast<double>(intensity); }
+};
+
+/// The flat bottom that a receiver may expect at a range, before its own gain.
+struct flat_echo {
+    double range, altitude;  ///< metres
+    double bin, spacing;     ///< metres
+    bool counts_time;        ///< bins are steps of slant range
+};
+
+/// Gain that makes up for spreading and absorption alone. A bottom whose strength doesn't depend on the angle comes out
+/// level, up to 1 / cos(grazing), at 40 dB per decade, or at 30 with a horizontal beam.
+struct time_varied_gain {
+    float spreading = 40;         ///< decibels per tenfold range
+    float absorption_per_km = 0;  ///< decibels, one way, as in `absorption`
+    float decibels = 0;           ///< at 1 m
+    template <class LevelAt>
+    double gain(const flat_echo& e, const LevelAt&) const {
+        return numeric::pow(e.range, 0.1 * static_cast<double>(spreading)) *
+               from_decibels(static_cast<double>(decibels) + 0.002 * static_cast<double>(absorption_per_km) * e.range);
+    }
+};
+
+/// Gain that makes a level bottom of reflectivity one come out as one, whatever the other parts are: beam pattern,
+/// spreading, law and area. At grazing angles above `steepest` it stays what it is there, so that the first return
+/// keeps being bright.
+struct level_gain {
+    float steepest = static_cast<float>(numeric::pi / 4);  ///< radians, below pi / 2
+    template <class LevelAt>
+    double gain(const flat_echo& e, const LevelAt& level_at) const {
+        const double limit = numeric::sin_cos(static_cast<double>(steepest)).sine;
+        const double sine = e.altitude / e.range;
+        const double level = level_at(sine > 0 && sine < limit ? sine : limit);
+        return level > 0 ? 1 / level : 0;
+    }
+};
+
+namespace detail {
+template <class P>
+concept direction_part = requires(const P& p) {
+    { p.over_direction(1.0, 0.0) } -> std::convertible_to<double>;
+};
+template <class P>
+concept range_part = requires(const P& p) {
+    { p.over_range(1.0) } -> std::convertible_to<double>;
+};
+template <class P>
+concept footprint_part = requires(const P& p) {
+    { p.footprint(1.0) } -> std::convertible_to<double>;
+};
+template <class P>
+concept pulse_part = requires(const P& p) {
+    { p.duration() } -> std::convertible_to<double>;
+};
+template <class P>
+concept noise_part = requires(const P& p) {
+    { p.noise() } -> std::convertible_to<double>;
+};
+template <class P>
+concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(double)) {
+    { p.gain(e, level) } -> std::convertible_to<double>;
+};
+}  // namespace detail
+
+/// Anything that `sonar_equation` knows how to use: one of the above, or your own type with one of their functions.
+template <class P>
+concept equation_part = detail::direction_part<P> || detail::range_part<P> || detail::footprint_part<P> ||
+    detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;
+
+/// The parts of a sonar: `sonar_equation{transmission_loss{}, absorption{}, time_varied_gain{}}`. The order doesn't
+/// matter; of horizontal beams and pulses there may be one each.
+template <equation_part... Parts>
+class sonar_equation {
+  public:
+    static constexpr bool has_ranges = (detail::range_part<Parts> || ...) || (detail::footprint_part<Parts> || ...);
+    static constexpr bool has_beam = (detail::footprint_part<Parts> || ...);
+    static constexpr bool has_pulse = (detail::pulse_part<Parts> || ...);
+    static constexpr bool has_noise = (detail::noise_part<Parts> || ...);
+    static constexpr bool has_gain = (detail::gain_part<Parts> || ...);
+    static_assert((int{detail::footprint_part<Parts>} + ... + 0) <= 1, "a sonar has one horizontal beam");
+    static_assert((int{detail::pulse_part<Parts>} + ... + 0) <= 1, "a sonar has one pulse");
+
+    sonar_equation() = default;
+    explicit(sizeof...(Parts) == 1) sonar_equation(Parts... parts) requires(sizeof...(Parts) > 0) : parts_(parts...) {}
+
+    /// Power along a ray, given by its unit vector.
+    double over_direction(double across, double down) const {
+        return product([&](const auto& p) {
+            if constexpr (detail::direction_part<decltype(p)>)
+                return static_cast<double>(p.over_direction(across, down));
+            else
+                return 1.0;
+        });
+    }
+    /// Power from a range, for a ping that stands for `spacing` metres of track.
+    double over_range(double range, double spacing) const {
+        return product([&](const auto& p) {
+            if constexpr (detail::range_part<decltype(p)>)
+                return static_cast<double>(p.over_range(range));
+            else if constexpr (detail::footprint_part<decltype(p)>)
+                return static_cast<double>(p.footprint(range)) / spacing;
+            else
+                return 1.0;
+        });
+    }
+    /// What a receiver multiplies by. `law` is that of the bottom.
+    template <class Law>
+    double gain(const flat_echo& e, const Law& law) const {
+        const auto level_at = [&](double sine) {
+            const double cosine = numeric::square_root(1 - sine * sine);
+            const double length = e.counts_time ? e.bin / cosine : e.bin;
+            return static_cast<double>(law(static_cast<float>(sine))) * length * e.spacing *
+                   over_direction(cosine, sine) * over_range(e.range, e.spacing);
+        };
+        return product([&](const auto& p) {
+            if constexpr (detail::gain_part<decltype(p)>)
+                return static_cast<double>(p.gain(e, level_at));
+            else
+                return 1.0;
+        });
+    }
+    /// Mean intensity of what is heard where nothing is.
+    double noise() const {
+        double sum = 0;
+        for_each([&](const auto& p) {
+            if constexpr (detail::noise_part<decltype(p)>) sum += p.noise();
+        });
+        return sum;
+    }
+    /// Calls `fn` with each part.
+    template <class Fn>
+    void for_each(const Fn& fn) const {
+        std::apply([&](const auto&... p) { (fn(p), ...); }, parts_);
+    }
+
+  private:
+    template <class Fn>
+    double product(const Fn& factor) const {
+        return std::apply([&](const auto&... p) { return (factor(p) * ... * 1.0); }, parts_);
+    }
+
+    std::tuple<Parts...> parts_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/sediment.hpp ---------------------------------------------------------------
+// What bottoms send back, in decibels, for those who want sediments by name instead of relative gray values.
+//
+// Values are relative: they are for 100 kHz, a side-scan sonar's 300 to 900 kHz extrapolates them, and the report gives
+// 3 dB for well known sands and silts, 10 dB for rock.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A kind of bottom: with Lambert's law, S_b = level + 20 log10(sin grazing).
+struct sediment {
+    std::string_view name;
+    float level;  ///< decibels
+
+    /// For `scene::bottom`; use with `lambert_backscatter`.
+    material surface() const { return {static_cast<float>(from_decibels(static_cast<double>(level)))}; }
+};
+
+/// From rough rock to mud: Lambert levels that meet the backscattering strengths of APL-UW's model at 20 degrees
+/// (APL-UW High-Frequency Ocean Environmental Acoustic Models Handbook, TR 9407, 1994).
+inline constexpr sediment sediments[] = {
+    {"rough rock", 3.1f},    {"rock", -2.7f},         {"cobble", -6.9f},      {"sandy gravel", -10.0f},
+    {"coarse sand", -12.5f}, {"medium sand", -14.9f}, {"fine sand", -17.9f},  {"very fine sand", -17.7f},
+    {"coarse silt", -18.5f}, {"sandy mud", -22.5f},   {"silty clay", -22.6f},
+};
+
+/// One of `sediments` by its name.
+/// @throws invalid_input for a name that isn't there
+inline const sediment& sediment_of(std::string_view name) {
+    for (const sediment& s : sediments)
+        if (s.name == name) return s;
+    detail::raise(
+        invalid_input("sediment \"" + std::string(name) + "\" is unknown, expected one of insonify::sediments"));
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/slant_range.hpp ------------------------------------------------------------
+// Pictures in the sonar's own geometry: pings by ranges, with water column, first return, layover and shadows, and
+// labels for every bin. See ping_echo.hpp for how a ping is heard.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// How to record; the types say what is in it.
+template <class Labels = labels, backscatter_law Law = lambert_backscatter, class Equation = sonar_equation<level_gain>>
+struct record_options {
+    Law law{};
+    Equation equation{};
+    /// Metres between the vertices at which the seabed is sampled; 0: see default_cell. Of 40 m in 2048 bins from 5 m
+    /// up, against cells of 5 mm: cells of 2, 4 and 8 cm cost 2, 1 and 0.6 times the default's time; the shadow labels
+    /// of 0.9, 1.5 and 3.4 % of the bins differ on ripples, of 3.6, 5.3 and 11 % on rock; and amplitudes by 7, 10 and
+    /// 19 % (rms) on ripples.
+    double cell = 0;
+};
+
+/// How large the intermediate things were.
+struct record_stats {
+    std::uint64_t seabed_vertices = 0;  ///< sampled
+    double cell = 0;                    ///< metres between them
+};
+
+/// A picture with all that is known about it: a row per ping, a column per bin.
+template <class Labels = labels>
+struct recording {
+    insonify::image<float> image;  ///< intensity, linear, 0 and above; see sonar_equation.hpp for its unit
+    /// Or no_labels. `shadow` names who keeps most of a bin's bottom dark, `instance` the target that sends back more
+    /// than the bottom does; a bin without bottom (the water column) has neither, and no seabed type.
+    Labels labels;
+    record_stats stats;
+};
+
+namespace detail {
+
+/// As fine as the picture: a bin or a ping's spacing, whichever is longer. Where pictures are coarse, a fiftieth of the
+/// altitude, so that relief and targets aren't missed; but never finer than 1/2048 of the range.
+template <across_track Axis>
+double default_cell(const side_scan_rig<Axis>& rig) {
+    const double picture = (std::max)(rig.bin(), static_cast<double>(rig.ping_spacing));
+    return (std::max)(static_cast<double>(rig.range) / 2048,
+                      (std::min)(picture, static_cast<double>(rig.altitude) / 50));
+}
+
+/// How many pings away the beam reaches at the largest range.
+template <class Beam, across_track Axis>
+int beam_reach(const Beam& beam, const side_scan_rig<Axis>& rig) {
+    const double range = static_cast<double>(rig.range), altitude = static_cast<double>(rig.altitude);
+    const double slant =
+        Axis == across_track::slant_range ? range : numeric::square_root(range * range + altitude * altitude);
+    const double pings = beam.reach(slant) / static_cast<double>(rig.ping_spacing);
+    require(pings < 4096, "pings in the horizontal beam", pings, "below 4096");
+    return static_cast<int>(pings);
+}
+
+/// The recording of a track under construction.
+template <class Rig, class Labels, class Law, class Equation>
+class recorder {
+  public:
+    static constexpr bool labelled = std::is_same_v<Labels, labels>;
+    using options_type = record_options<Labels, Law, Equation>;
+
+    recorder(const scene& s, std::span<const ping> track, const Rig& rig, const options_type& options)
+        : scene_(s), track_(track), rig_(rig), options_(options) {
+        validate(rig);
+        require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
+        require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "metres, or 0");
+        for (const ping& p : track)
+            require(numeric::is_finite(p.position.x + p.position.y + p.position.z + p.yaw), "ping.position",
+                    p.position.x + p.position.y + p.position.z + p.yaw, "finite");
+        out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
+        for (const target& t : s.targets) targets_.emplace_back(t);
+        const auto height = static_cast<int>(track.size());
+        out_.image = image<float>(rig.bins, height);
+        if constexpr (labelled) out_.labels = labels(rig.bins, height);
+    }
+
+    template <executor E>
+    recording<Labels> record(E& ex) {
+        hear(ex);
+        if constexpr (Equation::has_beam)
+            options_.equation.for_each([&](const auto& part) {
+                if constexpr (footprint_part<decltype(part)>) blur_along_track(part, ex);
+            });
+        if constexpr (Equation::has_noise || Equation::has_gain) amplify(ex);
+        return std::move(out_);
+    }
+
+  private:
+    static constexpr std::size_t grain = 8;   // pings that share a fan
+    static constexpr std::size_t leg = 4096;  // pings that share the sampled seabed
+
+    double range_of(std::size_t bin) const {
+        return static_cast<double>(rig_.first_range) + (static_cast<double>(bin) + 0.5) * rig_.bin();
+    }
+    /// Slant range, for a sonar so high.
+    double slant_of(std::size_t bin, double altitude) const {
+        const double r = range_of(bin);
+        return Rig::axis == across_track::slant_range ? r : numeric::square_root(r * r + altitude * altitude);
+    }
+
+    template <executor E>
+    void hear(E& ex) {
+        using listener = ping_listener<Rig, Law, Equation, labelled>;
+        bottom_tiles bottom(scene_.seabed, out_.stats.cell);
+        std::vector<float> over_range;
+        if constexpr (Equation::has_ranges)
+            for (std::size_t b = 0; b < static_cast<std::size_t>(rig_.bins); ++b)
+                over_range.push_back(static_cast<float>(
+                    options_.equation.over_range(slant_of(b, static_cast<double>(rig_.altitude)), spacing())));
+        for (std::size_t start = 0; start < track_.size(); start += leg) {
+            const std::size_t count = (std::min)(leg, track_.size() - start);
+            std::vector<ping_frame> frames;
+            frames.reserve(count);
+            for (std::size_t i = 0; i < count; ++i) frames.emplace_back(track_[start + i], rig_.side);
+            bottom.cover(frames, listener::reach(rig_, out_.stats.cell), ex);
+            bulk_ranges(ex, count, grain, [&](std::size_t from, std::size_t to) {
+                listener ears(scene_, targets_, bottom, rig_, options_.law, options_.equation, out_.stats.cell);
+                for (std::size_t i = from; i < to; ++i) keep(start + i, ears.hear(frames[i]), over_range);
+            });
+        }
+        out_.stats.seabed_vertices = bottom.sampled();
+    }
+
+    /// Writes what one ping heard.
+    void keep(std::size_t number, std::span<const echo_bin> bins, std::span<const float> over_range) {
+        const int row = static_cast<int>(number);
+        const auto power = out_.image.row(row);
+        for (std::size_t b = 0; b < bins.size(); ++b) power[b] = bins[b].bottom + bins[b].target;
+        if constexpr (Equation::has_ranges)
+            for (std::size_t b = 0; b < bins.size(); ++b) power[b] *= over_range[b];
+        if constexpr (Equation::has_pulse)
+            options_.equation.for_each([&](const auto& part) {
+                if constexpr (pulse_part<decltype(part)>) stretch(power, part.duration() / rig_.bin());
+            });
+        if constexpr (labelled) {
+            const auto instance = out_.labels.instance.row(row), shadow = out_.labels.shadow.row(row);
+            const auto seabed = out_.labels.seabed.row(row);
+            for (std::size_t b = 0; b < bins.size(); ++b) {
+                const echo_bin& bin = bins[b];
+                const bool is_target = bin.target > bin.bottom;
+                const bool is_dark = bin.dark_by_target + bin.dark_by_seabed > bin.lit;
+                instance[b] = is_target ? bin.instance : labels::no_instance;
+                shadow[b] = is_target || !is_dark                      ? labels::is_lit
+                            : bin.dark_by_target >= bin.dark_by_seabed ? bin.caster
+                                                                       : labels::by_seabed;
+                seabed[b] = is_target ? labels::no_seabed : bin.seabed;
+            }
+        }
+    }
+
+    /// Lets every echo last for `length` bins.
+    static void stretch(std::span<float> row, double length) {
+        if (!(length > 1)) return;
+        const std::vector<float> heard(row.begin(), row.end());
+        const std::int64_t reach = -numeric::floor_to_int(-0.5 * (length - 1)),
+                           bins = static_cast<std::int64_t>(row.size());
+        std::fill(row.begin(), row.end(), 0.0f);
+        for (std::int64_t j = -reach; j <= reach; ++j) {
+            const double edge = j < 0 ? 0.5 - static_cast<double>(j) : 0.5 + static_cast<double>(j);
+            const double inside = (std::min)(1.0, 0.5 * length - edge + 1) / length;
+            const auto weight = static_cast<float>(inside);
+            for (std::int64_t b = 0; b < bins; ++b) {  // the row's ends go on as they are
+                const std::int64_t from = (std::min)((std::max)(b - j, std::int64_t{0}), bins - 1);
+                row[static_cast<std::size_t>(b)] += weight * heard[static_cast<std::size_t>(from)];
+            }
+        }
+    }
+
+    /// Lets every ping hear its neighbours, as far as the beam reaches at each range.
+    template <class Beam, executor E>
+    void blur_along_track(const Beam& beam, E& ex) {
+        const int bins = rig_.bins, rows = out_.image.height();
+        const int reach = beam_reach(beam, rig_);
+        if (reach == 0) return;
+        // By distance in pings and by bin, so that rows are added up as wholes.
+        image<float> weights(bins, reach + 1);
+        for (int b = 0; b < bins; ++b) {
+            const double slant = slant_of(static_cast<std::size_t>(b), static_cast<double>(rig_.altitude));
+            double sum = 0;
+            const auto weight = [&](int j) {
+                return j * spacing() <= beam.reach(slant) ? beam.pattern(j * spacing(), slant) : 0.0;
+            };
+            for (int j = -reach; j <= reach; ++j) sum += weight(j < 0 ? -j : j);
+            for (int j = 0; j <= reach; ++j) weights(b, j) = static_cast<float>(weight(j) / sum);
+        }
+        image<float> blurred(bins, rows);
+        ex.bulk(static_cast<std::size_t>(rows), [&](std::size_t row) {
+            const int y = static_cast<int>(row);
+            const auto to = blurred.row(y);
+            for (int j = -reach; j <= reach; ++j) {
+                const int other = (std::min)((std::max)(y + j, 0), rows - 1);  // the track's too
+                const float* const weight = weights.row(j < 0 ? -j : j).data();
+                const float* const from = out_.image.row(other).data();
+                for (std::size_t b = 0; b < to.size(); ++b) to[b] += weight[b] * from[b];
+            }
+        });
+        out_.image = std::move(blurred);
+    }
+
+    /// The receiver: its noise, then its gain.
+    template <executor E>
+    void amplify(E& ex) {
+        const auto noise = static_cast<float>(options_.equation.noise());
+        bulk_ranges(ex, track_.size(), 64, [&](std::size_t from, std::size_t to) {
+            std::vector<float> gain;
+            double altitude = 0;
+            for (std::size_t i = from; i < to; ++i) {
+                if (gain.empty() || track_[i].position.z != altitude) {
+                    altitude = track_[i].position.z;
+                    gain.clear();
+                    for (std::size_t b = 0; b < static_cast<std::size_t>(rig_.bins); ++b)
+                        gain.push_back(static_cast<float>(
+                            options_.equation.gain(flat_echo{slant_of(b, altitude), altitude, rig_.bin(), spacing(),
+                                                             Rig::axis == across_track::slant_range},
+                                                   options_.law)));
+                }
+                const auto row = out_.image.row(static_cast<int>(i));
+                for (std::size_t b = 0; b < row.size(); ++b) row[b] = (row[b] + noise) * gain[b];
+            }
+        });
+    }
+
+    double spacing() const { return static_cast<double>(rig_.ping_spacing); }
+
+    const scene& scene_;
+    std::span<const ping> track_;
+    Rig rig_;
+    options_type options_;
+    std::vector<sliced_target> targets_;
+    recording<Labels> out_;
+};
+
+/// Fills in labels::targets anew, for images that were put together from those of described labels.
+inline void describe_again(labels& l) {
+    std::vector<target> known;
+    for (const target_label& t : l.targets) known.push_back({{}, t.placement, t.class_name});
+    describe_targets(l, known);
+}
+
+/// The rows of an image from `first` on.
+template <class T>
+image<T> rows_of(const image<T>& source, int first, int count) {
+    if (first == 0 && count == source.height()) return source;
+    return image<T>(source.view().part(0, first, source.width(), count));
+}
+
+}  // namespace detail
+
+/// Records a track of any shape: pings may turn, rise and sink.
+///
+/// @param s        the seabed and its targets
+/// @param track    pings in order; row i of the recording is ping i
+/// @param rig      ranges, side and ping spacing; its own track isn't used
+/// @param options  types of labels, law and sonar equation, and how finely the seabed is sampled
+/// @param ex       who runs it; the result is the same bytes for any executor
+/// @throws invalid_input for a rig, a ping, a seabed, a pose or an option that can't be right
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+recording<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
+                         const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+    auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options).record(ex);
+    if constexpr (std::is_same_v<Labels, labels>) describe_targets(out.labels, s.targets);
+    return out;
+}
+
+/// Draws a scene as a side-scan sonar on a straight track hears it, or as a map of what it hears: see side_scan_rig.
+/// The top row is the last ping. The other parameters are those of `record`.
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
+                         const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+    validate(rig);
+    // The beam hears beyond the ends of the track.
+    int more = 0;
+    if constexpr (Equation::has_beam)
+        options.equation.for_each([&](const auto& part) {
+            if constexpr (detail::footprint_part<decltype(part)>) more = detail::beam_reach(part, rig);
+        });
+    std::vector<ping> track;
+    for (int i = rig.pings - 1 + more; i >= -more; --i) track.push_back(ping_of(rig, i));
+    auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options).record(ex);
+    if (more > 0) out.image = detail::rows_of(out.image, more, rig.pings);
+    if constexpr (std::is_same_v<Labels, labels>) {
+        if (more > 0) {
+            out.labels.instance = detail::rows_of(out.labels.instance, more, rig.pings);
+            out.labels.shadow = detail::rows_of(out.labels.shadow, more, rig.pings);
+            out.labels.seabed = detail::rows_of(out.labels.seabed, more, rig.pings);
+        }
+        describe_targets(out.labels, s.targets);
+    }
+    return out;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/slant_to_ground.hpp --------------------------------------------------------
+// Slant-range correction: a recording laid out on the bottom, as if that were level.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Lays a recording out on a level bottom at the datum: the water column goes, what is raised stays shifted towards the
+/// sonar by its layover. Intensities are interpolated linearly between the centres of bins and labels are those of the
+/// nearest bin; what the recording doesn't reach is 0, without labels.
+///
+/// @param slant      as `render` or `record` made it
+/// @param from       its rig
+/// @param to         which ground ranges the result's columns are: first_range, range and bins count
+/// @param altitudes  of the sonar above the bottom, one per row from the top, or none: then all are the rig's
+/// @throws invalid_input for a rig that can't be right, or a number of altitudes that is neither 0 nor that of rows
+template <class Labels>
+recording<Labels> to_ground_range(const recording<Labels>& slant, const side_scan& from, const ground_range& to,
+                                  std::span<const double> altitudes = {}) {
+    validate(from), validate(to);
+    const int rows = slant.image.height(), bins = slant.image.width();
+    detail::require(bins == from.bins, "from.bins", from.bins, "the recording's width");
+    detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
+                    altitudes.size(), "0 or one per row");
+    recording<Labels> out;
+    out.stats = slant.stats;
+    out.image = image<float>(to.bins, rows);
+    if constexpr (std::is_same_v<Labels, labels>) {
+        out.labels = labels(to.bins, rows);
+        out.labels.targets = slant.labels.targets;
+    }
+    for (int y = 0; y < rows; ++y) {
+        const double altitude =
+            altitudes.empty() ? static_cast<double>(from.altitude) : altitudes[static_cast<std::size_t>(y)];
+        for (int x = 0; x < to.bins; ++x) {
+            const double ground = static_cast<double>(to.first_range) + (x + 0.5) * to.bin();
+            const double range = range_geometry::slant_range(ground, altitude);
+            const double column = (range - static_cast<double>(from.first_range)) / from.bin();
+            if (!(column >= 0 && column < bins)) continue;
+            const int nearest = static_cast<int>(column);
+            const int left = column - nearest < 0.5 ? nearest - 1 : nearest;
+            const auto share = static_cast<float>(column - 0.5 - left);
+            const float before = slant.image((std::max)(left, 0), y);
+            const float after = slant.image((std::min)(left + 1, bins - 1), y);
+            out.image(x, y) = before + share * (after - before);
+            if constexpr (std::is_same_v<Labels, labels>) {
+                out.labels.instance(x, y) = slant.labels.instance(nearest, y);
+                out.labels.shadow(x, y) = slant.labels.shadow(nearest, y);
+                out.labels.seabed(x, y) = slant.labels.seabed(nearest, y);
+            }
+        }
+    }
+    if constexpr (std::is_same_v<Labels, labels>) detail::describe_again(out.labels);
+    return out;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/speckle.hpp ----------------------------------------------------------------
+// Speckle that belongs to the seabed: how echoes fluctuate depends on what the bottom is, and a ping's speckle is the
+// same whenever it is recorded.
+//
+// The fluctuation of a bin is a function of (seed, side, ping number, bin) and nothing else: recordings made in pieces
+// fit together, and the two sides are independent.
+//
+// Based on: E. Jakeman, P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation
+// 24, 1976 (the K-distribution). George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM
+// Transactions on Mathematical Software 26, 2000.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// How an intensity fluctuates around its mean, which stays what it was. As it is: Rayleigh amplitudes, exponential
+/// intensities. The scintillation index, variance / mean^2 of the intensity, is
+/// (1 + 1 / texture) (1 + (1 + 2 steady) / (looks (1 + steady)^2)) - 1.
+struct speckle_law {
+    int looks = 1;  ///< independent intensities that are averaged: 1 to 64
+    float texture =
+        0;  ///< shape of the gamma-distributed mean of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: none
+    float steady = 0;  ///< power of a steady echo among the others, over theirs: Rician amplitudes
+};
+
+/// Speckle by type of seabed. The defaults are illustrative: relief that is drawn makes its own fluctuations, so
+/// ripples take plain Rayleigh, and a texture stands for structure finer than the seabed is sampled.
+struct seabed_speckle {
+    std::array<speckle_law, 4> bottom{{{1, 15, 0}, {1, 0, 0}, {1, 0, 1}, {1, 1.5f, 0}}};  ///< by seabed::type
+    speckle_law elsewhere{};   ///< where the labels name no seabed: targets, and noise in the water column
+    float along_track = 1;     ///< pings at which the correlation of intensities has fallen to 1 / e, 0 to 16
+    float across_track = 1;    ///< the same in bins
+    float texture_length = 3;  ///< pings and bins over which a texture stays the same, 1 to 1024
+    std::uint64_t seed = 1;
+};
+
+/// Which speckle the rows of a picture have.
+struct ping_numbers {
+    std::int64_t first = 0;  ///< of the top row
+    int step = 1;            ///< from row to row
+    insonify::side side = insonify::side::starboard;
+};
+
+/// Those of a picture that `render` made: its top row is the last ping.
+template <across_track Axis>
+ping_numbers numbers_of(const side_scan_rig<Axis>& rig) {
+    return {rig.pings - 1, -1, rig.side};
+}
+
+namespace detail {
+
+/// What a number is drawn for; part of what a seed means.
+enum class speckle_stream : std::uint32_t { field = 0x73706B00, texture = 0x73706B02, choice = 0x73706B04 };
+
+/// Draws that are told apart by ping and bin.
+class ping_noise {
+  public:
+    ping_noise(std::uint64_t seed, side s, speckle_stream stream)
+        : key_(stream_key(seed, static_cast<std::uint32_t>(stream) + static_cast<std::uint32_t>(s))) {}
+
+    philox_counter operator()(std::int64_t ping, std::uint32_t bin, std::uint32_t draw) const {
+        const auto number = static_cast<std::uint64_t>(ping);
+        return philox4x32({bin, static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32), draw},
+                          key_);
+    }
+
+  private:
+    philox_key key_;
+};
+
+/// A gamma-distributed number of mean one.
+template <class Draw>
+double gamma_of_mean_one(double shape, const Draw& draw) {
+    // Shapes below one are those of one more, times a power of a uniform number.
+    const double d = (shape < 1 ? shape + 1 : shape) - 1.0 / 3, c = 1 / numeric::square_root(9 * d);
+    for (std::uint32_t trial = 0;; ++trial) {
+        const philox_counter words = draw(trial);
+        const double x = normal_pair(words[0], words[1])[0], u = uniform_open(words[2]);
+        const double root = 1 + c * x, v = root * root * root;
+        if (!(v > 0) || !(numeric::log(u) < 0.5 * x * x + d * (1 - v + numeric::log(v)))) continue;
+        return d * v / shape * (shape < 1 ? numeric::pow(uniform_open(words[3]), 1 / shape) : 1);
+    }
+}
+
+/// The taps of a Gaussian filter under which white noise keeps its variance, from the middle outwards.
+inline std::vector<float> correlation_taps(double length) {
+    const double deviation = length * 0.70710678118654752;
+    std::vector<double> taps{1};
+    double square = 1;
+    for (int i = 1; i <= 3 * deviation; ++i) {
+        taps.push_back(numeric::exp(-0.5 * i * i / (deviation * deviation)));
+        square += 2 * taps.back() * taps.back();
+    }
+    std::vector<float> result;
+    for (const double tap : taps) result.push_back(static_cast<float>(tap / numeric::square_root(square)));
+    return result;
+}
+
+/// A complex Gaussian field of unit power, by rows; real and imaginary parts take turns.
+class speckle_field {
+  public:
+    speckle_field(const ping_noise& noise, const seabed_speckle& s, int bins)
+        : noise_(noise),
+          bins_(static_cast<std::size_t>(bins)),
+          across_(correlation_taps(static_cast<double>(s.across_track))),
+          along_(correlation_taps(static_cast<double>(s.along_track))) {}
+
+    /// The field of one look at so many pings in a row, the lowest number first.
+    image<float> pings(std::int64_t first, int count, std::uint32_t look) const {
+        const int reach = static_cast<int>(along_.size()) - 1;
+        image<float> blurred(static_cast<int>(2 * bins_), count + 2 * reach);
+        for (int i = 0; i < blurred.height(); ++i) row(first - reach + i, look, blurred.row(i));
+        if (reach == 0) return blurred;
+        image<float> field(static_cast<int>(2 * bins_), count);
+        for (int i = 0; i < count; ++i) {
+            const auto to = field.row(i);
+            for (int j = -reach; j <= reach; ++j) {
+                const float tap = along_[static_cast<std::size_t>(j < 0 ? -j : j)];
+                const float* const from = blurred.row(i + reach + j).data();
+                for (std::size_t x = 0; x < to.size(); ++x) to[x] += tap * from[x];
+            }
+        }
+        return field;
+    }
+
+  private:
+    /// One ping, correlated across the track. A block of words serves two bins.
+    void row(std::int64_t ping, std::uint32_t look, std::span<float> out) const {
+        const std::size_t reach = across_.size() - 1, margin = reach + (reach & 1);
+        std::vector<float> white(2 * (bins_ + 2 * margin + 2));
+        for (std::size_t i = 0; i < bins_ + 2 * margin; i += 2) {
+            const philox_counter words = noise_(ping, static_cast<std::uint32_t>(i - margin), look);
+            for (std::size_t k = 0; k < 2; ++k) {
+                const auto [re, im] = normal_pair(words[2 * k], words[2 * k + 1]);
+                white[2 * (i + k)] = static_cast<float>(re * 0.70710678118654752);
+                white[2 * (i + k) + 1] = static_cast<float>(im * 0.70710678118654752);
+            }
+        }
+        for (std::size_t x = 0; x < out.size(); ++x) {
+            const float* const at = &white[x + 2 * margin];
+            float sum = across_[0] * *at;
+            for (std::size_t j = 1; j <= reach; ++j) sum += across_[j] * (*(at - 2 * j) + at[2 * j]);
+            out[x] = sum;
+        }
+    }
+
+    ping_noise noise_;
+    std::size_t bins_;
+    std::vector<float> across_, along_;
+};
+
+/// The K-distribution's mean: gamma-distributed at the nodes of a lattice. A bin takes that of one of the four nodes
+/// around it, by lot, the nearer the likelier: so textures are correlated, and distributed as they should be.
+class speckle_texture {
+  public:
+    speckle_texture(const seabed_speckle& s, side looks)
+        : nodes_(s.seed, looks, speckle_stream::texture),
+          lots_(s.seed, looks, speckle_stream::choice),
+          frequency_(1 / static_cast<double>(s.texture_length)) {}
+
+    float operator()(std::int64_t ping, std::uint32_t bin, float shape) const {
+        const philox_counter lot = lots_(ping, bin, 0);
+        // Rounding a coordinate plus a uniform number goes to either neighbour as often as it is near.
+        const std::int64_t row = numeric::floor_to_int(static_cast<double>(ping) * frequency_ + uniform_open(lot[0]));
+        const auto column = static_cast<std::uint32_t>(numeric::floor_to_int(bin * frequency_ + uniform_open(lot[1])));
+        return static_cast<float>(gamma_of_mean_one(static_cast<double>(shape),
+                                                    [&](std::uint32_t trial) { return nodes_(row, column, trial); }));
+    }
+
+  private:
+    ping_noise nodes_, lots_;
+    double frequency_;
+};
+
+inline void validate(const speckle_law& law) {
+    require(law.looks >= 1 && law.looks <= 64, "speckle_law.looks", law.looks, "1 to 64");
+    require(law.texture == 0 || (law.texture >= 0.01f && numeric::is_finite(law.texture)), "speckle_law.texture",
+            law.texture, "0, or at least 0.01");
+    require(law.steady >= 0 && numeric::is_finite(law.steady), "speckle_law.steady", law.steady, "0 or more");
+}
+
+}  // namespace detail
+
+/// Makes an image of intensities fluctuate.
+///
+/// @param mean     intensities; 0 stays 0
+/// @param types    a seabed::type for each pixel, as labels have it; anything else is `elsewhere`
+/// @param numbers  which pings the rows are
+/// @throws invalid_input for images of different sizes or a parameter out of its range
+template <executor_argument E = serial_executor>
+image<float> with_speckle(image_view<const float> mean, image_view<const std::uint8_t> types, const seabed_speckle& s,
+                          const ping_numbers& numbers, E&& ex = {}) {
+    using detail::require;
+    require(types.width() == mean.width(), "types.width()", types.width(), "that of the intensities");
+    require(types.height() == mean.height(), "types.height()", types.height(), "that of the intensities");
+    require(s.along_track >= 0 && s.along_track <= 16, "seabed_speckle.along_track", s.along_track, "0 to 16");
+    require(s.across_track >= 0 && s.across_track <= 16, "seabed_speckle.across_track", s.across_track, "0 to 16");
+    require(s.texture_length >= 1 && s.texture_length <= 1024, "seabed_speckle.texture_length", s.texture_length,
+            "1 to 1024");
+    require(numbers.step == 1 || numbers.step == -1, "ping_numbers.step", numbers.step, "1 or -1");
+    for (const speckle_law& law : s.bottom) detail::validate(law);
+    detail::validate(s.elsewhere);
+
+    // Looks that only some types have are drawn for all, and used by those.
+    std::vector<speckle_law> laws(256, s.elsewhere);
+    std::copy(s.bottom.begin(), s.bottom.end(), laws.begin());
+    int looks = s.elsewhere.looks;
+    for (const speckle_law& law : s.bottom) looks = (std::max)(looks, law.looks);
+
+    const detail::speckle_field field({s.seed, numbers.side, detail::speckle_stream::field}, s, mean.width());
+    const detail::speckle_texture texture(s, numbers.side);
+    image<float> out(mean.width(), mean.height());
+    constexpr std::size_t grain = 32;
+    bulk_ranges(ex, static_cast<std::size_t>(mean.height()), grain, [&](std::size_t from, std::size_t to) {
+        const int first = static_cast<int>(from), count = static_cast<int>(to - from);
+        const std::int64_t a = numbers.first + numbers.step * static_cast<std::int64_t>(from);
+        const std::int64_t lowest = numbers.step > 0 ? a : a - (count - 1);
+        for (int look = 0; look < looks; ++look) {
+            const image<float> gauss = field.pings(lowest, count, static_cast<std::uint32_t>(look));
+            for (int i = 0; i < count; ++i) {
+                const auto row = out.row(first + i);
+                const float* const g = gauss.row(numbers.step > 0 ? i : count - 1 - i).data();
+                for (std::size_t x = 0; x < row.size(); ++x) {
+                    const speckle_law& law = laws[types.row(first + i)[x]];
+                    if (look >= law.looks) continue;
+                    const float steady = numeric::square_root(law.steady);
+                    const float re = g[2 * x] + steady, im = g[2 * x + 1];
+                    row[x] += (re * re + im * im) / ((1 + law.steady) * static_cast<float>(law.looks));
+                }
+            }
+        }
+        for (int i = 0; i < count; ++i) {
+            const auto row = out.row(first + i);
+            for (std::size_t x = 0; x < row.size(); ++x) {
+                const float shape = laws[types.row(first + i)[x]].texture;
+                row[x] *= mean(static_cast<int>(x), first + i);
+                if (shape > 0) row[x] *= texture(a + numbers.step * i, static_cast<std::uint32_t>(x), shape);
+            }
+        }
+    });
+    return out;
+}
+
+/// The same recording with speckle: of one side, as `render` made it of this rig.
+template <across_track Axis, executor_argument E = serial_executor>
+recording<labels> with_speckle(recording<labels> r, const side_scan_rig<Axis>& rig, const seabed_speckle& s = {},
+                               E&& ex = {}) {
+    r.image = with_speckle(r.image.view(), r.labels.seabed.view(), s, numbers_of(rig), ex);
+    return r;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/swath.hpp ------------------------------------------------------------------
+// Both sides of the track in one picture.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// The picture with left and right exchanged: what grew to the right grows to the left.
+template <class T>
+image<T> mirrored(const image<T>& source) {
+    image<T> out(source.width(), source.height());
+    for (int y = 0; y < source.height(); ++y)
+        std::reverse_copy(source.row(y).begin(), source.row(y).end(), out.row(y).begin());
+    return out;
+}
+
+/// The picture turned by half a turn: that of a rig which looks the other way, with forward up again.
+template <class T>
+image<T> turned(const image<T>& source) {
+    image<T> out(source.width(), source.height());
+    std::reverse_copy(source.pixels().begin(), source.pixels().end(), out.pixels().begin());
+    return out;
+}
+
+/// Two pictures side by side, `gap` columns of `fill` between them.
+///
+/// `beside(turned(port.image), starboard.image, gap)` of two frames of `overhead`, the one with its yaw half a turn
+/// further, is the paper's stitched picture; its dead zone is the gap.
+/// @throws invalid_input for pictures of different heights, or a negative gap
+template <class T>
+image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
+    detail::require(left.height() == right.height(), "right.height()", right.height(), "that of the left picture");
+    detail::require(gap >= 0, "gap", gap, "at least 0");
+    image<T> out(left.width() + gap + right.width(), left.height(), fill);
+    for (int y = 0; y < left.height(); ++y) {
+        std::copy(left.row(y).begin(), left.row(y).end(), out.row(y).begin());
+        std::copy(right.row(y).begin(), right.row(y).end(), out.row(y).begin() + left.width() + gap);
+    }
+    return out;
+}
+
+/// A port and a starboard recording of one track as one, port to the left: range grows from the middle outwards, and
+/// the water column, as wide as the sonar is high, lies between. `targets` of the labels tells of both sides.
+template <class Labels>
+recording<Labels> both_sides(const recording<Labels>& port, const recording<Labels>& starboard) {
+    recording<Labels> out;
+    out.image = beside(mirrored(port.image), starboard.image);
+    out.stats = port.stats;
+    out.stats.seabed_vertices += starboard.stats.seabed_vertices;
+    if constexpr (std::is_same_v<Labels, labels>) {
+        out.labels.instance = beside(mirrored(port.labels.instance), starboard.labels.instance);
+        out.labels.shadow = beside(mirrored(port.labels.shadow), starboard.labels.shadow);
+        out.labels.seabed = beside(mirrored(port.labels.seabed), starboard.labels.seabed);
+        out.labels.targets = starboard.labels.targets;
+        detail::describe_again(out.labels);
+    }
+    return out;
+}
+
+/// Draws both sides of a straight track; the rig's own side doesn't matter. See `render`.
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+recording<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
+                               const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+    rig.side = side::port;
+    const auto port = render(s, rig, options, ex);
+    rig.side = side::starboard;
+    return both_sides(port, render(s, rig, options, ex));
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

@@ -82,7 +82,7 @@ def line_faults(header, line):
     for pattern, reason in BANNED_NAMES.items():
         for name in re.finditer(pattern, line):
             yield f"{name[0]} {reason}"
-    if re.search(r"\bnamespace insonify\b(?!::inline INSONIFY_ABI\b)", line):
+    if re.search(r"(?<!using )\bnamespace insonify\b(?!::inline INSONIFY_ABI\b)", line):
         yield "open the namespace as insonify::inline INSONIFY_ABI"
 
 

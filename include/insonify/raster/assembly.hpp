@@ -337,7 +337,8 @@ struct assembly_kernel {
         const ints missed = ints((x1 < x0) | (y1 < y0));
 
         std::int32_t fates[static_cast<unsigned>(N)], tile[4][static_cast<unsigned>(N)];
-        store(fates, ints((degenerate & 1) | (culled & 2) | (missed & 4)));
+        const ints none = ints{};
+        store(fates, ints((degenerate ? none + 1 : none) | (culled ? none + 2 : none) | (missed ? none + 4 : none)));
         store(tile[0], ints(x0 >> tiles.log2_size));
         store(tile[1], ints(y0 >> tiles.log2_size));
         store(tile[2], ints(x1 >> tiles.log2_size));

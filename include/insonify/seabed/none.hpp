@@ -3,6 +3,8 @@
 
 #include <insonify/seabed/recipe.hpp>
 
+#include <limits>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {

@@ -250,7 +250,12 @@ TEST_CASE("Facing follows the winding") {
     const in::mesh m{{{1, 1, 0}, {1, 6, 0}, {6, 1, 0}}, {}, {{0, 1, 2}}};  // counter-clockwise, y being down
     in::mesh back = m;
     back.triangles = {{0, 2, 1}};
-    const auto drawn = [](const in::mesh& mesh, in::cull_mode cull) { return total(hits(mesh, 8, 8, {.cull = cull})); };
+    const in::isa level = GENERATE(in::isa::scalar, in::isa::baseline, in::isa::avx2);
+    const auto drawn = [&](const in::mesh& mesh, in::cull_mode cull) {
+        in::mesh many = mesh;  // enough to go through the lanes
+        many.triangles.assign(11, mesh.triangles[0]);
+        return total(hits(many, 8, 8, {.cull = cull, .level = level}));
+    };
     CHECK(drawn(m, in::cull_mode::none) == drawn(back, in::cull_mode::none));
     CHECK(drawn(m, in::cull_mode::back) > 0);
     CHECK(drawn(m, in::cull_mode::front) == 0);
