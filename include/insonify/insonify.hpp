@@ -15,6 +15,7 @@
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/quantize.hpp>
 #include <insonify/core/random.hpp>
+#include <insonify/core/random_lanes.hpp>
 #include <insonify/filter/colormap.hpp>
 #include <insonify/filter/concept.hpp>
 #include <insonify/filter/convert.hpp>

@@ -1220,6 +1220,133 @@ constexpr float dequantize(Code code) {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/core/random_lanes.hpp ------------------------------------------------------------
+// The numbers of random.hpp, several at a time and to the same bits: blocks of Philox, uniform and normal draws.
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// The words of N counters under one key, Philox4x32-10, in place; each lane of 64 bits holds a word.
+template <int N>
+INSONIFY_INLINE void philox_lanes(lanes<std::uint64_t, N> (&counter)[4], std::uint32_t key_0, std::uint32_t key_1) {
+    using words = lanes<std::uint64_t, N>;
+    const words low = words{} + std::uint64_t{0xFFFFFFFFu};
+    for (int round = 0; round < 10; ++round) {
+        const words a = counter[0] * std::uint64_t{0xD2511F53u}, b = counter[2] * std::uint64_t{0xCD9E8D57u};
+        counter[0] = (b >> 32) ^ counter[1] ^ std::uint64_t{key_0};
+        counter[1] = b & low;
+        counter[2] = (a >> 32) ^ counter[3] ^ std::uint64_t{key_1};
+        counter[3] = a & low;
+        key_0 += 0x9E3779B9u;
+        key_1 += 0xBB67AE85u;
+    }
+}
+
+/// A number below 2^52 as a double: put where a double of 2^52 has its last bits, it becomes that much more.
+template <int N>
+INSONIFY_INLINE void to_double(lanes<double, N>& into, const lanes<std::uint64_t, N>& number) {
+    const lanes<std::uint64_t, N> bits = number | std::uint64_t{0x4330000000000000u};
+    std::memcpy(&into, &bits, sizeof into);
+    into = into - 0x1p52;
+}
+
+/// See uniform_open.
+template <int N>
+INSONIFY_INLINE void uniform_lanes(lanes<double, N>& into, const lanes<std::uint64_t, N>& word) {
+    to_double<N>(into, word);
+    into = (into + 0.5) * 0x1p-32;
+}
+
+/// numeric::log for normal numbers above 0, operation by operation.
+template <int N>
+INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
+    using doubles = lanes<double, N>;
+    using words = lanes<std::uint64_t, N>;
+    words bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    const words shifted = bits + (std::uint64_t{0x3FF0000000000000u} - std::uint64_t{0x3FE6A09E667F3BCDu});
+    doubles k;
+    to_double<N>(k, words(shifted >> 52));
+    k = k - 1023.0;
+    const words mantissa = (shifted & std::uint64_t{0x000FFFFFFFFFFFFFu}) + std::uint64_t{0x3FE6A09E667F3BCDu};
+    doubles m;
+    std::memcpy(&m, &mantissa, sizeof m);
+    const doubles f = m - 1.0;
+    const doubles s = f / (m + 1.0);
+    const doubles t = s * s;
+    doubles tail = doubles{} + 1.0 / 23;
+    for (int n = 21; n >= 3; n -= 2) tail = tail * t + 1.0 / n;
+    const doubles half_square = 0.5 * f * f;
+    constexpr double ln2_high = 0x1.62e42feep-1;
+    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
+    into = k * ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * ln2_low)) - f);
+}
+
+/// Cosine and sine of x turns, 0 < x < 1, by Taylor's series around the nearest quarter; absolute error < 3e-16.
+template <int N>
+INSONIFY_INLINE void circle_lanes(lanes<double, N>& cosine, lanes<double, N>& sine, const lanes<double, N>& x) {
+    using doubles = lanes<double, N>;
+    using quarters = lanes<std::int64_t, N>;
+    doubles rounded = 4.0 * x + 0x1p52;  // the nearest quarter in its last bits
+    quarters bits;
+    std::memcpy(&bits, &rounded, sizeof bits);
+    rounded = rounded - 0x1p52;
+    const doubles angle = (x - 0.25 * rounded) * (2 * numeric::pi);
+    const doubles t = angle * angle;
+    doubles odd = doubles{} + 1.0, even = doubles{} + 1.0;
+    for (int n = 16; n >= 2; n -= 2) {
+        odd = 1.0 - odd * t * (1.0 / (n * (n + 1)));
+        even = 1.0 - even * t * (1.0 / (n * (n - 1)));
+    }
+    odd = odd * angle;
+    const quarters is_odd = quarters((bits & 1) != 0);
+    const doubles first = is_odd ? odd : even, second = is_odd ? even : odd;
+    cosine = quarters(((bits + 1) & 2) != 0) ? 0.0 - first : first;
+    sine = quarters((bits & 2) != 0) ? 0.0 - second : second;
+}
+
+template <int N>
+INSONIFY_INLINE void square_root(lanes<double, N>& into, const lanes<double, N>& of) {
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (N == 2) {
+        into = __builtin_ia32_sqrtpd(of);
+    } else if constexpr (N == 4) {
+        const lanes<double, 2> low = __builtin_ia32_sqrtpd(__builtin_shufflevector(of, of, 0, 1));
+        const lanes<double, 2> high = __builtin_ia32_sqrtpd(__builtin_shufflevector(of, of, 2, 3));
+        into = __builtin_shufflevector(low, high, 0, 1, 2, 3);
+    } else
+#endif
+        gather<N>(into, [&](int k) { return numeric::square_root(lane(of, k)); });
+}
+
+/// See normal_pair.
+template <int N>
+INSONIFY_INLINE void normal_lanes(lanes<double, N>& first, lanes<double, N>& second, const lanes<std::uint64_t, N>& a,
+                                  const lanes<std::uint64_t, N>& b) {
+    lanes<double, N> u, v, radius;
+    uniform_lanes<N>(u, a);
+    uniform_lanes<N>(v, b);
+    log_lanes<N>(u, u);
+    square_root<N>(radius, -2.0 * u);
+    circle_lanes<N>(first, second, v);
+    first = radius * first;
+    second = radius * second;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/core/random.hpp ------------------------------------------------------------------
 // Random numbers without state: a number is a pure function of (seed, stream, counter).
 //
@@ -1265,9 +1392,9 @@ constexpr double uniform_open(std::uint32_t word) {
 
 /// Two independent standard normal draws from two words (Box and Muller, 1958); reaches 6.66 sigma.
 inline std::array<double, 2> normal_pair(std::uint32_t a, std::uint32_t b) {
-    const double radius = numeric::square_root(-2.0 * numeric::log(uniform_open(a)));
-    const auto [sine, cosine] = numeric::sin_cos_turns(uniform_open(b));
-    return {radius * cosine, radius * sine};
+    double first, second;
+    detail::normal_lanes<1>(first, second, std::uint64_t{a}, std::uint64_t{b});
+    return {first, second};
 }
 
 /// Draws in sequence, for parameters of scenes and other small jobs; two sequences of one seed differ in `stream`.
@@ -1903,6 +2030,11 @@ INSONIFY_ARITHMETIC_END
 // Mathematical Statistics 29, 1958. Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random
 // Variables. Insurance: Mathematics and Economics 12, 1993 (algorithm PTRS).
 
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
@@ -1924,7 +2056,8 @@ inline void require_variance(const char* name, float variance) {
     require(numeric::is_finite(variance) && variance >= 0, name, variance, "finite and at least 0");
 }
 
-/// Noise of one draw per pixel. Four pixels in a row share a Philox block, which is kept for the next three.
+/// Noise of one draw per pixel. Four pixels in a row share a Philox block; the draws of 64 pixels are made at once, and
+/// kept.
 template <class Law>
 class noise_pass {
   public:
@@ -1932,13 +2065,31 @@ class noise_pass {
 
     template <std::same_as<float> Pixel>
     Pixel operator()(Pixel pixel, int x, int y) {
-        if (x >> 2 != group_ || y != row_) {
-            group_ = x >> 2;
+        if (x >> 6 != group_ || y != row_) {
+            group_ = x >> 6;
             row_ = y;
-            draws_ = law_.draw(
-                philox4x32({static_cast<std::uint32_t>(group_), static_cast<std::uint32_t>(y), 0, frame_}, key_));
+            dispatch(*this, best_isa());
         }
-        return clip_to_unit(law_.add(clip_to_unit(pixel), draws_[static_cast<std::size_t>(x & 3)]));
+        return clip_to_unit(law_.add(clip_to_unit(pixel), draws_[x & 63]));
+    }
+
+    /// Makes the draws of the row's 64 pixels.
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        constexpr int N = Width > 1 ? 4 : 1;
+        using words = lanes<std::uint64_t, N>;
+        words step;
+        count_up<std::uint64_t, N>(step);
+        for (int block = 0; block < 16; block += N) {
+            const auto first = static_cast<std::uint64_t>(static_cast<std::uint32_t>(16 * group_ + block));
+            words word[4] = {step + first, words{} + std::uint64_t{static_cast<std::uint32_t>(row_)}, words{},
+                             words{} + std::uint64_t{frame_}};
+            philox_lanes<N>(word, key_[0], key_[1]);
+            float draw[4][static_cast<unsigned>(N)];
+            law_.template draw<N>(draw, word);
+            for (int k = 0; k < N; ++k)
+                for (int i = 0; i < 4; ++i) draws_[4 * (block + k) + i] = draw[i][k];
+        }
     }
 
   private:
@@ -1947,20 +2098,31 @@ class noise_pass {
     std::uint32_t frame_;
     int group_ = -1;
     int row_ = -1;
-    std::array<float, 4> draws_{};
+    mutable float draws_[64] = {};
 };
+
+/// Draws as floats, in memory.
+template <int N>
+INSONIFY_INLINE void narrow(float* into, const lanes<double, N>& draws) {
+    lanes<float, N> floats;
+    convert(floats, draws);
+    store(into, floats);
+}
 
 struct normal_law {
     double mean;
     double deviation;
-    std::array<float, 4> draw(const philox_counter& block) const {
-        const auto [a, b] = normal_pair(block[0], block[1]);
-        const auto [c, d] = normal_pair(block[2], block[3]);
-        return {scaled(a), scaled(b), scaled(c), scaled(d)};
-    }
 
-  private:
-    float scaled(double normal) const { return static_cast<float>(mean + deviation * normal); }
+    template <int N>
+    INSONIFY_INLINE void draw(float (&into)[4][static_cast<unsigned>(N)],
+                              const lanes<std::uint64_t, N> (&word)[4]) const {
+        lanes<double, N> a, b;
+        for (int i = 0; i < 4; i += 2) {
+            normal_lanes<N>(a, b, word[i], word[i + 1]);
+            narrow<N>(into[i], mean + deviation * a);
+            narrow<N>(into[i + 1], mean + deviation * b);
+        }
+    }
 };
 
 struct additive_normal : normal_law {
@@ -1972,26 +2134,33 @@ struct multiplicative_normal : normal_law {
 
 struct multiplicative_uniform {
     double half_width;
-    std::array<float, 4> draw(const philox_counter& block) const {
-        return {scaled(block[0]), scaled(block[1]), scaled(block[2]), scaled(block[3])};
+
+    template <int N>
+    INSONIFY_INLINE void draw(float (&into)[4][static_cast<unsigned>(N)],
+                              const lanes<std::uint64_t, N> (&word)[4]) const {
+        lanes<double, N> u;
+        for (int i = 0; i < 4; ++i) {
+            uniform_lanes<N>(u, word[i]);
+            narrow<N>(into[i], half_width * (2.0 * u - 1.0));
+        }
     }
     static float add(float pixel, float draw) { return pixel + draw * pixel; }
-
-  private:
-    float scaled(std::uint32_t word) const { return static_cast<float>(half_width * (2 * uniform_open(word) - 1)); }
 };
 
 struct rayleigh_factor {
-    static std::array<float, 4> draw(const philox_counter& block) {
-        return {factor(block[0]), factor(block[1]), factor(block[2]), factor(block[3])};
+    /// sqrt(-ln u) has the mean sqrt(pi) / 2.
+    template <int N>
+    INSONIFY_INLINE void draw(float (&into)[4][static_cast<unsigned>(N)],
+                              const lanes<std::uint64_t, N> (&word)[4]) const {
+        lanes<double, N> u;
+        for (int i = 0; i < 4; ++i) {
+            uniform_lanes<N>(u, word[i]);
+            log_lanes<N>(u, u);
+            square_root<N>(u, -4 / numeric::pi * u);
+            narrow<N>(into[i], u);
+        }
     }
     static float add(float pixel, float draw) { return draw * pixel; }
-
-  private:
-    /// sqrt(-ln u) has the mean sqrt(pi) / 2.
-    static float factor(std::uint32_t word) {
-        return static_cast<float>(numeric::square_root(-4 / numeric::pi * numeric::log(uniform_open(word))));
-    }
 };
 
 }  // namespace detail
@@ -2063,6 +2232,10 @@ struct rayleigh {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 INSONIFY_ARITHMETIC_END
 

@@ -6,7 +6,7 @@
 // SC11, 2011 (Philox4x32-10; checked against the known answers of Random123).
 #pragma once
 
-#include <insonify/core/numeric.hpp>
+#include <insonify/core/random_lanes.hpp>
 
 #include <array>
 #include <bit>
@@ -47,9 +47,9 @@ constexpr double uniform_open(std::uint32_t word) {
 
 /// Two independent standard normal draws from two words (Box and Muller, 1958); reaches 6.66 sigma.
 inline std::array<double, 2> normal_pair(std::uint32_t a, std::uint32_t b) {
-    const double radius = numeric::square_root(-2.0 * numeric::log(uniform_open(a)));
-    const auto [sine, cosine] = numeric::sin_cos_turns(uniform_open(b));
-    return {radius * cosine, radius * sine};
+    double first, second;
+    detail::normal_lanes<1>(first, second, std::uint64_t{a}, std::uint64_t{b});
+    return {first, second};
 }
 
 /// Draws in sequence, for parameters of scenes and other small jobs; two sequences of one seed differ in `stream`.

@@ -10,12 +10,17 @@
 // Variables. Insurance: Mathematics and Economics 12, 1993 (algorithm PTRS).
 #pragma once
 
+#include <insonify/core/dispatch.hpp>
 #include <insonify/core/random.hpp>
 
-#include <array>
 #include <concepts>
 #include <cstdint>
 #include <type_traits>
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -38,7 +43,8 @@ inline void require_variance(const char* name, float variance) {
     require(numeric::is_finite(variance) && variance >= 0, name, variance, "finite and at least 0");
 }
 
-/// Noise of one draw per pixel. Four pixels in a row share a Philox block, which is kept for the next three.
+/// Noise of one draw per pixel. Four pixels in a row share a Philox block; the draws of 64 pixels are made at once, and
+/// kept.
 template <class Law>
 class noise_pass {
   public:
@@ -46,13 +52,31 @@ class noise_pass {
 
     template <std::same_as<float> Pixel>
     Pixel operator()(Pixel pixel, int x, int y) {
-        if (x >> 2 != group_ || y != row_) {
-            group_ = x >> 2;
+        if (x >> 6 != group_ || y != row_) {
+            group_ = x >> 6;
             row_ = y;
-            draws_ = law_.draw(
-                philox4x32({static_cast<std::uint32_t>(group_), static_cast<std::uint32_t>(y), 0, frame_}, key_));
+            dispatch(*this, best_isa());
         }
-        return clip_to_unit(law_.add(clip_to_unit(pixel), draws_[static_cast<std::size_t>(x & 3)]));
+        return clip_to_unit(law_.add(clip_to_unit(pixel), draws_[x & 63]));
+    }
+
+    /// Makes the draws of the row's 64 pixels.
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        constexpr int N = Width > 1 ? 4 : 1;
+        using words = lanes<std::uint64_t, N>;
+        words step;
+        count_up<std::uint64_t, N>(step);
+        for (int block = 0; block < 16; block += N) {
+            const auto first = static_cast<std::uint64_t>(static_cast<std::uint32_t>(16 * group_ + block));
+            words word[4] = {step + first, words{} + std::uint64_t{static_cast<std::uint32_t>(row_)}, words{},
+                             words{} + std::uint64_t{frame_}};
+            philox_lanes<N>(word, key_[0], key_[1]);
+            float draw[4][static_cast<unsigned>(N)];
+            law_.template draw<N>(draw, word);
+            for (int k = 0; k < N; ++k)
+                for (int i = 0; i < 4; ++i) draws_[4 * (block + k) + i] = draw[i][k];
+        }
     }
 
   private:
@@ -61,20 +85,31 @@ class noise_pass {
     std::uint32_t frame_;
     int group_ = -1;
     int row_ = -1;
-    std::array<float, 4> draws_{};
+    mutable float draws_[64] = {};
 };
+
+/// Draws as floats, in memory.
+template <int N>
+INSONIFY_INLINE void narrow(float* into, const lanes<double, N>& draws) {
+    lanes<float, N> floats;
+    convert(floats, draws);
+    store(into, floats);
+}
 
 struct normal_law {
     double mean;
     double deviation;
-    std::array<float, 4> draw(const philox_counter& block) const {
-        const auto [a, b] = normal_pair(block[0], block[1]);
-        const auto [c, d] = normal_pair(block[2], block[3]);
-        return {scaled(a), scaled(b), scaled(c), scaled(d)};
-    }
 
-  private:
-    float scaled(double normal) const { return static_cast<float>(mean + deviation * normal); }
+    template <int N>
+    INSONIFY_INLINE void draw(float (&into)[4][static_cast<unsigned>(N)],
+                              const lanes<std::uint64_t, N> (&word)[4]) const {
+        lanes<double, N> a, b;
+        for (int i = 0; i < 4; i += 2) {
+            normal_lanes<N>(a, b, word[i], word[i + 1]);
+            narrow<N>(into[i], mean + deviation * a);
+            narrow<N>(into[i + 1], mean + deviation * b);
+        }
+    }
 };
 
 struct additive_normal : normal_law {
@@ -86,26 +121,33 @@ struct multiplicative_normal : normal_law {
 
 struct multiplicative_uniform {
     double half_width;
-    std::array<float, 4> draw(const philox_counter& block) const {
-        return {scaled(block[0]), scaled(block[1]), scaled(block[2]), scaled(block[3])};
+
+    template <int N>
+    INSONIFY_INLINE void draw(float (&into)[4][static_cast<unsigned>(N)],
+                              const lanes<std::uint64_t, N> (&word)[4]) const {
+        lanes<double, N> u;
+        for (int i = 0; i < 4; ++i) {
+            uniform_lanes<N>(u, word[i]);
+            narrow<N>(into[i], half_width * (2.0 * u - 1.0));
+        }
     }
     static float add(float pixel, float draw) { return pixel + draw * pixel; }
-
-  private:
-    float scaled(std::uint32_t word) const { return static_cast<float>(half_width * (2 * uniform_open(word) - 1)); }
 };
 
 struct rayleigh_factor {
-    static std::array<float, 4> draw(const philox_counter& block) {
-        return {factor(block[0]), factor(block[1]), factor(block[2]), factor(block[3])};
+    /// sqrt(-ln u) has the mean sqrt(pi) / 2.
+    template <int N>
+    INSONIFY_INLINE void draw(float (&into)[4][static_cast<unsigned>(N)],
+                              const lanes<std::uint64_t, N> (&word)[4]) const {
+        lanes<double, N> u;
+        for (int i = 0; i < 4; ++i) {
+            uniform_lanes<N>(u, word[i]);
+            log_lanes<N>(u, u);
+            square_root<N>(u, -4 / numeric::pi * u);
+            narrow<N>(into[i], u);
+        }
     }
     static float add(float pixel, float draw) { return draw * pixel; }
-
-  private:
-    /// sqrt(-ln u) has the mean sqrt(pi) / 2.
-    static float factor(std::uint32_t word) {
-        return static_cast<float>(numeric::square_root(-4 / numeric::pi * numeric::log(uniform_open(word))));
-    }
 };
 
 }  // namespace detail
@@ -177,5 +219,9 @@ struct rayleigh {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 INSONIFY_ARITHMETIC_END
