@@ -17,6 +17,7 @@ catch2        header:catch2/catch_all.hpp|catch2/catch.hpp  catch2          catc
 stb           header:stb/stb_image_write.h|stb_image_write.h  libstb-dev    stb-devel           stb
 cli11         header:CLI/CLI.hpp                      libcli11-dev          cli11-devel         cli11
 json          header:nlohmann/json.hpp                nlohmann-json3-dev    json-devel          nlohmann-json
+deflate       header:libdeflate.h                     libdeflate-dev        libdeflate-devel    libdeflate
 clang         command:clang++                         clang                 clang               llvm
 fuzzer        clang:-fsanitize=fuzzer                 libclang-rt-dev       compiler-rt         llvm
 egl           header:EGL/egl.h                        libegl-dev            mesa-libEGL-devel   mesa
