@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
                     map.cast(bottom, place, pool);
                 }));
     using bare = in::render_options<in::shadow::none, in::no_labels>;
-    using shaded = in::render_options<in::shadow::pcf, in::no_labels>;
+    using shaded = in::render_options<in::shadow::refined, in::no_labels>;
     std::printf("  frame, no shadows       %7.1f ms\n",
                 median_ms([&] { in::render(scene, rig, bare{.cells = cells}, pool); }));
     std::printf("  frame, shadows          %7.1f ms\n",

@@ -125,8 +125,11 @@ class projection {
     template <int N>
     INSONIFY_INLINE void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& pixels, int extent) const {
         const lanes<double, N> sum = pixels * static_cast<double>(grid_.unit()) + pixel_grid::magic;
-        std::memcpy(&into, &sum, sizeof into);
-        into = into - (std::bit_cast<std::int64_t>(pixel_grid::magic) - extent * grid_.half());
+        lanes<std::uint64_t, N> bits;  // what isn't compact may wrap around
+        std::memcpy(&bits, &sum, sizeof bits);
+        bits =
+            bits - static_cast<std::uint64_t>(std::bit_cast<std::int64_t>(pixel_grid::magic) - extent * grid_.half());
+        std::memcpy(&into, &bits, sizeof into);
     }
 
     /// What rounding has left outside of a plane, by a little or, next to the eye, by a lot. It depends on the position
