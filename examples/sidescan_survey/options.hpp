@@ -29,8 +29,7 @@ inline options parse(int argc, char** argv) {
     app.add_option("--between", o.between, "From leg to leg, metres (40)")->check(CLI::Range(1.0, 1e6));
     app.add_option("--speed", o.driving.speed, "Metres per second (1.5)")->check(CLI::Range(0.01, 100.0));
     app.add_option("--ping-rate", o.driving.ping_rate, "Per second (15)")->check(CLI::Range(0.1, 1000.0));
-    app.add_option("--turn-rate", o.driving.turn_rate, "Degrees per second at most (6)")
-        ->check(CLI::Range(0.1, 360.0));
+    app.add_option("--turn-rate", o.driving.turn_rate, "Degrees per second at most (6)")->check(CLI::Range(0.1, 360.0));
     app.add_option("--altitude", o.driving.altitude, "Metres (6)")->check(CLI::Range(0.1, 1000.0));
     app.add_option("--altitude-change", o.driving.altitude_change, "Slow rise and fall, metres (1.5)");
     app.add_option("--heave", o.driving.heave, "Rise and fall with the swell, metres (0.15)");
