@@ -26,8 +26,9 @@ struct errors {
     std::uint64_t wrong_depths = 0;  ///< not the nearest float
     double varying = 0;              ///< largest error, in units in the last place of the largest corner's value
 
-    void measure(const clip_triangle& t, int bits, in::keep_depth keep) {
-        const in::mesh m{std::vector<glm::vec3>(3), {}, {{0, 1, 2}}};
+    /// @param copies  of the triangle, the first of which is seen; several small ones are drawn in another way than one
+    void measure(const clip_triangle& t, int bits, in::keep_depth keep, std::size_t copies) {
+        const in::mesh m{std::vector<glm::vec3>(3), {}, std::vector<glm::uvec3>(copies, {0, 1, 2})};
         const auto place = [&](const in::vertex& v) {
             return in::placed_vertex<float>{t.clip[v.index], t.varying[v.index]};
         };
@@ -65,14 +66,14 @@ struct any_triangle {
         const double x = random.uniform(-spread, spread);
         return {x, random.uniform(-spread, spread)};
     }
-    /// A few thousandths of a pixel wide and up to 10^5 pixels long, along a line through the centres of pixels.
-    std::array<glm::dvec2, 3> needle_through_centres() {
+    /// A few thousandths of a pixel wide and `longest` pixels long, along a line through the centres of pixels.
+    std::array<glm::dvec2, 3> needle_through_centres(double longest) {
         const auto whole = [&](int low, int high) {
             return static_cast<double>(low +
                                        static_cast<int>(random.below(static_cast<std::uint32_t>(high - low + 1))));
         };
         const glm::dvec2 centre(whole(0, size - 1) + 0.5, whole(0, size - 1) + 0.5), step(whole(-2, 2), whole(-2, 2));
-        const double away = in::numeric::pow(10, random.uniform(1, 5));
+        const double away = in::numeric::pow(longest, random.uniform(0.2, 1));
         const auto on_line = [&] { return centre + std::floor(random.uniform(-away, away)) * step; };
         const glm::dvec2 beside = centre + glm::dvec2(whole(-3, 3) / 256, whole(-3, 3) / 256);
         const auto to_ndc = [](glm::dvec2 p) { return glm::dvec2(p.x / size * 2 - 1, 1 - p.y / size * 2); };
@@ -81,14 +82,14 @@ struct any_triangle {
     /// @param w_ratio  of the largest to the smallest w that may come up
     clip_triangle operator()(int kind, double w_ratio) {
         const glm::dvec2 base = ndc(1), along = ndc(1);
-        const std::array<glm::dvec2, 3> needle = needle_through_centres();
+        const std::array<glm::dvec2, 3> needle = needle_through_centres(kind == 5 ? 12 : 1e5);
         clip_triangle t;
         for (std::size_t i = 0; i < 3; ++i) {
             glm::dvec2 p = ndc(1.2);                                                   // large
             if (kind == 1) p = base + ndc(0.12);                                       // a few pixels
             if (kind == 2) p = base + random.uniform(-1.5, 1.5) * along + ndc(0.004);  // slivers
             if (kind == 3) p = base + ndc(40);                                         // much larger than the picture
-            if (kind == 4) p = needle[i];
+            if (kind >= 4) p = needle[i];
             const double w = in::numeric::pow(w_ratio, random.uniform(-0.5, 0.5));
             // Reversed depth of something at distance w; or anything, where w says nothing.
             const double z = w_ratio > 1 ? 1e-6 : random.uniform();
@@ -100,14 +101,15 @@ struct any_triangle {
 };
 
 void check_precision(std::uint64_t seed, int count, bool print) {
-    static const char* const kinds[] = {"large", "of a few pixels", "slivers", "beyond the picture", "needles"};
+    static const char* const kinds[] = {"large",   "of a few pixels", "slivers", "beyond the picture",
+                                        "needles", "short needles"};
     for (const double w_ratio : {1.0, 10.0, 1e5, 1e9})  // 1e9: from a millimetre to a thousand kilometres
-        for (int kind = 0; kind < 5; ++kind) {
+        for (int kind = 0; kind < 6; ++kind) {
             any_triangle triangle{in::random_sequence(seed, static_cast<std::uint32_t>(kind))};
             errors found;
-            for (int i = 0; i < count * (kind == 1 || kind == 2 || kind == 4 ? 16 : 1); ++i)
+            for (int i = 0; i < count * (kind == 1 || kind == 2 || kind >= 4 ? 16 : 1); ++i)
                 found.measure(triangle(kind, w_ratio), i % 2 == 0 ? 8 : 16,
-                              w_ratio > 1 ? in::keep_depth::larger : in::keep_depth::smaller);
+                              w_ratio > 1 ? in::keep_depth::larger : in::keep_depth::smaller, i % 3 == 0 ? 1 : 16);
             INFO("seed " << seed << ", triangles " << kinds[kind] << ", w ratio " << w_ratio);
             CHECK(found.samples > 500);
             CHECK(found.wrong_depths == 0);
