@@ -22,7 +22,7 @@
 #endif
 
 #if !defined(INSONIFY_SIMD)
-#if defined(__GNUC__)
+#if defined(__GNUC__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
 #define INSONIFY_SIMD 1
 #else
 #define INSONIFY_SIMD 0
@@ -60,7 +60,9 @@
 #define INSONIFY_INLINE inline __attribute__((always_inline))
 #define INSONIFY_INLINE_LAMBDA __attribute__((always_inline))
 #define INSONIFY_RARE __attribute__((noinline))
+#define INSONIFY_UNROLL _Pragma("GCC unroll 16")  // -O2 leaves even a loop of three as one
 #else
+#define INSONIFY_UNROLL
 #define INSONIFY_INLINE inline
 #define INSONIFY_INLINE_LAMBDA
 #define INSONIFY_RARE

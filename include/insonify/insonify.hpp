@@ -53,7 +53,9 @@
 #include <insonify/raster/shader.hpp>
 #include <insonify/raster/small.hpp>
 #include <insonify/raster/small_depth.hpp>
+#include <insonify/raster/small_fill.hpp>
 #include <insonify/raster/tile.hpp>
+#include <insonify/raster/tile_buffer.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/blend.hpp>
 #include <insonify/seabed/blocks.hpp>

@@ -244,7 +244,7 @@ class screen_mesh {
         if (is_culled(area < 0)) return fate::culled;
         const pixel_box box = center_box(a, b, c, grid_);
         if (box.empty()) return fate::missed;
-        out.runs.add(name, tiles.touched(box), false);
+        out.runs.add(name, tile_range::of(tiles.touched(box)), false);
         return fate::drawn;
     }
 
@@ -276,7 +276,8 @@ class screen_mesh {
             }
             part.triangle = triangle;
             part.run = is_run ? box : pixel_box{0, 0, -1, -1};
-            out.runs.add(whole() + static_cast<std::uint32_t>(out.wide.size()), tiles.touched(box), false);
+            out.runs.add(whole() + static_cast<std::uint32_t>(out.wide.size()), tile_range::of(tiles.touched(box)),
+                         false);
             out.wide.push_back(part);
             f = fate::drawn;
         });
@@ -336,18 +337,17 @@ struct assembly_kernel {
         if (screen.cull_ == cull_mode::front) culled = ints(area < 0);
         const ints missed = ints((x1 < x0) | (y1 < y0));
 
-        std::int32_t fates[static_cast<unsigned>(N)], tile[4][static_cast<unsigned>(N)];
+        std::int32_t fates[static_cast<unsigned>(N)];
+        std::uint32_t first_tile[static_cast<unsigned>(N)], last_tile[static_cast<unsigned>(N)];
         const ints none = ints{};
         store(fates, ints((degenerate ? none + 1 : none) | (culled ? none + 2 : none) | (missed ? none + 4 : none)));
-        store(tile[0], ints(x0 >> tiles.log2_size));
-        store(tile[1], ints(y0 >> tiles.log2_size));
-        store(tile[2], ints(x1 >> tiles.log2_size));
-        store(tile[3], ints(y1 >> tiles.log2_size));
+        store(first_tile, ints((x0 >> tiles.log2_size) | (y0 >> tiles.log2_size << 16)));  // see tile_range
+        store(last_tile, ints((x1 >> tiles.log2_size) | (y1 >> tiles.log2_size << 16)));
         for (int k = 0; k < N; ++k) {
             if (fates[k] == 0) {
                 ++out.stats.drawn;
                 out.runs.add(static_cast<std::uint32_t>(triangle) + static_cast<std::uint32_t>(k),
-                             {tile[0][k], tile[1][k], tile[2][k], tile[3][k]}, true);
+                             {first_tile[k], last_tile[k]}, true);
             } else if (fates[k] & 1) {
                 ++out.stats.degenerate;
             } else if (fates[k] & 2) {

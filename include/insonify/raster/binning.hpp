@@ -33,6 +33,23 @@ struct tile_grid {
     }
 };
 
+/// The first and the last tile of a rectangle of tiles, each with its column and row in 16 bits: soon compared.
+struct tile_range {
+    std::uint32_t first, last;
+
+    static tile_range of(const pixel_box& tiles) {
+        const auto pack = [](int column, int row) {
+            return static_cast<std::uint32_t>(column) | static_cast<std::uint32_t>(row) << 16;
+        };
+        return {pack(tiles.x0, tiles.y0), pack(tiles.x1, tiles.y1)};
+    }
+    pixel_box box() const {
+        const auto unpack = [](std::uint32_t half) { return static_cast<int>(half & 0xFFFFu); };
+        return {unpack(first), unpack(first >> 16), unpack(last), unpack(last >> 16)};
+    }
+    friend bool operator==(const tile_range&, const tile_range&) = default;
+};
+
 /// Consecutive triangles by name, all drawn the same way.
 struct triangle_run {
     std::span<const std::uint32_t> names;
@@ -46,8 +63,8 @@ class tile_runs {
     void reserve(std::size_t most) { names_.reserve(most); }
 
     /// The next triangle, and the tiles that it touches.
-    void add(std::uint32_t triangle, const pixel_box& tiles, bool is_small) {
-        if (runs_.empty() || !runs_.back().goes_on(tiles, is_small))
+    void add(std::uint32_t triangle, const tile_range& tiles, bool is_small) {
+        if (runs_.empty() || !(runs_.back().tiles == tiles) || runs_.back().is_small != is_small)
             runs_.push_back({tiles, names_.size(), 0, is_small});
         names_.push_back(triangle);
         ++runs_.back().count;
@@ -56,12 +73,14 @@ class tile_runs {
     /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.
     template <class Visit>
     void for_each(const tile_grid& grid, const Visit& visit) const {
-        for (const noted& run : runs_)
-            for (int row = run.tiles.y0; row <= run.tiles.y1; ++row)
-                for (int column = run.tiles.x0; column <= run.tiles.x1; ++column)
+        for (const noted& run : runs_) {
+            const pixel_box tiles = run.tiles.box();
+            for (int row = tiles.y0; row <= tiles.y1; ++row)
+                for (int column = tiles.x0; column <= tiles.x1; ++column)
                     visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
                               static_cast<std::size_t>(column),
                           triangle_run{std::span(names_).subspan(run.first, run.count), run.is_small});
+        }
     }
 
     /// Adds `offset` to all names from `first` on.
@@ -72,14 +91,9 @@ class tile_runs {
 
   private:
     struct noted {
-        pixel_box tiles;
+        tile_range tiles;
         std::size_t first, count;
         bool is_small;
-
-        bool goes_on(const pixel_box& next, bool next_is_small) const {
-            return next.x0 == tiles.x0 && next.y0 == tiles.y0 && next.x1 == tiles.x1 && next.y1 == tiles.y1 &&
-                   next_is_small == is_small;
-        }
     };
     std::vector<std::uint32_t> names_;
     std::vector<noted> runs_;

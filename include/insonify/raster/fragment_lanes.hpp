@@ -54,19 +54,21 @@ class fragment_lanes {
         : x(column), y(row), visible(shown), all_visible(all_shown) {
         lanes<std::uint32_t, N> name;
         load(name, names);
+        const glm::uvec3* corners[count];
         if (!any(ints(name >= screen.compact_names()))) {
-            const grid_place* const places = screen.places();
             std::memcpy(triangles, names, sizeof triangles);
-            const grid_place* place[3][count];
-            read_corners(
-                records, [&](int k) -> const glm::uvec3& { return screen.indices(names[k]); },
-                [&](int i, int k, std::uint32_t vertex) { place[i][k] = places + vertex; });
-            weigh(screen.grid(), corner_lanes<N>([&](int k, int i) -> const grid_place& { return *place[i][k]; }));
+            INSONIFY_UNROLL
+            for (int k = 0; k < N; ++k) corners[k] = &screen.indices(names[k]);
+            read_corners(records, corners);
+            const grid_place* const places = screen.places();
+            weigh(screen.grid(),
+                  corner_lanes<N>([&](int k, int i) -> const grid_place& { return places[(*corners[k])[i]]; }));
         } else {
-            for (int k = 0; k < N; ++k) triangles[k] = screen.triangle(names[k]);
-            read_corners(
-                records, [&](int k) -> const glm::uvec3& { return screen.indices(triangles[k]); },
-                [](int, int, std::uint32_t) {});
+            for (int k = 0; k < N; ++k) {
+                triangles[k] = screen.triangle(names[k]);
+                corners[k] = &screen.indices(triangles[k]);
+            }
+            read_corners(records, corners);
             weigh_one_by_one(screen, records, names);
         }
     }
@@ -81,23 +83,20 @@ class fragment_lanes {
   private:
     static constexpr auto count = static_cast<std::size_t>(N);
 
-    /// Reads the corners' records; `each(corner, lane, vertex)` is told which they are.
-    template <class Indices, class Each>
-    INSONIFY_INLINE void read_corners(const record* records, const Indices& indices, const Each& each) {
-        const record* corner[3][count];
-        for (int k = 0; k < N; ++k) {
-            const glm::uvec3& index = indices(k);
-            for (int i = 0; i < 3; ++i) {
-                corner[i][k] = records + index[i];
-                each(i, k, index[i]);
-            }
-        }
+    /// @param corners  of the lanes' triangles
+    INSONIFY_INLINE void read_corners(const record* records, const glm::uvec3* const (&corners)[count]) {
+        INSONIFY_UNROLL
         for (int i = 0; i < 3; ++i) {
-            if constexpr (N == 1)
-                std::memcpy(values_[i], corner[i][0]->values, sizeof values_[i]);
-            else
+            if constexpr (N == 1) {
+                std::memcpy(values_[i], records[(*corners[0])[i]].values, sizeof values_[i]);
+            } else {
+                const float* from[count];
+                INSONIFY_UNROLL
+                for (int k = 0; k < N; ++k) from[k] = records[(*corners[k])[i]].values;
+                INSONIFY_UNROLL
                 for (int block = 0; block < 4 * record::blocks; block += 4)
-                    transpose<N>(values_[i] + block, [&](int k) { return corner[i][k]->values + block; });
+                    transpose<N>(values_[i] + block, [&](int k) { return from[k] + block; });
+            }
         }
     }
 
@@ -120,8 +119,10 @@ class fragment_lanes {
         weights[1] = cx * ay - cy * ax;
         weights[2] = ax * by - ay * bx;
         front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
+        INSONIFY_UNROLL
         for (int i = 0; i < 3; ++i) weights[i] = weights[i] * values_[i][record::count];
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
+        INSONIFY_UNROLL
         for (int i = 0; i < 3; ++i) weights[i] = weights[i] * scale;
     }
     /// Where one of them was clipped, or is too large.

@@ -1,19 +1,13 @@
 // The pixel loop: one tile, its triangles in order, coverage and depth several pixels at a time.
-//
-// A tile resolves visibility in buffers of its own that stay in the first-level cache; who won is known before anything
-// is shaded, and shading happens once per pixel.
 #pragma once
 
 #include <insonify/core/dispatch.hpp>
 #include <insonify/core/image_view.hpp>
-#include <insonify/core/lanes.hpp>
 #include <insonify/raster/binning.hpp>
 #include <insonify/raster/depth.hpp>
-#include <insonify/raster/small_depth.hpp>
+#include <insonify/raster/small_fill.hpp>
 
 #include <algorithm>
-#include <limits>
-#include <memory>
 
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
@@ -66,67 +60,6 @@ struct triangle_setup {
         return bc.is_narrow(width, height) && ca.is_narrow(width, height) && ab.is_narrow(width, height);
     }
 };
-
-/// Depth of a tile's pixels and, where Winners, the name of the triangle that each shows.
-template <bool Winners>
-class tile_buffer {
-  public:
-    static constexpr std::uint32_t nobody = 0xFFFFFFFFu;
-    static constexpr int slack = 16;  // whole vectors may reach past the end of a row
-
-    explicit tile_buffer(int size)
-        : stride_(size + slack),
-          count_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
-          depth_(std::make_unique_for_overwrite<float[]>(count_)),
-          winner_(Winners ? std::make_unique_for_overwrite<std::uint32_t[]>(count_) : nullptr) {}
-
-    /// Puts the tile where its first pixel is (x, y) of the image.
-    void restart(int x, int y) {
-        x_ = x;
-        y_ = y;
-    }
-
-    template <int N>
-    INSONIFY_INLINE void clear() {
-        const lanes<float, N> farthest = lanes<float, N>{} + std::numeric_limits<float>::infinity();
-        const lanes<std::uint32_t, N> none = lanes<std::uint32_t, N>{} + nobody;
-        for (std::size_t i = 0; i < count_; i += N) {
-            store(depth_.get() + i, farthest);
-            if constexpr (Winners) store(winner_.get() + i, none);
-        }
-    }
-
-    std::ptrdiff_t stride() const { return stride_; }
-    float* depth(int x, int y) { return depth_.get() + index(x, y); }
-    std::uint32_t* winner(int x, int y) { return Winners ? winner_.get() + index(x, y) : nullptr; }
-
-  private:
-    std::ptrdiff_t index(int x, int y) const { return static_cast<std::ptrdiff_t>(y - y_) * stride_ + (x - x_); }
-
-    int stride_;
-    int x_ = 0, y_ = 0;
-    std::size_t count_;
-    std::unique_ptr<float[]> depth_;
-    std::unique_ptr<std::uint32_t[]> winner_;
-};
-
-/// Keeps the nearer of what is there and what comes; a tie stays with whoever came first. `winner` may be null if
-/// nobody's name is kept.
-template <int N, bool Winners>
-INSONIFY_INLINE void keep_nearer(float* depth, std::uint32_t* winner, const lanes<std::int32_t, N>& covered,
-                                 const lanes<float, N>& z, const lanes<std::uint32_t, N>& name) {
-    using floats = lanes<float, N>;
-    using names = lanes<std::uint32_t, N>;
-    floats old;
-    load(old, depth);
-    const lanes<std::int32_t, N> visible = covered & lanes<std::int32_t, N>(z < old);
-    store(depth, floats(visible ? z : old));
-    if constexpr (Winners) {
-        names before;
-        load(before, winner);
-        store(winner, names(visible ? name : before));
-    }
-}
 
 /// Draws one triangle of any size into a tile, N pixels of a row at a time. Depths that a double can't round with
 /// certainty are asked of `nearest(x, y)`, if Exact.
@@ -182,56 +115,6 @@ INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<Winners>& tile, s
     }
 }
 
-/// The same for triangle k of N small ones, whose rows are rarely longer than N pixels.
-template <int N, class Real, bool Winners, class Nearest>
-INSONIFY_INLINE void fill_small(const small_setup<N>& t, const small_planes<N, Real>& planes, int k, int unit,
-                                tile_buffer<Winners>& tile, std::uint32_t name, const Nearest& nearest) {
-    using ints = lanes<std::int32_t, N>;
-    using floats = lanes<float, N>;
-    using reals = lanes<Real, N>;
-    ints column;
-    count_up<std::int32_t, N>(column);
-    const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + name;
-    const floats lowest = floats{} + planes.lowest[k], highest = floats{} + planes.highest[k];
-    for (int x = t.x0[k]; x <= t.x1[k]; x += N) {
-        const ints at = column + (x - t.x0[k]);
-        ints bc = t.bc.origin[k] + at * t.bc.dx[k];
-        ints ca = t.ca.origin[k] + at * t.ca.dx[k];
-        ints ab = t.ab.origin[k] + at * t.ab.dx[k];
-        reals right;
-        convert(right, ints(at * unit + t.right[k]));
-        const reals rise = right * planes.dx[k];
-        int down = t.down[k];
-        float* depth = tile.depth(x, t.y0[k]);
-        std::uint32_t* winner = tile.winner(x, t.y0[k]);
-        const std::ptrdiff_t stride = tile.stride();
-        for (int y = t.y0[k]; y <= t.y1[k]; ++y, down += unit) {
-            const ints covered = ints((bc | ca | ab) >= 0);
-            const reals plane = rise + (planes.z[k] + planes.dy[k] * static_cast<Real>(down));
-            floats z;
-            if constexpr (small_planes<N, Real>::exact) {
-                floats above;
-                convert(z, reals(plane - planes.error[k]));
-                convert(above, reals(plane + planes.error[k]));
-                const ints doubtful = covered & ints(z != above);
-                if (any(doubtful))
-                    for (int i = 0; i < N; ++i)
-                        if (lane(doubtful, i) != 0) set_lane(z, i, nearest(x + i, y));
-            } else {
-                z = plane;
-            }
-            z = z > lowest ? z : lowest;
-            z = z < highest ? z : highest;
-            keep_nearer<N, Winners>(depth, winner, covered, z, drawn);
-            depth += stride;
-            if constexpr (Winners) winner += stride;
-            bc += t.bc.dy[k];
-            ca += t.ca.dy[k];
-            ab += t.ab.dy[k];
-        }
-    }
-}
-
 /// All triangles of one tile, between reading and writing the image. `Triangles` has the runs of the tile, and for a
 /// name its corners' places, its set-up and its nearest depth.
 template <class Triangles, bool Winners, class Real>
@@ -251,12 +134,28 @@ struct tile_kernel {
         tile.restart(box.x0, box.y0);
         tile.template clear<Width>();
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
-        for (const triangle_run& run : triangles.runs()) {
-            if (run.is_small)
-                for (std::size_t i = 0; i < run.names.size(); i += N)
-                    draw_small<N>(run.names.data() + i, (std::min)(static_cast<int>(run.names.size() - i), N));
-            else
-                for (const std::uint32_t name : run.names) draw_one<N>(name);
+        // Small triangles are taken by the vector, from as many runs as it needs; none overtakes another.
+        std::span<const triangle_run> runs = triangles.runs();
+        std::size_t taken = 0;  // of the first of them
+        while (!runs.empty()) {
+            std::uint32_t names[static_cast<unsigned>(N)];
+            int count = 0;
+            while (!runs.empty() && runs.front().is_small && count < N) {
+                const std::span<const std::uint32_t> left = runs.front().names.subspan(taken);
+                const auto some = (std::min)(left.size(), static_cast<std::size_t>(N - count));
+                std::copy_n(left.data(), some, names + count);
+                count += static_cast<int>(some);
+                taken += some;
+                if (some < left.size()) break;
+                runs = runs.subspan(1);
+                taken = 0;
+            }
+            if (count > 0) {
+                draw_small<N>(names, count);
+            } else {
+                for (const std::uint32_t name : runs.front().names) draw_one<N>(name);
+                runs = runs.subspan(1);
+            }
         }
         copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
     }
@@ -312,11 +211,9 @@ struct tile_kernel {
         exchange(real_front, bz, cz);
         const small_setup<N> t(at, triangles.grid(), box);
         const small_planes<N, Real> planes(at, area, az, bz, cz);
-        const auto unit = static_cast<int>(triangles.grid().unit());
         for (int k = 0; k < count; ++k) triangles.prefetch(names[k]);
-        for (int k = 0; k < count; ++k)
-            fill_small<N>(t, planes, k, unit, tile, names[k],
-                          [&](int x, int y) { return triangles.nearest_depth(names[k], x, y); });
+        small_fill<N, Real, Winners>{t, planes, static_cast<int>(triangles.grid().unit()), tile, names, count}(
+            [&](int k, int x, int y) { return triangles.nearest_depth(names[k], x, y); });
     }
 
     template <class Mask, class Lanes>

@@ -105,6 +105,7 @@ class caster_map {
         gather_pairs<N>(h[0], h[1], [&](int k) { return heights + lane(first, k); });
         gather_pairs<N>(h[2], h[3], [&](int k) { return heights + lane(first, k) + width; });
         floats low = h[0], high = h[0];
+        INSONIFY_UNROLL
         for (int i = 1; i < 4; ++i) {
             low = h[i] < low ? h[i] : low;
             high = h[i] > high ? h[i] : high;

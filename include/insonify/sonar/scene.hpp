@@ -39,8 +39,8 @@ struct scene {
     /// Whether it is solid is found out for up to 2^16 triangles; of larger ones you may know.
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
-    target& add(const Shape& shape, const pose& placement, std::string class_name, const material& surface = {0.9f}) {
-        targets.push_back({mesh_of(shape), placement, std::move(class_name), surface});
+    target& add(Shape&& shape, const pose& placement, std::string class_name, const material& surface = {0.9f}) {
+        targets.push_back({mesh_of(std::forward<Shape>(shape)), placement, std::move(class_name), surface});
         mesh& added = targets.back().shape;
         validate(added);
         if (added.normals.empty()) added.normals = smooth_normals(added);
@@ -49,9 +49,9 @@ struct scene {
     }
 
     template <class Shape>
-    static mesh mesh_of(const Shape& shape) {
-        if constexpr (std::is_same_v<Shape, mesh>)
-            return shape;
+    static mesh mesh_of(Shape&& shape) {
+        if constexpr (std::is_same_v<std::remove_cvref_t<Shape>, mesh>)
+            return std::forward<Shape>(shape);
         else
             return to_mesh(shape);
     }

@@ -71,6 +71,7 @@ class surface_shader {
         using floats = lanes<float, N>;
         const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
         floats normal[3];
+        INSONIFY_UNROLL
         for (int i = 0; i < 3; ++i) f.interpolate(normal[i], 3 + i);
         const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
         floats length;
@@ -87,6 +88,7 @@ class surface_shader {
                 surface_points<N> at;
                 at.visible = f.visible;
                 at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
+                INSONIFY_UNROLL
                 for (int i = 0; i < 3; ++i) f.interpolate(at.position[i], i);
                 facet_normal<N>(at.facet, f, side);
                 shadows_(shares, at, useful);
@@ -130,6 +132,7 @@ class surface_shader {
                                              const lanes<float, N>& side) {
         using floats = lanes<float, N>;
         floats ab[3], ac[3];
+        INSONIFY_UNROLL
         for (int i = 0; i < 3; ++i) {
             ab[i] = f.at_corner(1, i) - f.at_corner(0, i);
             ac[i] = f.at_corner(2, i) - f.at_corner(0, i);

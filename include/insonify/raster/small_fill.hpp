@@ -1,0 +1,228 @@
+// Pixels of small triangles: several triangles' set-up at hand, one per lane.
+//
+// A triangle of a fine mesh covers two or three pixels. Rows of eight would mostly miss, so where a group's triangles
+// are tiny, each lane walks over the box of its own triangle, and only the pixels that came out covered are compared
+// with the tile, triangle after triangle. Others go row by row. Both ways give the same bits.
+#pragma once
+
+#include <insonify/raster/small_depth.hpp>
+#include <insonify/raster/tile_buffer.hpp>
+
+#include <bit>
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// Draws up to N small triangles into a tile, in order.
+template <int N, class Real, bool Winners>
+struct small_fill {
+    const small_setup<N>& t;
+    const small_planes<N, Real>& planes;
+    int unit;  ///< sub-pixels a pixel
+    tile_buffer<Winners>& tile;
+    const std::uint32_t* names;
+    int count;
+
+    /// @param nearest  nearest(k, x, y): depth of triangle k where a double can't round it with certainty
+    template <class Nearest>
+    INSONIFY_INLINE void operator()(const Nearest& nearest) const {
+        ints wide, tall;
+        extent(wide, tall);
+        if (!any(ints((wide > 2) | (tall > 2))))
+            fill_boxes<3>(wide, tall, nearest);
+        else if (!any(ints((wide > 3) | (tall > 3))))
+            fill_boxes<4>(wide, tall, nearest);
+        else
+            for (int k = 0; k < count; ++k) fill_rows(k, nearest);
+    }
+
+  private:
+    static constexpr bool exact = small_planes<N, Real>::exact;
+    static constexpr auto lane_count = static_cast<std::size_t>(N);
+    using ints = lanes<std::int32_t, N>;
+    using floats = lanes<float, N>;
+    using reals = lanes<Real, N>;
+
+    /// Columns and rows of the boxes, without the first; lanes without a triangle have less than none.
+    INSONIFY_INLINE void extent(ints& wide, ints& tall) const {
+        ints first, last, number;
+        load(first, t.x0);
+        load(last, t.x1);
+        wide = last - first;
+        load(first, t.y0);
+        load(last, t.y1);
+        tall = last - first;
+        count_up<std::int32_t, N>(number);
+        wide = number < count ? wide : ints{} - 1;
+    }
+
+    /// Depths as the plane has them, and which of them it isn't sure of.
+    INSONIFY_INLINE static void round(floats& z, ints& doubtful, const reals& plane, const reals& error) {
+        if constexpr (exact) {
+            floats above;
+            convert(z, reals(plane - error));
+            convert(above, reals(plane + error));
+            doubtful = ints(z != above);
+        } else {
+            z = plane;
+        }
+    }
+
+    /// One pixel of N boxes at a time, each no larger than Size x Size.
+    template <int Size, class Nearest>
+    INSONIFY_INLINE void fill_boxes(const ints& wide, const ints& tall, const Nearest& nearest) const {
+        static_assert(Size <= tile_buffer<Winners>::block);
+        constexpr int pitch = tile_buffer<Winners>::block;
+        ints bc, bc_dx, bc_dy, ca, ca_dx, ca_dy, ab, ab_dx, ab_dy, right, down, x0, y0;
+        load(bc, t.bc.origin), load(bc_dx, t.bc.dx), load(bc_dy, t.bc.dy);
+        load(ca, t.ca.origin), load(ca_dx, t.ca.dx), load(ca_dy, t.ca.dy);
+        load(ab, t.ab.origin), load(ab_dx, t.ab.dx), load(ab_dy, t.ab.dy);
+        load(right, t.right), load(down, t.down);
+        reals z_a, dx, dy, error{};
+        load(z_a, planes.z), load(dx, planes.dx), load(dy, planes.dy);
+        if constexpr (exact) load(error, planes.error);
+        floats lowest, highest;
+        load(lowest, planes.lowest), load(highest, planes.highest);
+        reals rise[static_cast<unsigned>(Size)];
+        INSONIFY_UNROLL
+        for (int column = 0; column < Size; ++column) {
+            convert(rise[column], ints(right + column * unit));
+            rise[column] = rise[column] * dx;
+        }
+
+        // Bit 4 row + column of a lane is about that pixel of its box.
+        ints covered = ints{}, doubtful = ints{};
+        float depth[static_cast<unsigned>(Size * pitch * N)];
+        INSONIFY_UNROLL
+        for (int row = 0; row < Size; ++row) {
+            ints bc_x = bc, ca_x = ca, ab_x = ab;
+            reals drop;
+            convert(drop, ints(down + row * unit));
+            drop = z_a + dy * drop;
+            INSONIFY_UNROLL
+            for (int column = 0; column < Size; ++column) {
+                const ints outside = bc_x | ca_x | ab_x | (wide - column) | (tall - row);
+                const std::int32_t bit = 1 << (row * pitch + column);
+                covered |= outside >= 0 ? ints{} + bit : ints{};
+                const reals plane = rise[column] + drop;
+                floats z;
+                ints in_doubt = ints{};
+                round(z, in_doubt, plane, error);
+                if constexpr (exact) doubtful |= in_doubt ? ints{} + bit : ints{};
+                z = z > lowest ? z : lowest;
+                z = z < highest ? z : highest;
+                store(depth + (row * pitch + column) * N, z);
+                bc_x += bc_dx;
+                ca_x += ca_dx;
+                ab_x += ab_dx;
+            }
+            bc += bc_dy;
+            ca += ca_dy;
+            ab += ab_dy;
+        }
+        if constexpr (exact) {
+            doubtful &= covered;
+            if (any(doubtful)) settle(doubtful, depth, nearest);
+        }
+
+        std::int32_t start[lane_count];
+        ints index;
+        load(x0, t.x0), load(y0, t.y0);
+        tile.template index<N>(index, x0, y0);
+        store(start, index);
+        const std::int32_t* const in_block = tile.in_block();
+        float* const depths = tile.depths();
+        std::uint32_t* const winners = tile.winners();
+        // Sixteen bits a triangle, in order: who comes first keeps a tie.
+        constexpr int pixels = pitch * pitch, per_word = 64 / pixels;
+        lanes<std::uint16_t, N> bits;
+        convert(bits, covered);
+        std::uint64_t words[(lane_count + per_word - 1) / per_word] = {};
+        if constexpr (N == 1)
+            words[0] = bits;
+        else
+            std::memcpy(words, &bits, sizeof bits);
+        int first = 0;
+        INSONIFY_UNROLL
+        for (std::uint64_t left : words) {
+            for (; left != 0; left &= left - 1) {
+                const int bit = std::countr_zero(left), k = first + bit / pixels, pixel = bit % pixels;
+                const std::ptrdiff_t at = start[k] + in_block[pixel];
+                const float z = depth[pixel * N + k];
+                if (!(z < depths[at])) continue;
+                depths[at] = z;
+                if constexpr (Winners) winners[at] = names[k];
+            }
+            first += per_word;
+        }
+    }
+
+    template <class Nearest>
+    INSONIFY_INLINE void settle(const ints& doubtful, float* depth, const Nearest& nearest) const {
+        constexpr int pitch = tile_buffer<Winners>::block;
+        for (int k = 0; k < count; ++k)
+            for (auto left = static_cast<std::uint32_t>(lane(doubtful, k)); left != 0; left &= left - 1) {
+                const int pixel = std::countr_zero(left);
+                const float z = nearest(k, t.x0[k] + pixel % pitch, t.y0[k] + pixel / pitch);
+                depth[pixel * N + k] = (std::min)((std::max)(z, planes.lowest[k]), planes.highest[k]);
+            }
+    }
+
+    /// Triangle k, N pixels of a row at a time.
+    template <class Nearest>
+    INSONIFY_INLINE void fill_rows(int k, const Nearest& nearest) const {
+        ints column;
+        count_up<std::int32_t, N>(column);
+        const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + names[k];
+        const floats lowest = floats{} + planes.lowest[k], highest = floats{} + planes.highest[k];
+        const reals error = reals{} + planes.error[k];
+        for (int x = t.x0[k]; x <= t.x1[k]; x += N) {
+            const ints at = column + (x - t.x0[k]);
+            ints bc = t.bc.origin[k] + at * t.bc.dx[k];
+            ints ca = t.ca.origin[k] + at * t.ca.dx[k];
+            ints ab = t.ab.origin[k] + at * t.ab.dx[k];
+            reals right;
+            convert(right, ints(at * unit + t.right[k]));
+            const reals rise = right * planes.dx[k];
+            auto down = static_cast<Real>(t.down[k]);  // goes on exactly: whole numbers of few bits
+            float* depth = tile.depth(x, t.y0[k]);
+            std::uint32_t* winner = tile.winner(x, t.y0[k]);
+            const std::ptrdiff_t stride = tile.stride();
+            for (int y = t.y0[k]; y <= t.y1[k]; ++y, down += static_cast<Real>(unit)) {
+                const ints covered = ints((bc | ca | ab) >= 0);
+                const reals plane = rise + (planes.z[k] + planes.dy[k] * down);
+                floats z;
+                ints doubtful = ints{};
+                round(z, doubtful, plane, error);
+                if constexpr (exact) {
+                    doubtful &= covered;
+                    if (any(doubtful))
+                        for (int i = 0; i < N; ++i)
+                            if (lane(doubtful, i) != 0) set_lane(z, i, nearest(k, x + i, y));
+                }
+                z = z > lowest ? z : lowest;
+                z = z < highest ? z : highest;
+                keep_nearer<N, Winners>(depth, winner, covered, z, drawn);
+                depth += stride;
+                if constexpr (Winners) winner += stride;
+                bc += t.bc.dy[k];
+                ca += t.ca.dy[k];
+                ab += t.ab.dy[k];
+            }
+        }
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+INSONIFY_ARITHMETIC_END
