@@ -24,6 +24,7 @@ egl           header:EGL/egl.h                        libegl-dev            mesa
 gles          header:GLES3/gl3.h                      libgles-dev           mesa-libGLES-devel  mesa
 llvmpipe      library:dri/swrast_dri.so               libgl1-mesa-dri       mesa-dri-drivers    mesa
 embree        header:embree3/rtcore.h                 libembree-dev         embree3-devel       embree@3
+valgrind      command:valgrind                        valgrind              valgrind            valgrind
 clang-format  command:clang-format                    clang-format          clang-tools-extra   clang-format
 '
 

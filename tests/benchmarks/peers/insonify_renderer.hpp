@@ -16,10 +16,10 @@ namespace in = insonify;
 
 class insonify_renderer {
   public:
-    insonify_renderer(const workload::scene& w, int threads) : pool_(threads) {
+    insonify_renderer(workload::scene w, int threads) : pool_(threads) {
         scene_.seabed = in::seabed::none{};
-        scene_.add(w.seabed, {}, "seabed", {.reflectivity = 1}).is_solid = true;  // nothing lies below it
-        scene_.add(w.cylinder, {}, "cylinder", {.reflectivity = 1});
+        scene_.add(std::move(w.seabed), {}, "seabed", {.reflectivity = 1}).is_solid = true;  // nothing lies below it
+        scene_.add(std::move(w.cylinder), {}, "cylinder", {.reflectivity = 1});
         const auto radians = [](double degrees) { return static_cast<float>(in::numeric::to_radians(degrees)); };
         rig_ = {.altitude = static_cast<float>(workload::altitude),
                 .field_of_view = radians(workload::field_of_view),

@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+"""Counts the instructions of the pieces of work and holds them to what they took before.
+
+    instructions.py PROGRAM RECORD [--record]
+
+Valgrind counts each piece done once and done twice; the difference is the piece, the same on every machine with AVX2,
+however busy. RECORD has a line `name count` for each. More than 3 % above it fails; --record writes it anew.
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+TOLERANCE = 1.03
+
+
+def instructions(program, name, times):
+    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", program, name, str(times)]
+    ran = subprocess.run(command, capture_output=True, text=True, check=True)
+    return int(re.search(r"Collected : (\d+)", ran.stderr).group(1))
+
+
+def main():
+    program, record = sys.argv[1], pathlib.Path(sys.argv[2])
+    names = subprocess.run([program, "names"], capture_output=True, text=True, check=True).stdout.split()
+    counts = {name: instructions(program, name, 2) - instructions(program, name, 1) for name in names}
+    if "--record" in sys.argv:
+        record.write_text("".join(f"{name} {count}\n" for name, count in counts.items()))
+        return
+    before = {name: int(count) for name, count in (line.split() for line in record.read_text().splitlines())}
+    more = []
+    for name, count in counts.items():
+        limit = before.get(name, 0) * TOLERANCE
+        print(f"{name:16} {count:12} {count / before.get(name, count):6.3f} x of before")
+        if count > limit:
+            more.append(name)
+    if more:
+        sys.exit(f"More instructions than before: {', '.join(more)}. If they are worth it: --record.")
+
+
+main()
