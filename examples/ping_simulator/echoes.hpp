@@ -31,6 +31,22 @@ class table {
     std::vector<double> values_;
 };
 
+/// exp(-2 pi i turns) from a table, to 3 mrad: errors 50 dB below what is heard.
+class carrier {
+  public:
+    carrier() {
+        for (std::size_t i = 0; i < steps; ++i)
+            values_.push_back(std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(i) / steps));
+    }
+    const std::complex<double>& operator()(double turns) const {
+        return values_[static_cast<std::size_t>(turns * steps + 0.5) % steps];
+    }
+
+  private:
+    static constexpr std::size_t steps = 1024;
+    std::vector<std::complex<double>> values_;
+};
+
 /// Samples of a complex signal: a row per ping, the first one nearest to the chip's lower edge.
 struct waterfall {
     std::size_t pings, samples;
@@ -87,7 +103,9 @@ class receiver {
     /// The sea floor: a point in every cell, four cells to the pulse. What a crest hides is dropped here, seen from the
     /// ping that is abreast; the target hides ping by ping.
     void hear_bottom() {
-        const double altitude = scene_.rig.altitude, dx = scene_.rig.resolution / 4, dy = 0.03;
+        const double altitude = scene_.rig.altitude, dx = scene_.rig.resolution / 4;
+        // Eight rows to the beam's half width on the bottom, and no shadow's edge coarser than that.
+        const double dy = std::max(0.02, scene_.rig.beam * out_.first / 8);
         const auto ground = [&](double r) { return std::sqrt(std::max(0.0, r * r - altitude * altitude)); };
         const double relief = scene_.ground.relief(), more = relief + pulse_width_;
         const double from = std::max(0.0, ground(out_.first - more) - relief), to = ground(out_.end() + more) + relief;
@@ -147,7 +165,7 @@ class receiver {
         const body& target = scene_.lying();
         const double across = p.x * p.x + (p.z - scene_.rig.altitude) * (p.z - scene_.rig.altitude);
         const double reach = lobes * lobe_ * std::sqrt(across);
-        const double wave_number = 4 * pi / scene_.rig.wavelength;  // there and back
+        const double turns = 2 / scene_.rig.wavelength;  // there and back
         const bool near_target = may_be_hidden && p.x > target.centre().x - target.radius() &&
                                  std::abs(p.y - target.centre().y) < target.radius() + reach;
         const auto ping_at = [&](double y) {
@@ -160,9 +178,9 @@ class receiver {
             if (!(last > 0 && first < static_cast<double>(out_.samples))) continue;
             const double heard = beam_(along / (range * lobe_)) / (range * range);
             if (near_target && target.hides(p, {0, out_.y(ping), scene_.rig.altitude})) continue;
-            const double phase = wave_number * range;
-            const std::complex<double> echo =
-                amplitude * std::complex(heard * std::cos(phase), -heard * std::sin(phase));
+            const std::complex<double> wave = heard * phase_(turns * range);
+            const std::complex<double> echo(amplitude.real() * wave.real() - amplitude.imag() * wave.imag(),
+                                            amplitude.real() * wave.imag() + amplitude.imag() * wave.real());
             std::complex<double>* const row = out_.row(ping);
             const auto until = static_cast<std::size_t>(std::min(last, static_cast<double>(out_.samples)));
             for (auto i = static_cast<std::size_t>(std::max(first, 0.0)); i < until; ++i)
@@ -174,6 +192,7 @@ class receiver {
     waterfall& out_;
     double lobe_, pulse_width_;
     table beam_, pulse_;
+    carrier phase_;
     double reach_;
 };
 
