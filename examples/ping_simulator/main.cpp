@@ -108,14 +108,14 @@ int main(int argc, char** argv) try {
                             insonify::image_view<const std::uint8_t>(c.gray.data(), side, side));
     });
 
-    insonify::csv_table manifest{"file",    "class",       "seabed",   "altitude_m",  "ground_range_m",
-                                 "along_m", "left_edge_m", "size_m",   "length_m",    "height_m",
-                                 "yaw_deg", "burial",      "beam_deg", "resolution_m"};
+    insonify::csv_table manifest{"file",        "class",        "seabed",   "altitude_m", "ground_range_m", "along_m",
+                                 "left_edge_m", "size_m",       "length_m", "height_m",   "yaw_deg",        "burial",
+                                 "beam_deg",    "resolution_m", "white",    "gamma"};
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         const pings::scene s = scene_at(i);
         manifest.add(file_of(i), s.class_name, s.seabed, s.rig.altitude, s.ground_range, s.along, s.left_edge, s.size,
                      s.length, s.lying().centre().z, glm::degrees(s.yaw), s.burial, glm::degrees(s.rig.beam),
-                     s.rig.resolution);
+                     s.rig.resolution, s.rig.white, s.rig.gamma);
     }
     manifest.write(o.out + "/manifest.csv");
     std::printf("%s: %zu chips\n", o.out.c_str(), kinds.size());

@@ -14,7 +14,7 @@ namespace recognition {
 struct outcome {
     std::string name, description;
     std::size_t images;
-    std::vector<confusion> own, transfer;  ///< on pictures of its own kind, and on the simulator's
+    std::vector<confusion> transfer, own;  ///< on the simulator's pictures, and on those of its own kind, if any
 };
 
 inline spread balanced(const std::vector<confusion>& runs) {
