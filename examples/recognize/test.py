@@ -9,7 +9,7 @@ import tempfile
 import unittest
 
 RECOGNIZE, SIMULATOR = sys.argv.pop(1), sys.argv.pop(1)
-QUICK = ["--seeds", 2, "--sizes", "12,24", "--synthetic-share", 0.02, "--recipes", "overhead,slant_range"]
+QUICK = ["--seeds", 2, "--sizes", "12,24", "--synthetic-test", "8,8,8", "--recipes", "overhead,slant_range"]
 
 
 def run(program, *options, expect=0):
