@@ -18,6 +18,7 @@ stb           header:stb/stb_image_write.h|stb_image_write.h  libstb-dev    stb-
 cli11         header:CLI/CLI.hpp                      libcli11-dev          cli11-devel         cli11
 json          header:nlohmann/json.hpp                nlohmann-json3-dev    json-devel          nlohmann-json
 deflate       header:libdeflate.h                     libdeflate-dev        libdeflate-devel    libdeflate
+opencv        header:opencv4/opencv2/ml.hpp|opencv2/ml.hpp  libopencv-dev   opencv-devel        opencv
 clang         command:clang++                         clang                 clang               llvm
 fuzzer        clang:-fsanitize=fuzzer                 libclang-rt-dev       compiler-rt         llvm
 egl           header:EGL/egl.h                        libegl-dev            mesa-libEGL-devel   mesa

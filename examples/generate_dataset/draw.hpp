@@ -102,6 +102,9 @@ inline in::seabed::any seabed_of(const plan& p, const stock& shared) {
     return in::seabed::flat{.seed = p.seabed_seed};
 }
 
+/// Of the sonar that makes speckle, metres a second and hertz.
+inline constexpr double sound_speed = 1500, frequency = 450e3;
+
 /// A finished image with the numbers that the labels want.
 struct drawn {
     in::labels labels;
@@ -181,12 +184,20 @@ in::image<float> recording_of(const options& o, const plan& p, const stock& shar
     d.placement = laid_down(p, scene, shape, ground);
     scene.add(shape, d.placement, p.class_name, {static_cast<float>(o.reflectivity)});
 
-    const in::sonar_equation equation{in::horizontal_beam{static_cast<float>(p.beam)}, in::level_gain{}};
+    const in::horizontal_beam beam{static_cast<float>(p.beam)};
+    const in::sonar_equation equation{beam, in::level_gain{}};
     using all = in::record_options<in::labels, in::lambert_backscatter, std::remove_const_t<decltype(equation)>>;
     auto heard = in::render(scene, rig, all{.equation = equation}, ex);
     for (float& intensity : heard.image.pixels()) intensity += static_cast<float>(p.noise);
     for (const noise_step& step : noise_steps(o))
-        if (step.kind == "seabed") heard = in::with_speckle(std::move(heard), rig, {.seed = p.noise_seed}, ex);
+        if (step.kind == "seabed") {
+            // The speckle of neighbouring pings is alike as long as the beam makes it so.
+            const double slant = in::range_geometry::slant_range(ground_range, p.altitude);
+            const double pings = beam.speckle_length(slant, sound_speed / frequency) / pixel;
+            heard = in::with_speckle(std::move(heard), rig,
+                                     {.along_track = static_cast<float>((std::min)(pings, 16.0)), .seed = p.noise_seed},
+                                     ex);
+        }
     d.labels = std::move(heard.labels);
     d.known = facts_of(rig, scene.targets.front(), d.labels.targets.front());
     return in::apply(std::move(heard.image), in::display{.white = static_cast<float>(p.white)}, ex);

@@ -59,6 +59,7 @@
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/blend.hpp>
 #include <insonify/seabed/blocks.hpp>
+#include <insonify/seabed/extent.hpp>
 #include <insonify/seabed/flat.hpp>
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/seabed/mud.hpp>

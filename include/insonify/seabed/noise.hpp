@@ -212,6 +212,13 @@ class power_law_noise {
         }
     }
 
+    /// No height is farther from 0, metres. Of a cell's corners, weights times distances add up to 1 at most.
+    double reach() const {
+        double sum = 0;
+        for (const octave& o : octaves_) sum += static_cast<double>(gradient_noise::gain * o.amplitude);
+        return sum;
+    }
+
     /// Expected root mean square of the length of the gradient, metres per metre.
     double rms_slope() const { return slope_; }
 

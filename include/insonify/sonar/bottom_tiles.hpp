@@ -42,12 +42,14 @@ class bottom_tiles {
     }
 
     /// Samples what a fan of pings looks at, and forgets the rest.
-    /// @param reach  metres from each ping, on the side it looks to
+    /// @param from, reach  metres from each ping, on the side it looks to
     template <executor E>
-    void cover(std::span<const ping_frame> pings, double reach, E& ex) {
+    void cover(std::span<const ping_frame> pings, double from, double reach, E& ex) {
         const double side = cells * spacing_;
         // Lines of sight in steps of half a tile: the boxes around the steps hold every tile that is touched.
-        const int steps = static_cast<int>(numeric::floor_to_int(2 * reach / side)) + 1;
+        const double looked_at = reach - from;
+        const int steps = static_cast<int>(numeric::floor_to_int(2 * looked_at / side)) + 1;
+        const auto step = [&](int i) { return from + looked_at * i / steps; };
         const auto tile_of = [&](const glm::dvec2& p) {
             require(p.x > -1e9 && p.x < 1e9 && p.y > -1e9 && p.y < 1e9, "ping.position", p.x, "within 1e9 metres");
             return std::pair{numeric::floor_to_int(p.x / side), numeric::floor_to_int(p.y / side)};
@@ -55,7 +57,7 @@ class bottom_tiles {
         std::int64_t last_x = -(std::int64_t{1} << 60), last_y = last_x;
         first_x_ = first_y_ = -last_x;
         for (const ping_frame& p : pings)
-            for (const double x : {0.0, reach * (steps + 1) / steps}) {
+            for (const double x : {from, step(steps + 1)}) {
                 const auto [tile_x, tile_y] = tile_of(p.world(x, 0));
                 first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
                 last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
@@ -66,8 +68,8 @@ class bottom_tiles {
         slots_.assign(static_cast<std::size_t>(columns_ * rows), absent);
         for (const ping_frame& p : pings)
             for (int i = 0; i < steps; ++i) {
-                const auto [ax, ay] = tile_of(p.world(reach * i / steps, 0));
-                const auto [bx, by] = tile_of(p.world(reach * (i + 1) / steps, 0));
+                const auto [ax, ay] = tile_of(p.world(step(i), 0));
+                const auto [bx, by] = tile_of(p.world(step(i + 1), 0));
                 for (std::int64_t y = (std::min)(ay, by); y <= (std::max)(ay, by); ++y)
                     for (std::int64_t x = (std::min)(ax, bx); x <= (std::max)(ax, bx); ++x) slots_[slot_of(x, y)] = 0;
             }

@@ -6,6 +6,7 @@
 // and belongs to whatever stands in front of it.
 #pragma once
 
+#include <insonify/seabed/extent.hpp>
 #include <insonify/sonar/bottom_tiles.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/ping_fan.hpp>
@@ -30,17 +31,19 @@ template <class Rig, class Law, class Equation, bool Labelled>
 class ping_listener {
   public:
     ping_listener(const scene& s, std::span<const sliced_target> targets, const bottom_tiles& bottom, const Rig& rig,
-                  const Law& law, const Equation& equation, double cell)
+                  const Law& law, const Equation& equation, double cell, const seabed::extent& relief, double start)
         : scene_(s),
           targets_(targets),
           tiles_(bottom),
           law_(law),
           equation_(equation),
+          relief_(relief),
           range_(static_cast<double>(rig.range)),
           first_range_(static_cast<double>(rig.first_range)),
           bin_(rig.bin()),
           step_((std::min)(bin_, cell)),
           profile_step_((std::max)(step_, 0.5 * cell)),
+          first_point_(static_cast<std::size_t>(numeric::floor_to_int(start / profile_step_))),
           spacing_(rig.ping_spacing),
           bins_(static_cast<std::size_t>(rig.bins)) {
         top_ = -1e30;
@@ -52,6 +55,7 @@ class ping_listener {
         std::fill(bins_.begin(), bins_.end(), echo_bin{});
         sample_bottom(p);
         const double altitude = p.position().z;
+        if (looks_beyond(relief_, first_range_, altitude)) lowest_ = relief_.lowest, highest_ = relief_.highest;
         const fan_shape shape =
             fan_shape::around(altitude - lowest_, altitude - highest_, altitude - (std::max)(top_, highest_));
         if (!(shape == fan_.shape())) spread_out(shape);
@@ -65,9 +69,29 @@ class ping_listener {
     /// How far from the track pings look, metres on the ground: what has to be covered.
     static double reach(const Rig& rig, double cell) { return static_cast<double>(rig.range) + 4 * cell; }
 
+    /// From where on they have to look: nothing nearer is heard in the first bin or later, nor hides what is.
+    /// @param relief  of the bottom
+    static double start(const Rig& rig, double cell, const seabed::extent& relief, const ping_frame& p,
+                        std::span<const sliced_target> targets) {
+        const double altitude = p.position().z, first = static_cast<double>(rig.first_range);
+        if (!looks_beyond(relief, first, altitude)) return 0;
+        const double lowest = altitude - relief.lowest, heard = first - 4 * rig.bin();
+        const double square = counts_time ? heard * heard - lowest * lowest : heard * heard;
+        const double place = heard > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
+        for (const sliced_target& t : targets)
+            if (t.is_met_by(p, 1e9) && t.nearest(p) < place) return 0;
+        // A crest, the highest there can be, and the lowest place that it hides.
+        return (std::max)(0.0, place * (altitude - relief.highest) / lowest - 4 * cell);
+    }
+
   private:
     static constexpr float most = 2;  // bins that an echo may spread to either side of its ray, whatever the slope
     static constexpr bool counts_time = Rig::axis == across_track::slant_range;
+
+    /// Whether pings look past a bottom that they are well above.
+    static bool looks_beyond(const seabed::extent& relief, double first_range, double altitude) {
+        return first_range > 0 && relief.lowest > -altitude && 2 * relief.highest < altitude;
+    }
 
     struct bottom_point {
         double down;  ///< below the sonar
@@ -94,14 +118,14 @@ class ping_listener {
                 spacing_ * static_cast<float>(fan_[k].width * equation_.over_direction(fan_[k].sine, fan_[k].cosine));
     }
 
-    /// The profile below the ping, from nadir outwards.
+    /// The profile below the ping, from where it matters outwards.
     void sample_bottom(const ping_frame& p) {
-        const auto count = static_cast<std::size_t>(numeric::floor_to_int(range_ / profile_step_)) + 2;
-        profile_.resize(count);
+        const auto end = static_cast<std::size_t>(numeric::floor_to_int(range_ / profile_step_)) + 2;
+        profile_.resize(end - first_point_);
         lowest_ = 1e30, highest_ = -1e30;
         const glm::vec2 across(p.across()), along(p.along());
-        for (std::size_t i = 0; i < count; ++i) {
-            const glm::dvec2 at = p.world(profile_step_ * static_cast<double>(i), 0);
+        for (std::size_t i = 0; i < profile_.size(); ++i) {
+            const glm::dvec2 at = p.world(place_of(i), 0);
             const bottom_vertex v = tiles_.at(at.x, at.y);
             const auto height = static_cast<double>(v.height);
             profile_[i] = {p.position().z - height, v.slope_x * across.x + v.slope_y * across.y,
@@ -110,6 +134,9 @@ class ping_listener {
             highest_ = (std::max)(height, highest_);
         }
     }
+
+    /// How far out a point of the profile is.
+    double place_of(std::size_t i) const { return profile_step_ * static_cast<double>(first_point_ + i); }
 
     /// Which rays meet which target first.
     void gather_targets(const ping_frame& p) {
@@ -163,10 +190,13 @@ class ping_listener {
     /// Walks along the profile; rays meet it in order, and what lies below the last one met is hidden.
     void hear_bottom() {
         double horizon_x = 0, horizon_down = 1;
-        std::size_t k = 0;
+        // Rays that meet the bottom before the profile begins see nothing behind it.
+        std::size_t k = first_point_ > 0 ? fan_.first_over(place_of(0), profile_[0].down) : 0;
+        if (some_target_)
+            for (std::size_t j = 0; j < k; ++j) hits_[j].range = std::numeric_limits<float>::infinity();
         const std::size_t rays = fan_.size();
         for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
-            const double px = profile_step_ * static_cast<double>(i), qx = profile_step_ * static_cast<double>(i + 1);
+            const double px = place_of(i), qx = place_of(i + 1);
             const bottom_point &p = profile_[i], &q = profile_[i + 1];
             const double dx = qx - px, ddown = q.down - p.down;
             const double above = qx * horizon_down - q.down * horizon_x;
@@ -306,7 +336,9 @@ class ping_listener {
     const bottom_tiles& tiles_;
     Law law_;
     const Equation& equation_;
+    seabed::extent relief_;
     double range_, first_range_, bin_, step_, profile_step_, farthest_ = 0;
+    std::size_t first_point_;
     float spacing_;
     double top_, lowest_ = 0, highest_ = 0;
     ping_fan fan_;

@@ -110,6 +110,8 @@ class recorder {
     void hear(E& ex) {
         using listener = ping_listener<Rig, Law, Equation, labelled>;
         bottom_tiles bottom(scene_.seabed, out_.stats.cell);
+        const seabed::extent relief = seabed::extent_of(scene_.seabed);
+        const double cell = out_.stats.cell;
         std::vector<float> over_range;
         if constexpr (Equation::has_ranges)
             for (std::size_t b = 0; b < static_cast<std::size_t>(rig_.bins); ++b)
@@ -120,9 +122,12 @@ class recorder {
             std::vector<ping_frame> frames;
             frames.reserve(count);
             for (std::size_t i = 0; i < count; ++i) frames.emplace_back(track_[start + i], rig_.side);
-            bottom.cover(frames, listener::reach(rig_, out_.stats.cell), ex);
+            double begin = listener::reach(rig_, cell);
+            for (const ping_frame& p : frames)
+                begin = (std::min)(begin, listener::start(rig_, cell, relief, p, targets_));
+            bottom.cover(frames, begin, listener::reach(rig_, cell), ex);
             bulk_ranges(ex, count, grain, [&](std::size_t from, std::size_t to) {
-                listener ears(scene_, targets_, bottom, rig_, options_.law, options_.equation, out_.stats.cell);
+                listener ears(scene_, targets_, bottom, rig_, options_.law, options_.equation, cell, relief, begin);
                 for (std::size_t i = from; i < to; ++i) keep(start + i, ears.hear(frames[i]), over_range);
             });
         }

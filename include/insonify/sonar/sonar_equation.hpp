@@ -69,6 +69,16 @@ struct horizontal_beam {
         const double off = along / (range * static_cast<double>(width));
         return numeric::exp(-5.545177444479562 * off * off);
     }
+    /// Metres of track over which the correlation of speckle falls to 1 / e, intensities': what two pings hear has the
+    /// same phases as long as the sonar moves by less than a part of its array, and is the same bottom as long as it
+    /// moves by less than a part of the footprint. Gaussian patterns make both Gaussian: of 0.6006 range x width, and
+    /// of 0.2650 wavelength / width.
+    /// @param wavelength  of the sound, metres: 0.0033 at 450 kHz
+    double speckle_length(double range, double wavelength) const {
+        const double by_footprint = 0.6005612 * range * static_cast<double>(width);
+        const double by_phase = 0.2650104 * wavelength / static_cast<double>(width);
+        return by_footprint * by_phase / numeric::square_root(by_footprint * by_footprint + by_phase * by_phase);
+    }
 };
 
 /// The pulse: every echo lasts as long, centred where its range is.

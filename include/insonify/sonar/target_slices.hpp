@@ -40,6 +40,9 @@ class sliced_target {
                numeric::dot(centre, centre) < (range + radius_) * (range + radius_);
     }
 
+    /// How far out it begins, for a ping that meets it.
+    double nearest(const ping_frame& p) const { return p(centre_).x - radius_; }
+
     /// Calls `visit(outline_piece)` for each triangle that the ping's plane cuts. Triangles that share an edge share
     /// the corner on it to the last bit, so outlines have no gaps.
     template <class Visit>

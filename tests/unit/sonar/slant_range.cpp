@@ -397,6 +397,85 @@ TEST_CASE("A window of ranges is the part of the whole picture that it shows") {
     CHECK(different <= 40);  // of 3840: at the ends
 }
 
+/// The rows of a window, with the bottom sampled from nadir on if `all`: something lies there, beside the last row.
+template <in::across_track Axis>
+in::recording<in::labels> window_of(const in::seabed::any& bottom, const in::side_scan_rig<Axis>& rig, bool all) {
+    in::scene s;
+    s.seabed = bottom;
+    const in::ping_frame middle(in::ping_of(rig, 12), rig.side), first(in::ping_of(rig, 0), rig.side);
+    const double range = 0.5 * static_cast<double>(rig.first_range + rig.range);
+    s.add(in::cube{.size = glm::vec3(0.6f)}, {.position = glm::dvec3(middle.world(range, 0), 0.2), .yaw = 0.5f},
+          "cube");
+    s.add(in::sphere{.radius = 0.01f}, {.position = glm::dvec3(first.world(all ? 1 : range + 1, 0), 0)}, "pebble");
+    return in::render(s, rig);
+}
+
+TEST_CASE("A window samples the bottom that can be heard in it or hide it; the rest would change no bit") {
+    const in::seabed::any bottoms[] = {
+        in::seabed::flat{}, in::seabed::ripples{.wavelength = 0.6f, .height = 0.07f}, in::seabed::mud{},
+        in::seabed::rock{.relief = 0.2f},
+        in::seabed::blend{.first = in::seabed::ripples{.height = 0.05f}, .second = in::seabed::mud{}, .patch = 4}};
+    const auto check = [](const in::seabed::any& bottom, const auto& rig) {
+        const auto part = window_of(bottom, rig, false), whole = window_of(bottom, rig, true);
+        REQUIRE(part.stats.seabed_vertices < whole.stats.seabed_vertices);
+        for (int y = 0; y + 1 < rig.pings; ++y)  // the last row is the first ping's
+            for (int x = 0; x < rig.bins; ++x) {
+                REQUIRE(part.image(x, y) == whole.image(x, y));
+                REQUIRE(part.labels.instance(x, y) == whole.labels.instance(x, y));
+                REQUIRE(part.labels.shadow(x, y) == whole.labels.shadow(x, y));
+                REQUIRE(part.labels.seabed(x, y) == whole.labels.seabed(x, y));
+            }
+    };
+    for (const in::seabed::any& bottom : bottoms)
+        for (const float altitude : {4.0f, 9.0f})
+            for (const float distance : {3.0f, 8.0f}) {
+                INFO("bottom " << bottom.index() << ", altitude " << altitude << ", distance " << distance);
+                in::side_scan rig{.position = {17, -40},
+                                  .altitude = altitude,
+                                  .yaw = altitude,
+                                  .pings = 24,
+                                  .first_range = distance * altitude,
+                                  .range = distance * altitude + 4,
+                                  .bins = 100,
+                                  .side = distance < 4 ? in::side::port : in::side::starboard};
+                check(bottom, rig);
+                check(bottom, in::ground_range{.position = rig.position,
+                                               .altitude = rig.altitude,
+                                               .yaw = rig.yaw,
+                                               .pings = rig.pings,
+                                               .first_range = rig.first_range,
+                                               .range = rig.range,
+                                               .bins = rig.bins,
+                                               .side = rig.side});
+            }
+}
+
+TEST_CASE("No seabed leaves the extent that its parameters promise, and none promises ten times too much") {
+    const auto check = [](const in::seabed::any& bottom, double slack) {
+        const in::seabed::extent e = in::seabed::extent_of(bottom);
+        const auto prepared = in::seabed::prepare(bottom);
+        std::vector<float> heights(4000);
+        std::vector<in::seabed::type> types(heights.size());
+        float lowest = 1e9f, highest = -1e9f;
+        for (int row = 0; row < 400; ++row) {
+            prepared.row({.y = row * 0.17, .origin = -90, .spacing = 0.05}, heights, types);
+            lowest = (std::min)(lowest, *std::min_element(heights.begin(), heights.end()));
+            highest = (std::max)(highest, *std::max_element(heights.begin(), heights.end()));
+        }
+        INFO("bottom " << bottom.index() << ": " << lowest << " to " << highest);
+        CHECK(e.lowest <= static_cast<double>(lowest));
+        CHECK(e.highest >= static_cast<double>(highest));
+        CHECK(e.highest - e.lowest <= slack * static_cast<double>(highest - lowest));
+    };
+    check(in::seabed::flat{}, 10);
+    check(in::seabed::flat{.surface = {.rms = 0}}, 1e9);
+    check(in::seabed::ripples{}, 3);
+    check(in::seabed::mud{}, 10);
+    check(in::seabed::rock{}, 10);
+    check(in::seabed::blend{.second = in::seabed::rock{}}, 10);
+    CHECK(in::seabed::extent_of(in::seabed::any(in::seabed::none{})).highest > 1e300);
+}
+
 TEST_CASE("A coarse picture hears what a fine one does") {
     in::scene s;
     s.seabed = in::seabed::ripples{.height = 0.04f};

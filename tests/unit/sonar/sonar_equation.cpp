@@ -161,6 +161,26 @@ TEST_CASE("A horizontal beam blurs over so many pings as it is wide at a range, 
     }
 }
 
+TEST_CASE("Speckle of neighbouring pings is alike as far as a coherent sum over the beam says") {
+    // Points on a line along the track, of independent phases, as two pings hear them that are `apart`.
+    for (const double degrees : {0.2, 0.5, 2.0})
+        for (const double range : {3.0, 20.0, 90.0})
+            for (const double wavelength : {0.0017, 0.0033, 0.015}) {
+                const in::horizontal_beam beam{static_cast<float>(in::numeric::to_radians(degrees))};
+                const double apart = beam.speckle_length(range, wavelength), reach = 2 * beam.reach(range) + apart;
+                double re = 0, im = 0, power = 0;
+                for (int i = -20000; i <= 20000; ++i) {
+                    const double y = reach * i / 20000, other = y - apart;
+                    const double a = beam.pattern(y, range), b = beam.pattern(other, range);
+                    const double way = 2 * (std::hypot(range, y) - std::hypot(range, other));
+                    const double heard = std::sqrt(a * b), phase = 2 * in::numeric::pi * way / wavelength;
+                    re += heard * std::cos(phase), im += heard * std::sin(phase), power += a;
+                }
+                INFO(degrees << " degrees, " << range << " m, " << wavelength << " m");
+                CHECK((re * re + im * im) / (power * power) == Approx(std::exp(-1)).epsilon(0.01));
+            }
+}
+
 TEST_CASE("A pulse makes an echo as long as it is, and no stronger") {
     in::scene s = level_bottom(0);
     s.add(in::cube{.size = {0.1f, 5, 0.5f}}, {.position = {20, 0.4, 0.25}}, "wall");

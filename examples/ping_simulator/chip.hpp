@@ -1,0 +1,34 @@
+// From signal to picture, as sonars do it: detected, levelled by range, averaged into pixels, and shown.
+#pragma once
+
+#include "echoes.hpp"
+
+namespace pings {
+
+/// Gray values by rows: the last ping on top, range growing to the right.
+struct chip {
+    std::size_t pixels;
+    std::vector<std::uint8_t> gray;
+};
+
+/// @param metres  a side
+inline chip draw_chip(scene& s, double metres, std::size_t pixels) {
+    constexpr std::size_t samples = 2;  // to a pixel
+    const double pixel = metres / static_cast<double>(pixels);
+    waterfall w(pixels, samples * pixels, pixel, s.left_edge, pixel / samples);
+    receiver ears(s, w);
+    ears.listen();
+
+    chip c{pixels, std::vector<std::uint8_t>(pixels * pixels)};
+    for (std::size_t y = 0; y < pixels; ++y)
+        for (std::size_t x = 0; x < pixels; ++x) {
+            double power = 0;  // of level bottom: 1
+            for (std::size_t i = samples * x; i < samples * (x + 1); ++i)
+                power += std::norm(w.row(y)[i]) / (ears.bottom_power(w.range(i)) * samples);
+            const double shown = std::pow(std::min(1.0, std::sqrt(power) / s.rig.white), s.rig.gamma);
+            c.gray[(pixels - 1 - y) * pixels + x] = static_cast<std::uint8_t>(255 * shown + 0.5);
+        }
+    return c;
+}
+
+}  // namespace pings

@@ -1,0 +1,172 @@
+// recognize: how well is recognised what was learnt from synthetic pictures? See --help.
+//
+// ./tools/recognize runs all of it: it builds this and ping_simulator, makes the simulator's sets, and writes the
+// figures of docs/recognition.md to out/recognize.
+#include "classifier.hpp"
+#include "report.hpp"
+#include <CLI/CLI.hpp>
+
+namespace {
+
+using namespace recognition;
+
+struct options {
+    std::string out, test, own, references;
+    std::vector<std::string> recipes, tried;
+    std::vector<std::size_t> sizes{80, 390};
+    std::size_t seeds = 10;
+    std::vector<std::size_t> synthetic{206, 191, 193};
+    int threads = 0;
+};
+
+options parse(int argc, char** argv) {
+    options o;
+    CLI::App app{
+        "Trains histograms of oriented gradients and a support vector machine on pictures that the library draws, and\n"
+        "tries them on pictures of the same recipe and on those of an independent simulator. See tools/recognize.",
+        "recognize"};
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    app.add_option("--out", o.out, "Folder for report.md and confusion.svg; made if need be")->required();
+    app.add_option("--test", o.test, "The simulator's test set: images/<class>/*.png")->required();
+    app.add_option("--own", o.own, "Another set of the simulator, to train the ceiling on");
+    app.add_option("--references", o.references, "A third one, to match histograms with where a recipe does");
+    app.add_option("--recipes", o.recipes, "Of overhead, ground_range, slant_range (all)")->delimiter(',');
+    app.add_option("--try", o.tried, "Another recipe: options of generate_dataset, as one word; repeat for more")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--sizes", o.sizes, "How many training pictures, 3 at least (80,390)")->delimiter(',');
+    app.add_option("--seeds", o.seeds, "Trainings of each kind (10)")->check(CLI::Range(1, 1000));
+    app.add_option("--synthetic-test", o.synthetic,
+                   "Pictures of each class that test on a recipe's own kind; a third of those published (206,191,193)")
+        ->delimiter(',')
+        ->expected(static_cast<int>(classes.size()));
+    app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a figure");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        std::exit(app.exit(error) == 0 ? 0 : 2);
+    }
+    return o;
+}
+
+/// So many of each class, in the published proportions: 21 cylinders, 27 cubes and 32 spheres of 80.
+class_counts shares(std::size_t images) {
+    class_counts c{(images * 21 + 40) / 80, (images * 27 + 40) / 80, 0};
+    for (std::size_t k = 0; k < 2; ++k) c[k] = (std::max)(c[k], std::size_t{1});
+    c[2] = (std::max)(images, c[0] + c[1] + 1) - c[0] - c[1];
+    return c;
+}
+
+/// So many rows of each class, from a number on that wraps around.
+features some_of(const features& f, const class_counts& counts, const class_counts& from = {}) {
+    std::array<std::vector<std::size_t>, 3> of_class;
+    for (std::size_t i = 0; i < f.kinds.size(); ++i) of_class[f.kinds[i]].push_back(i);
+    std::vector<std::size_t> numbers;
+    for (std::size_t k = 0; k < 3; ++k) {
+        in::detail::require(counts[k] <= of_class[k].size(), "--sizes", counts[k],
+                            "no more than there are of a class in --own");
+        for (std::size_t i = 0; i < counts[k]; ++i) numbers.push_back(of_class[k][(from[k] + i) % of_class[k].size()]);
+    }
+    return subset(f, numbers);
+}
+
+class_counts counted(const features& f) {
+    class_counts c{};
+    for (const std::size_t kind : f.kinds) ++c[kind];
+    return c;
+}
+
+/// The experiment: everything is trained at every size with every seed, and tried on the simulator's test set.
+class experiment {
+  public:
+    explicit experiment(const options& o)
+        : options_(o),
+          pool_(o.threads),
+          most_(*std::max_element(o.sizes.begin(), o.sizes.end())),
+          test_(features_of(read_set(o.test))) {}
+
+    /// Learns from pictures that are drawn by a recipe. A set of another seed is the test on pictures of its own kind.
+    void learn_from(const recipe& r) {
+        const generator::options drawing = options_of(
+            r, options_.references.empty() ? std::vector<std::string>{} : class_folders(options_.references));
+        const generator::stock shared(drawing);
+        const class_counts tested{options_.synthetic[0], options_.synthetic[1], options_.synthetic[2]};
+        const features own = features_of(draw_set(drawing, shared, tested, options_.seeds + 1, pool_));
+        std::vector<features> sets;
+        for (std::size_t seed = 1; seed <= options_.seeds; ++seed)
+            sets.push_back(features_of(draw_set(drawing, shared, shares(most_), seed, pool_)));
+        learn(
+            r.name, r.description,
+            [&](std::size_t seed, std::size_t images) { return some_of(sets[seed], shares(images)); }, &own);
+    }
+
+    /// Learns from the simulator's own pictures, of another seed than the test set's: nothing synthetic can be
+    /// expected to do better.
+    void learn_from_simulator() {
+        const features all = features_of(read_set(options_.own));
+        const class_counts there = counted(all);
+        learn(
+            "ceiling", "the simulator's own",
+            [&](std::size_t seed, std::size_t images) {
+                class_counts from;
+                for (std::size_t k = 0; k < 3; ++k) from[k] = seed * there[k] / options_.seeds;
+                return some_of(all, shares(images), from);
+            },
+            nullptr);
+    }
+
+    const std::vector<outcome>& outcomes() const { return outcomes_; }
+    class_counts tested() const { return counted(test_); }
+
+  private:
+    template <class SetOf>
+    void learn(const std::string& name, const std::string& description, const SetOf& set_of, const features* own) {
+        for (const std::size_t images : options_.sizes) {
+            outcome o{name, description, images, std::vector<confusion>(options_.seeds), {}};
+            if (own != nullptr) o.own.resize(options_.seeds);
+            pool_.bulk(options_.seeds, [&](std::size_t seed) {
+                const classifier machine(set_of(seed, images));
+                o.transfer[seed] = {test_.kinds, machine(test_)};
+                if (own != nullptr) o.own[seed] = {own->kinds, machine(*own)};
+            });
+            std::printf("%s, %zu: balanced accuracy %.3f\n", name.c_str(), images, balanced(o.transfer).mean);
+            std::fflush(stdout);
+            outcomes_.push_back(std::move(o));
+        }
+    }
+
+    options options_;
+    in::thread_pool pool_;
+    std::size_t most_;
+    features test_;
+    std::vector<outcome> outcomes_;
+};
+
+/// The recipes that are asked for: those of the table, then those of the command line.
+std::vector<recipe> chosen(const options& o) {
+    std::vector<recipe> all;
+    for (const recipe& r : recipes())
+        if (o.recipes.empty() || std::find(o.recipes.begin(), o.recipes.end(), r.name) != o.recipes.end())
+            all.push_back(r);
+    for (const std::string& text : o.tried) all.push_back({"tried", text, CLI::detail::split_up(text), false});
+    return all;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const options o = parse(argc, argv);
+    cv::setNumThreads(1);
+    experiment e(o);
+    for (const recipe& r : chosen(o)) e.learn_from(r);
+    if (!o.own.empty()) e.learn_from_simulator();
+
+    const std::string report = markdown(e.outcomes(), e.tested());
+    std::filesystem::create_directories(o.out);
+    in::write_file(o.out + "/report.md", report);
+    in::write_file(o.out + "/confusion.svg", svg(e.outcomes()));
+    std::printf("\n%s", report.c_str());
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "recognize: %s\n", error.what());
+    return 1;
+}

@@ -1,0 +1,102 @@
+// The training sets that are compared: each is a command line of generate_dataset, and drawn as that draws it.
+#pragma once
+
+#include <insonify/core/thread_pool.hpp>
+
+#include <array>
+
+#include "../generate_dataset/draw.hpp"
+
+namespace recognition {
+
+namespace in = insonify;
+
+inline const std::array<std::string, 3> classes{"cylinder", "cube", "sphere"};
+using class_counts = std::array<std::size_t, 3>;
+
+/// A picture and what it shows.
+struct example {
+    in::image<std::uint8_t> picture;
+    std::size_t kind;
+};
+
+struct recipe {
+    std::string name, description;
+    std::vector<std::string> arguments;  ///< of generate_dataset
+    bool needs_references = false;
+};
+
+/// From the published recipe to the recommended one.
+inline std::vector<recipe> recipes() {
+    return {{"overhead",
+             "(a) as published: camera and parallel light, mud, histograms matched, uniform speckle",
+             {"--mode", "overhead", "--seabeds", "mud", "--noise", "speckle:0.1"},
+             true},
+            {"ground_range",
+             "(b) ground range: the sonar's shadows on a map, three seabeds, uniform speckle",
+             {"--mode", "ground_range", "--seabeds", "sand,mud,ripples", "--noise", "speckle:0.1"}},
+            {"slant_range",
+             "(c) slant range, three seabeds, speckle that depends on them",
+             {"--mode", "slant_range", "--seabeds", "sand,mud,ripples", "--noise", "seabed"}}};
+}
+
+/// What generate_dataset would do with the recipe's command line.
+/// @param references  folders of pictures to match histograms with, for recipes that do
+inline generator::options options_of(const recipe& r, const std::vector<std::string>& references) {
+    std::vector<std::string> words{"generate_dataset", "--out", "-", "--chip", "5", "--pixels", "128"};
+    words.insert(words.end(), r.arguments.begin(), r.arguments.end());
+    if (r.needs_references && !references.empty()) {
+        words.push_back("--reference");
+        words.insert(words.end(), references.begin(), references.end());
+    }
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    return generator::parse(static_cast<int>(pointers.size()), pointers.data());
+}
+
+/// Pictures of each class by turns of seabeds; another seed has none of them.
+inline std::vector<example> draw_set(generator::options o, const generator::stock& shared, const class_counts& counts,
+                                     std::uint64_t seed, in::thread_pool& pool) {
+    std::vector<generator::options> of_class;
+    std::vector<std::pair<std::size_t, std::size_t>> wanted;  // class and number
+    for (std::size_t kind = 0; kind < classes.size(); ++kind) {
+        o.targets = {classes[kind]};
+        o.seed = classes.size() * seed + kind;
+        of_class.push_back(o);
+        for (std::size_t i = 0; i < counts[kind]; ++i) wanted.emplace_back(kind, i);
+    }
+    std::vector<example> set(wanted.size());
+    pool.bulk(wanted.size(), [&](std::size_t i) {
+        const auto [kind, number] = wanted[i];
+        in::serial_executor alone;
+        const generator::plan p = generator::plan_image(of_class[kind], number, shared.references());
+        set[i] = {generator::draw(of_class[kind], p, shared, alone).gray, kind};
+    });
+    return set;
+}
+
+/// The folders of a set's classes: images/<class>.
+inline std::vector<std::string> class_folders(const std::string& root) {
+    std::vector<std::string> folders;
+    for (const std::string& name : classes) folders.push_back(root + "/images/" + name);
+    return folders;
+}
+
+/// Reads a set that lies in images/<class>/<anything>.png.
+/// @throws io_error for a class without a picture
+inline std::vector<example> read_set(const std::string& root) {
+    std::vector<example> set;
+    const std::vector<std::string> folders = class_folders(root);
+    for (std::size_t kind = 0; kind < classes.size(); ++kind) {
+        std::vector<std::string> paths;
+        if (std::filesystem::is_directory(folders[kind]))
+            for (const auto& entry : std::filesystem::directory_iterator(folders[kind]))
+                if (entry.path().extension() == ".png") paths.push_back(entry.path().string());
+        if (paths.empty()) throw in::io_error(folders[kind] + ": holds no PNG");
+        std::sort(paths.begin(), paths.end());
+        for (const std::string& path : paths) set.push_back({examples::read_gray(path) | in::to_uint8, kind});
+    }
+    return set;
+}
+
+}  // namespace recognition
