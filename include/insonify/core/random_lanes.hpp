@@ -1,6 +1,7 @@
 // The numbers of random.hpp, several at a time and to the same bits: blocks of Philox, uniform and normal draws.
 #pragma once
 
+#include <insonify/core/dispatch.hpp>
 #include <insonify/core/lanes.hpp>
 #include <insonify/core/numeric.hpp>
 
@@ -15,20 +16,53 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
+/// The products of the lower halves of the lanes with a word.
+template <int N>
+INSONIFY_INLINE void multiply_words(lanes<std::uint64_t, N>& into, const lanes<std::uint64_t, N>& a, std::uint32_t b) {
+    // One instruction, which clang sees for itself and g++ has to be told. dispatch.hpp has made it known.
+#if INSONIFY_DISPATCH && !defined(__clang__)
+    if constexpr (N > 1) {
+        using halves = lanes<std::int32_t, 2 * N>;
+        const halves factor = halves(lanes<std::uint64_t, N>{} + std::uint64_t{b});
+        if constexpr (N == 4) {
+            into = lanes<std::uint64_t, N>(__builtin_ia32_pmuludq256(halves(a), factor));
+        } else {
+            static_assert(N == 2);
+            into = lanes<std::uint64_t, N>(__builtin_ia32_pmuludq128(halves(a), factor));
+        }
+    } else
+#endif
+        into = (a & std::uint64_t{0xFFFFFFFFu}) * std::uint64_t{b};
+}
+
+/// Philox4x32-10 of `Count` times N counters under one key, in place; the lower half of each lane holds a word, the
+/// upper half is of no meaning. Several counters run side by side because each waits for its products.
+template <int N, int Count>
+INSONIFY_INLINE void philox_rounds(lanes<std::uint64_t, N> (&counter)[Count][4], std::uint32_t key_0,
+                                   std::uint32_t key_1) {
+    using words = lanes<std::uint64_t, N>;
+    words keys_0 = words{} + std::uint64_t{key_0}, keys_1 = words{} + std::uint64_t{key_1};
+    unroll<10>([&](int) INSONIFY_INLINE_LAMBDA {
+        unroll<Count>([&](int i) INSONIFY_INLINE_LAMBDA {
+            words a, b;
+            multiply_words<N>(a, counter[i][0], 0xD2511F53u);
+            multiply_words<N>(b, counter[i][2], 0xCD9E8D57u);
+            counter[i][0] = (b >> 32) ^ counter[i][1] ^ keys_0;
+            counter[i][1] = b;
+            counter[i][2] = (a >> 32) ^ counter[i][3] ^ keys_1;
+            counter[i][3] = a;
+        });
+        keys_0 = keys_0 + std::uint64_t{0x9E3779B9u};
+        keys_1 = keys_1 + std::uint64_t{0xBB67AE85u};
+    });
+}
+
 /// The words of N counters under one key, Philox4x32-10, in place; each lane of 64 bits holds a word.
 template <int N>
 INSONIFY_INLINE void philox_lanes(lanes<std::uint64_t, N> (&counter)[4], std::uint32_t key_0, std::uint32_t key_1) {
-    using words = lanes<std::uint64_t, N>;
-    const words low = words{} + std::uint64_t{0xFFFFFFFFu};
-    for (int round = 0; round < 10; ++round) {
-        const words a = counter[0] * std::uint64_t{0xD2511F53u}, b = counter[2] * std::uint64_t{0xCD9E8D57u};
-        counter[0] = (b >> 32) ^ counter[1] ^ std::uint64_t{key_0};
-        counter[1] = b & low;
-        counter[2] = (a >> 32) ^ counter[3] ^ std::uint64_t{key_1};
-        counter[3] = a & low;
-        key_0 += 0x9E3779B9u;
-        key_1 += 0xBB67AE85u;
-    }
+    lanes<std::uint64_t, N> all[1][4] = {{counter[0], counter[1], counter[2], counter[3]}};
+    philox_rounds<N, 1>(all, key_0, key_1);
+    for (int i = 0; i < 4; ++i) counter[i] = all[0][i] & std::uint64_t{0xFFFFFFFFu};
 }
 
 /// A number below 2^52 as a double: put where a double of 2^52 has its last bits, it becomes that much more.
