@@ -116,7 +116,8 @@ INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& o
         gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
 }
 
-/// body(0), body(1), ... body(Count - 1), written out: what a body keeps in an array may then live in registers.
+/// body(0), body(1), ... body(Count - 1), written out, which g++ doesn't do at -O2: what a body keeps in an array may
+/// then live in registers, and what hangs on the count alone is a constant.
 template <int Count, class Body>
 INSONIFY_INLINE void unroll(const Body& body) {
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
