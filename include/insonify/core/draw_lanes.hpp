@@ -46,8 +46,7 @@ INSONIFY_INLINE void philox_words(lanes<std::uint32_t, N> (&word)[4], const std:
         using words = lanes<std::uint32_t, N>;
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
             if constexpr (N == 8) {
-                word[i] =
-                    __builtin_shufflevector(words(block[0][i]), words(block[1][i]), 0, 2, 8, 10, 4, 6, 12, 14);
+                word[i] = __builtin_shufflevector(words(block[0][i]), words(block[1][i]), 0, 2, 8, 10, 4, 6, 12, 14);
             } else {
                 word[i] = __builtin_shufflevector(words(block[0][i]), words(block[1][i]), 0, 2, 4, 6);
             }
@@ -106,7 +105,8 @@ INSONIFY_INLINE void unit_lanes(lanes<float, N>& into, const lanes<std::uint32_t
     into = (into + 0.5f) * 0x1p-31f;
 }
 
-/// ln(2^k (1 + f)) for whole k and sqrt(1/2) - 1 <= f <= sqrt(2) - 1, relative error below 2e-7; the sum of numeric::log.
+/// ln(2^k (1 + f)) for whole k and sqrt(1/2) - 1 <= f <= sqrt(2) - 1, relative error below 2e-7; the sum of
+/// numeric::log.
 template <int N>
 INSONIFY_INLINE void log_lanes(lanes<float, N>& into, const lanes<float, N>& k, const lanes<float, N>& f) {
     using floats = lanes<float, N>;
@@ -142,8 +142,7 @@ INSONIFY_INLINE void log_uniform_lanes(lanes<float, N>& into, const lanes<std::u
 
 /// Cosine and sine of word / 2^32 turns, absolute error below 1.2e-7.
 template <int N>
-INSONIFY_INLINE void circle_lanes(lanes<float, N>& cosine, lanes<float, N>& sine,
-                                  const lanes<std::uint32_t, N>& word) {
+INSONIFY_INLINE void circle_lanes(lanes<float, N>& cosine, lanes<float, N>& sine, const lanes<std::uint32_t, N>& word) {
     using floats = lanes<float, N>;
     using words = lanes<std::uint32_t, N>;
     // The two leading bits of this are the nearest quarter, the rest of the word is what is left of the angle.

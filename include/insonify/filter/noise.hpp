@@ -48,7 +48,7 @@ class deviation {
         }
         return values_;
     }
-    void fits(int width, int height) const { variance_.check_size(name_, width, height); }
+    void place(const pixel_area& area) { variance_.place(name_, area); }
 
   private:
     float root(float variance) const {
@@ -65,13 +65,15 @@ struct added_draw {
     float mean;
 
     template <int N>
-    INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& draw, const lanes<float, N>& scale) const {
+    INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& draw,
+                               const lanes<float, N>& scale) const {
         value = value + (mean + scale * draw);
     }
 };
 struct multiplied_draw {
     template <int N>
-    INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& draw, const lanes<float, N>& scale) const {
+    INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& draw,
+                               const lanes<float, N>& scale) const {
         value = value + scale * draw * value;
     }
 };
@@ -101,7 +103,7 @@ class scaled_law {
         }
         apply_rule(rule_, from, draws, scale, to, run.count);
     }
-    void fits(int width, int height) const { scale_.fits(width, height); }
+    void place(const pixel_area& area) { scale_.place(area); }
 
   private:
     Rule rule_;
@@ -126,7 +128,7 @@ class salt_law {
             to[i] = p[i] < density[i] && value == value ? struck : value;
         }
     }
-    void fits(int width, int height) const { density_.check_size("salt_and_pepper.density", width, height); }
+    void place(const pixel_area& area) { density_.place("salt_and_pepper.density", area); }
 
   private:
     noise_key noise_;
@@ -206,9 +208,9 @@ struct salt_and_pepper {
 
     /// @throws invalid_input for a density outside 0 to 1; on application, for a map of another size than the image
     auto pass() const {
-        density.check("salt_and_pepper.density", [](float d) { return d >= 0 && d <= 1; }, "0 to 1");
-        return detail::noise_pass(
-            detail::salt_law({seed, detail::noise_stream::salt_and_pepper, frame}, density));
+        density.check(
+            "salt_and_pepper.density", [](float d) { return d >= 0 && d <= 1; }, "0 to 1");
+        return detail::noise_pass(detail::salt_law({seed, detail::noise_stream::salt_and_pepper, frame}, density));
     }
 };
 

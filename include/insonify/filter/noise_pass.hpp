@@ -113,7 +113,7 @@ class noise_pass {
         }
     }
 
-    void fits(int width, int height) const { law_.fits(width, height); }
+    void place(const pixel_area& area) { law_.place(area); }
 
   private:
     template <noise_channel Channel>

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <insonify/core/image_view.hpp>
-#include <insonify/core/numeric.hpp>
+#include <insonify/filter/concept.hpp>
 
 #include <algorithm>
 #include <concepts>
 #include <cstdint>
-#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,7 +15,18 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// One number for all pixels, or a map of them. Views are looked at when the filter runs, and not kept alive.
+namespace detail {
+
+/// @throws invalid_input for a map of another size than the area
+inline void check_size(const std::string& name, int width, int height, const pixel_area& area) {
+    require(width == area.width, "width of the map for " + name, width, "that of the image");
+    require(height == area.height, "height of the map for " + name, height, "that of the image");
+}
+
+}  // namespace detail
+
+/// One number for all pixels, or a map of them that is as large as the image. Views are looked at when the filter runs,
+/// and not kept alive.
 ///
 ///     in::speckle{.variance = 0.05f}
 ///     in::speckle{.variance = variances.view()}
@@ -42,13 +53,24 @@ class parameter {
     /// The number of all pixels. @pre is_constant()
     float value() const { return values_.front(); }
 
-    /// The numbers of `count` pixels of a row, in `buffer`.
+    /// Where the pixels that it is asked for lie.
+    /// @throws invalid_input for a map of another size
+    void place(const std::string& name, const pixel_area& area) {
+        x_ = area.x, y_ = area.y;
+        if (by_type_) {
+            detail::check_size(name, types_.width(), types_.height(), area);
+        } else if (!is_constant()) {
+            detail::check_size(name, map_.width(), map_.height(), area);
+        }
+    }
+
+    /// The numbers of `count` pixels of a row from (x, y) on, into `buffer`.
     void row(float* buffer, int count, int x, int y) const {
         if (by_type_) {
-            const std::uint8_t* const type = types_.row(y).data() + x;
+            const std::uint8_t* const type = types_.row(y - y_).data() + (x - x_);
             for (int i = 0; i < count; ++i) buffer[i] = values_[(std::min)(std::size_t{type[i]}, values_.size() - 1)];
         } else if (values_.empty()) {
-            std::copy_n(map_.row(y).data() + x, count, buffer);
+            std::copy_n(map_.row(y - y_).data() + (x - x_), count, buffer);
         } else {
             std::fill_n(buffer, count, values_.front());
         }
@@ -62,21 +84,12 @@ class parameter {
             for (const float value : map_.row(y)) detail::require(allowed(value), name, value, expected);
     }
 
-    /// @throws invalid_input unless a map covers an image of that size
-    void check_size(std::string_view name, int width, int height) const {
-        if (is_constant()) return;
-        const int own_width = by_type_ ? types_.width() : map_.width();
-        const int own_height = by_type_ ? types_.height() : map_.height();
-        detail::require(own_width == width, std::string(name) + ": width of the map", own_width, "that of the image");
-        detail::require(own_height == height, std::string(name) + ": height of the map", own_height,
-                        "that of the image");
-    }
-
   private:
     std::vector<float> values_;  // one for all, or one for each type
     image_view<const float> map_;
     image_view<const std::uint8_t> types_;
     bool by_type_ = false;
+    int x_ = 0, y_ = 0;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI

@@ -43,6 +43,9 @@ struct pass_by_reference {
     template <class Pixel>
         requires(pixel_function<const F, Pixel>)
     INSONIFY_INLINE auto operator()(const Pixel& pixel, int x, int y) const { return call_pixel(*stage, pixel, x, y); }
+    template <class From, class To>
+        requires(row_function<const F, From>)
+    void row(const From* from, To* to, int count, int x, int y) const { stage->row(from, to, count, x, y); }
 };
 
 /// The pass before the first stage.
@@ -63,10 +66,10 @@ INSONIFY_INLINE void call_row(Pass& pass, const From* from, To* to, int count, i
     }
 }
 
-/// Whoever wants to see the size of the image before its pixels sees it.
+/// Whoever wants to know where the image lies and how large it is before its pixels come is told.
 template <class Pass>
-void check_fit(const Pass& pass, int width, int height) {
-    if constexpr (requires { pass.fits(width, height); }) pass.fits(width, height);
+void place_pass(Pass& pass, const pixel_area& area) {
+    if constexpr (requires { pass.place(area); }) pass.place(area);
 }
 
 /// Two passes in one.
@@ -93,9 +96,9 @@ struct fused {
             call_row(second, buffer, to, count, x, y);
         }
     }
-    void fits(int width, int height) const {
-        check_fit(first, width, height);
-        check_fit(second, width, height);
+    void place(const pixel_area& area) {
+        place_pass(first, area);
+        place_pass(second, area);
     }
 };
 
@@ -116,8 +119,9 @@ auto make_pass(const F& stage, [[maybe_unused]] image_view<const Pixel> seen, [[
 
 template <class F, class Pixel>
 struct filter_result {
-    using type = pass_result<
-        decltype(make_pass<Pixel>(std::declval<const F&>(), {}, std::declval<const serial_executor&>())), Pixel>;
+    using type =
+        pass_result<decltype(make_pass<Pixel>(std::declval<const F&>(), {}, std::declval<const serial_executor&>())),
+                    Pixel>;
 };
 template <class F, class Pixel>
     requires image_filter<F, Pixel>
@@ -160,11 +164,12 @@ struct run_context {
 /// One sweep: rows in runs of some 64 Ki pixels, in any order; `to` may be `from`.
 template <class From, class To, class Pass, executor E>
 void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin) {
-    check_fit(pass, from.width(), from.height());
+    Pass placed = pass;
+    place_pass(placed, {origin.x, origin.y, from.width(), from.height()});
     const int rows = 65536 / (std::max)(from.width(), 1) + 1;
     bulk_ranges(ex, static_cast<std::size_t>(from.height()), static_cast<std::size_t>(rows),
                 [&](std::size_t first, std::size_t last) {
-                    Pass own = pass;
+                    Pass own = placed;
                     for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
                         const From* const source = from.row(y).data();
                         To* const target = to.row(y).data();

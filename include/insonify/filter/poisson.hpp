@@ -227,7 +227,7 @@ class poisson_law {
                  best_isa());
         dispatch(poisson_pixel_kernel{&pixels, to, photons, run.count}, best_isa());
     }
-    void fits(int, int) const {}
+    void place(const pixel_area&) {}
 
   private:
     double photons_;
@@ -248,8 +248,8 @@ struct poisson {
     /// @throws invalid_input for photons outside (0, 1e9]
     auto pass() const {
         detail::require(photons > 0 && photons <= 1e9f, "poisson.photons", photons, "above 0 and at most 1e9");
-        return detail::noise_pass(detail::poisson_law(static_cast<double>(photons),
-                                                      {seed, detail::noise_stream::poisson, frame}));
+        return detail::noise_pass(
+            detail::poisson_law(static_cast<double>(photons), {seed, detail::noise_stream::poisson, frame}));
     }
 };
 
