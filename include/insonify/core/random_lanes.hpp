@@ -16,20 +16,18 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// The products of the lower halves of the lanes with a word.
+/// The products of the lower halves of the lanes with a word. Four lanes are for AVX2: kernels of W lanes of 32 bits
+/// have W / 2 of these.
 template <int N>
 INSONIFY_INLINE void multiply_words(lanes<std::uint64_t, N>& into, const lanes<std::uint64_t, N>& a, std::uint32_t b) {
     // One instruction, which clang sees for itself and g++ has to be told. dispatch.hpp has made it known.
 #if INSONIFY_DISPATCH && !defined(__clang__)
-    if constexpr (N > 1) {
-        using halves = lanes<std::int32_t, 2 * N>;
-        const halves factor = halves(lanes<std::uint64_t, N>{} + std::uint64_t{b});
-        if constexpr (N == 4) {
-            into = lanes<std::uint64_t, N>(__builtin_ia32_pmuludq256(halves(a), factor));
-        } else {
-            static_assert(N == 2);
-            into = lanes<std::uint64_t, N>(__builtin_ia32_pmuludq128(halves(a), factor));
-        }
+    using halves = lanes<std::int32_t, 2 * N>;
+    const lanes<std::uint64_t, N> factor = lanes<std::uint64_t, N>{} + std::uint64_t{b};
+    if constexpr (N == 4) {
+        into = lanes<std::uint64_t, N>(__builtin_ia32_pmuludq256(halves(a), halves(factor)));
+    } else if constexpr (N == 2) {
+        into = lanes<std::uint64_t, N>(__builtin_ia32_pmuludq128(halves(a), halves(factor)));
     } else
 #endif
         into = (a & std::uint64_t{0xFFFFFFFFu}) * std::uint64_t{b};
