@@ -62,10 +62,15 @@ struct echo_factor {
     }
 };
 
+/// What an intensity is drawn as; that hangs on the filter and not on its parameters, so that noise by a map is that of
+/// its numbers.
+enum class echo_draw { exponential, gamma, rice };
+
 /// How an intensity fluctuates; see speckle_law of sonar/speckle.hpp, whose three numbers these are.
 struct echo_statistics {
-    const char* name;       ///< of the filter's own parameter
-    parameter looks = 1;    ///< 0.01 to 1e6; 1 where there is a steady part
+    const char* name;  ///< of the filter's own parameter
+    echo_draw draw;
+    parameter looks = 1;    ///< 0.01 to 1e6; 1 unless they are drawn as gamma
     parameter texture = 0;  ///< 0: none
     parameter steady = 0;
 };
@@ -103,20 +108,13 @@ class echo_law {
     }
 
   private:
-    static bool is(const parameter& p, float value) { return p.is_constant() && p.value() == value; }
-
     /// Intensities of mean one without texture.
     float* draw(draw_buffer& buffer, const noise_run& run) {
-        const bool one_look = is(statistics_.looks, 1);
-        if (correlated_) {
-            fields(buffer, static_cast<int>(statistics_.looks.value()), run);
+        if (correlated_ || statistics_.draw == echo_draw::rice) {
+            fields(buffer, correlated_ ? static_cast<int>(statistics_.looks.value()) : 1, run);
             return buffer;
         }
-        if (!is(statistics_.steady, 0)) {
-            fields(buffer, 1, run);
-            return buffer;
-        }
-        if (one_look) return const_cast<float*>(white_draws<exponential_draws>(buffer, noise_, 0, run));
+        if (statistics_.draw == echo_draw::exponential) return white_draws<exponential_draws>(buffer, noise_, 0, run);
         std::fill_n(buffer, run.count, 1.0f);
         gamma(buffer, statistics_.looks, noise_, run);
         return buffer;
@@ -147,7 +145,8 @@ class echo_law {
     }
 
     void texture(float* intensity, const noise_run& run) const {
-        if (!is(statistics_.texture, 0)) gamma(intensity, statistics_.texture, texture_noise_, run);
+        const bool none = statistics_.texture.is_constant() && statistics_.texture.value() == 0;
+        if (!none) gamma(intensity, statistics_.texture, texture_noise_, run);
     }
 
     /// Multiplies by gamma-distributed numbers of mean one, where their shape isn't 0.
@@ -175,8 +174,9 @@ class echo_law {
         for (int i = 0; i < run.count; ++i) {
             const std::array<float, 3> now{looks[i], shape[i], steady[i]};
             if (now != last_) {
-                const double speckle = steady[i] > 0 ? mean_of_rice(static_cast<double>(steady[i]))
-                                                     : mean_root_of_gamma(static_cast<double>(looks[i]));
+                const double speckle = statistics_.draw == echo_draw::rice
+                                           ? mean_of_rice(static_cast<double>(steady[i]))
+                                           : mean_root_of_gamma(static_cast<double>(looks[i]));
                 const double relief = shape[i] > 0 ? mean_root_of_gamma(static_cast<double>(shape[i])) : 1;
                 last_scale_ = static_cast<float>(1 / (speckle * relief));
                 last_ = now;
@@ -218,7 +218,8 @@ struct rayleigh {
     /// @throws invalid_input for a correlation length outside 0 to 16
     auto pass() const {
         detail::require_correlation("rayleigh.correlation", correlation);
-        return detail::echo_pass(detail::noise_stream::rayleigh, seed, frame, {"rayleigh"}, of, correlation);
+        return detail::echo_pass(detail::noise_stream::rayleigh, seed, frame,
+                                 {"rayleigh", detail::echo_draw::exponential}, of, correlation);
     }
 };
 
@@ -237,8 +238,8 @@ struct gamma_speckle {
     auto pass() const {
         detail::check_shape("gamma_speckle.looks", looks);
         detail::require_correlation("gamma_speckle.correlation", correlation);
-        return detail::echo_pass(detail::noise_stream::gamma_speckle, seed, frame, {"gamma_speckle.looks", looks}, of,
-                                 correlation);
+        return detail::echo_pass(detail::noise_stream::gamma_speckle, seed, frame,
+                                 {"gamma_speckle.looks", detail::echo_draw::gamma, looks}, of, correlation);
     }
 };
 
@@ -260,8 +261,10 @@ struct k_speckle {
         detail::check_shape("k_speckle.shape", shape);
         detail::check_shape("k_speckle.looks", looks);
         detail::require_correlation("k_speckle.correlation", correlation);
-        return detail::echo_pass(detail::noise_stream::k_speckle, seed, frame, {"k_speckle.shape", looks, shape}, of,
-                                 correlation);
+        return detail::echo_pass(
+            detail::noise_stream::k_speckle, seed, frame,
+            {"k_speckle.shape", looks == 1 ? detail::echo_draw::exponential : detail::echo_draw::gamma, looks, shape},
+            of, correlation);
     }
 };
 
@@ -282,8 +285,8 @@ struct rician {
         steady.check(
             "rician.steady", [](float v) { return v >= 0 && v <= 1e6f; }, "0 to 1e6");
         detail::require_correlation("rician.correlation", correlation);
-        return detail::echo_pass(detail::noise_stream::rician, seed, frame, {"rician.steady", 1, 0, steady}, of,
-                                 correlation);
+        return detail::echo_pass(detail::noise_stream::rician, seed, frame,
+                                 {"rician.steady", detail::echo_draw::rice, 1, 0, steady}, of, correlation);
     }
 };
 

@@ -188,7 +188,7 @@ using draw_buffer = float[run_length + 64];
 
 /// Independent draws, one for each pixel and `field`, in `buffer` from the place that is returned on.
 template <class Draws>
-const float* white_draws(draw_buffer& buffer, const noise_key& noise, std::uint32_t field, const noise_run& run) {
+float* white_draws(draw_buffer& buffer, const noise_key& noise, std::uint32_t field, const noise_run& run) {
     const int before = run.x & 3;
     dispatch(draw_kernel<Draws>{buffer,
                                 run.count + before,

@@ -361,6 +361,14 @@ auto operator|(image_view<Pixel> in, const F& f) {
     return apply(in, f);
 }
 
+// A filter of the library on pixels that it, or a stage of it, doesn't take: compilers show these lines.
+// clang-format off
+template <class Pixel, detail::library_filter F>
+void operator|(const image<Pixel>&, const F&) requires(!filter_for<F, Pixel>) = delete;
+template <class Pixel, detail::library_filter F>
+void operator|(image_view<Pixel>, const F&) requires(!filter_for<F, std::remove_const_t<Pixel>>) = delete;
+// clang-format on
+
 /// `filter | filter`: both in a row, for later. One of them must be a filter of the library or a chain.
 template <detail::stage F, detail::stage G>
     requires(detail::library_filter<F> || detail::library_filter<G>)

@@ -95,8 +95,18 @@ struct where_filter {
 ///
 /// @param mask  as large as the image; not kept alive
 template <class F>
+    requires(!detail::is_chain<std::decay_t<F>>)
 where_filter<std::decay_t<F>> where(image_view<const std::uint8_t> mask, F&& filter) {
     return {mask, std::forward<F>(filter)};
+}
+/// Does so stage by stage.
+template <class... Stages>
+filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask, const filter_chain<Stages...>& chain) {
+    return std::apply(
+        [&](const Stages&... stages) {
+            return filter_chain<where_filter<Stages>...>{{{mask, stages}...}};
+        },
+        chain.stages);
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
