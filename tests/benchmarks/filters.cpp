@@ -1,5 +1,5 @@
-// How long filters take: filters [threads] [pixels] prints the best of 15 in milliseconds, for an image of so many
-// pixels a side, filtered where it is.
+// How long filters take: filters [threads] [pixels] [turns] prints the best of 15 in milliseconds, for an image of so
+// many pixels a side, filtered where it is.
 //
 // Filters take turns, so that what else the machine does falls on all of them.
 #include <insonify/core/thread_pool.hpp>
@@ -23,8 +23,8 @@ struct task {
     double best = 1e9;
 };
 
-void race(std::vector<task>& tasks) {
-    for (int turn = 0; turn < 15; ++turn) {
+void race(std::vector<task>& tasks, int turns) {
+    for (int turn = 0; turn < turns; ++turn) {
         for (task& t : tasks) {
             const auto start = std::chrono::steady_clock::now();
             t.run();
@@ -90,8 +90,8 @@ int main(int argc, char** argv) {
                          in::apply_into(work.view(), between.view(), invert, pool);
                          in::apply_into(between.view(), work.view(), halve, pool);
                      }});
-    race(tasks);
+    race(tasks, argc > 3 ? std::atoi(argv[3]) : 15);
 
     std::printf("insonify, %d x %d pixels, %d threads\n", side, side, pool.threads());
-    for (const task& t : tasks) std::printf("  %-28s %7.1f ms\n", t.name.c_str(), t.best);
+    for (const task& t : tasks) std::printf("  %-28s %8.3f ms\n", t.name.c_str(), t.best);
 }

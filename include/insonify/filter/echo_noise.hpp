@@ -80,10 +80,14 @@ class echo_law {
     echo_law(noise_key noise, noise_key texture_noise, echo_statistics statistics, echo of,
              const correlation_length& length)
         : noise_(noise), texture_noise_(texture_noise), statistics_(std::move(statistics)), of_(of) {
+        const parameter &looks = statistics_.looks, &shape = statistics_.texture, &steady = statistics_.steady;
+        is_constant_ = looks.is_constant() && shape.is_constant() && steady.is_constant();
+        if (is_constant_ && of == echo::amplitude) last_scale_ = scale_of(looks.value(), shape.value(), steady.value());
+        std::fill_n(scale_, run_length, last_scale_);
         if (length.x > 0 || length.y > 0) {
-            const float looks = statistics_.looks.is_constant() ? statistics_.looks.value() : 0;
-            require(looks >= 1 && looks <= 64 && looks == static_cast<float>(static_cast<int>(looks)),
-                    "looks of correlated speckle", looks, "a whole number, 1 to 64, for all pixels");
+            const float whole = looks.is_constant() ? looks.value() : 0;
+            require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
+                    "looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
             correlated_.emplace(noise, intensity_taps(static_cast<double>(length.x)),
                                 intensity_taps(static_cast<double>(length.y)));
         }
@@ -91,15 +95,13 @@ class echo_law {
 
     void row(const float* from, float* to, const noise_run& run) {
         draw_buffer buffer;
-        float scale[run_length];
         float* const intensity = draw(buffer, run);
         texture(intensity, run);
         if (of_ == echo::amplitude) {
-            mean_amplitudes(scale, run);
-            apply_rule(echo_factor<echo::amplitude>{}, from, intensity, scale, to, run.count);
+            if (!is_constant_) mean_amplitudes(run);
+            apply_rule(echo_factor<echo::amplitude>{}, from, intensity, scale_, to, run.count);
         } else {
-            std::fill_n(scale, run.count, 1.0f);
-            apply_rule(echo_factor<echo::intensity>{}, from, intensity, scale, to, run.count);
+            apply_rule(echo_factor<echo::intensity>{}, from, intensity, scale_, to, run.count);
         }
     }
     void place(const pixel_area& area) {
@@ -165,23 +167,25 @@ class echo_law {
             intensity[i] = static_cast<float>(static_cast<double>(intensity[i]) * drawn[i]);
     }
 
-    /// 1 over the mean amplitude of a unit intensity. What it was for the last pixel it usually is for the next.
-    void mean_amplitudes(float* into, const noise_run& run) {
+    /// 1 over the mean amplitude of a unit intensity.
+    float scale_of(float looks, float shape, float steady) const {
+        const double speckle = statistics_.draw == echo_draw::rice ? mean_of_rice(static_cast<double>(steady))
+                                                                   : mean_root_of_gamma(static_cast<double>(looks));
+        const double relief = shape > 0 ? mean_root_of_gamma(static_cast<double>(shape)) : 1;
+        return static_cast<float>(1 / (speckle * relief));
+    }
+
+    /// What it was for the last pixel it usually is for the next.
+    void mean_amplitudes(const noise_run& run) {
         float looks[run_length], shape[run_length], steady[run_length];
         statistics_.looks.row(looks, run.count, run.x, run.y);
         statistics_.texture.row(shape, run.count, run.x, run.y);
         statistics_.steady.row(steady, run.count, run.x, run.y);
         for (int i = 0; i < run.count; ++i) {
             const std::array<float, 3> now{looks[i], shape[i], steady[i]};
-            if (now != last_) {
-                const double speckle = statistics_.draw == echo_draw::rice
-                                           ? mean_of_rice(static_cast<double>(steady[i]))
-                                           : mean_root_of_gamma(static_cast<double>(looks[i]));
-                const double relief = shape[i] > 0 ? mean_root_of_gamma(static_cast<double>(shape[i])) : 1;
-                last_scale_ = static_cast<float>(1 / (speckle * relief));
-                last_ = now;
-            }
-            into[i] = last_scale_;
+            if (now != last_) last_scale_ = scale_of(looks[i], shape[i], steady[i]);
+            last_ = now;
+            scale_[i] = last_scale_;
         }
     }
 
@@ -189,8 +193,10 @@ class echo_law {
     echo_statistics statistics_;
     echo of_;
     std::optional<correlated_draws> correlated_;
+    bool is_constant_ = false;
     std::array<float, 3> last_{-1, -1, -1};
     float last_scale_ = 1;
+    float scale_[run_length];
 };
 
 inline noise_pass<echo_law> echo_pass(noise_stream stream, std::uint64_t seed, std::uint32_t frame,

@@ -112,7 +112,17 @@ class scaled_law {
     std::optional<correlated_draws> correlated_;
 };
 
-/// Black or white by chance.
+/// Black or white by chance: p is uniform in (0, 1].
+struct struck_pixel {
+    template <int N>
+    INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& p, const lanes<float, N>& density) const {
+        using floats = lanes<float, N>;
+        using flags = lanes<std::int32_t, N>;
+        const floats struck = p + p < density ? floats{} : floats{} + 1.0f;
+        value = (flags(p < density) & flags(value == value)) != 0 ? struck : value;
+    }
+};
+
 class salt_law {
   public:
     salt_law(noise_key noise, parameter density) : noise_(noise), density_(std::move(density)) {}
@@ -122,11 +132,7 @@ class salt_law {
         density_.row(density, run.count, run.x, run.y);
         draw_buffer buffer;
         const float* const p = white_draws<unit_draws>(buffer, noise_, 0, run);
-        for (int i = 0; i < run.count; ++i) {
-            const float value = clip_to_unit(from[i]);
-            const float struck = 2 * p[i] < density[i] ? 0.0f : 1.0f;
-            to[i] = p[i] < density[i] && value == value ? struck : value;
-        }
+        apply_rule(struck_pixel{}, from, p, density, to, run.count);
     }
     void place(const pixel_area& area) { density_.place("salt_and_pepper.density", area); }
 
