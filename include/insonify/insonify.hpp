@@ -3,10 +3,13 @@
 
 #include <insonify/accuracy/metrics.hpp>
 #include <insonify/config.hpp>
+#include <insonify/core/correlation.hpp>
 #include <insonify/core/dispatch.hpp>
 #include <insonify/core/double_double.hpp>
+#include <insonify/core/draw_lanes.hpp>
 #include <insonify/core/error.hpp>
 #include <insonify/core/executor.hpp>
+#include <insonify/core/gamma.hpp>
 #include <insonify/core/image.hpp>
 #include <insonify/core/image_view.hpp>
 #include <insonify/core/int128.hpp>
@@ -19,12 +22,18 @@
 #include <insonify/filter/colormap.hpp>
 #include <insonify/filter/concept.hpp>
 #include <insonify/filter/convert.hpp>
+#include <insonify/filter/correlated.hpp>
+#include <insonify/filter/echo_noise.hpp>
 #include <insonify/filter/gray.hpp>
 #include <insonify/filter/histogram.hpp>
 #include <insonify/filter/match.hpp>
 #include <insonify/filter/noise.hpp>
+#include <insonify/filter/noise_pass.hpp>
+#include <insonify/filter/parameter.hpp>
 #include <insonify/filter/pipe.hpp>
 #include <insonify/filter/poisson.hpp>
+#include <insonify/filter/rejection.hpp>
+#include <insonify/filter/where.hpp>
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/cone.hpp>
 #include <insonify/geometry/cube.hpp>

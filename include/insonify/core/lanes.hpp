@@ -116,6 +116,16 @@ INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& o
         gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
 }
 
+/// body(0), body(1), ... body(Count - 1), written out, which g++ doesn't do at -O2: what a body keeps in an array may
+/// then live in registers, and what hangs on the count alone is a constant.
+template <int Count, class Body>
+INSONIFY_INLINE void unroll(const Body& body) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        (body(I), ...);
+    }
+    (std::make_integer_sequence<int, Count>{});
+}
+
 /// Two neighbouring 32-bit values at N places: lane k of `first` and `second` is what from(k) points to.
 template <int N, class Lanes, class From>
 INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {

@@ -29,6 +29,30 @@ constexpr Code quantize(float value) {
 
 namespace detail {
 
+/// N codes in a row; the lanes hold numbers that they can.
+template <int N, class Code>
+INSONIFY_INLINE void store_codes(Code* to, const lanes<std::int32_t, N>& code) {
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (N % 4 == 0) {
+        // Packs saturate to 16 bits with a sign: codes of 16 bits go there less 2^15.
+        constexpr int offset = sizeof(Code) == 2 ? 0x8000 : 0;
+        const lanes<std::int32_t, N> shifted = code - offset;
+        lanes<std::int32_t, 4> half[2];
+        std::memcpy(half, &shifted, sizeof shifted);
+        if constexpr (N == 4) half[1] = half[0];
+        const lanes<std::int16_t, 8> words = __builtin_ia32_packssdw128(half[0], half[1]);
+        if constexpr (sizeof(Code) == 2) {
+            const lanes<std::uint16_t, 8> codes = lanes<std::uint16_t, 8>(words) ^ std::uint16_t{0x8000};
+            std::memcpy(to, &codes, N * sizeof(Code));
+        } else {
+            const auto codes = __builtin_ia32_packuswb128(words, words);
+            std::memcpy(to, &codes, N * sizeof(Code));
+        }
+    } else
+#endif
+        for (int k = 0; k < N; ++k) to[k] = static_cast<Code>(lane(code, k));
+}
+
 /// quantize, several pixels at a time.
 template <class Code>
 struct quantize_kernel {
@@ -36,23 +60,26 @@ struct quantize_kernel {
     Code* to;
     std::size_t count;
 
-    template <int Width>
+    template <int N>
     INSONIFY_INLINE void run() const {
-        constexpr int N = Width > 1 ? Width / 2 : 1;  // the product takes a double
-        constexpr double largest = (std::numeric_limits<Code>::max)();
-        using doubles = lanes<double, N>;
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        constexpr float largest = (std::numeric_limits<Code>::max)();
         std::size_t i = 0;
         for (; i + N <= count; i += N) {
-            lanes<float, N> value;
+            floats value;
             load(value, from + i);
-            doubles scaled;
-            convert(scaled, value);
-            scaled = scaled * largest + 0.5;
-            scaled = scaled > 0.0 ? scaled : doubles{};  // NaN too
-            scaled = scaled < largest ? scaled : doubles{} + largest;
-            lanes<std::int32_t, N> code;
-            convert(code, scaled);
-            for (int k = 0; k < N; ++k) to[i + static_cast<std::size_t>(k)] = static_cast<Code>(lane(code, k));
+            value = value > 0.0f ? value : floats{};  // NaN too
+            value = value < 1.0f ? value : floats{} + 1.0f;
+            ints code;
+            convert(code, floats(value * largest + 0.5f));
+            // The product rounds up to a tie what isn't quite one. With value (largest + 1) - value in its place, the
+            // difference to the tie is exact.
+            floats tie;
+            convert(tie, code);
+            const floats above = value * (largest + 1.0f) - (tie - 0.5f);
+            code = code - (above < value ? ints{} + 1 : ints{});
+            store_codes<N>(to + i, code);
         }
         for (; i < count; ++i) to[i] = quantize<Code>(from[i]);
     }

@@ -1,6 +1,7 @@
 // The numbers of random.hpp, several at a time and to the same bits: blocks of Philox, uniform and normal draws.
 #pragma once
 
+#include <insonify/core/dispatch.hpp>
 #include <insonify/core/lanes.hpp>
 #include <insonify/core/numeric.hpp>
 
@@ -15,20 +16,51 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
+/// The products of the lower halves of the lanes with a word. Four lanes are for AVX2: kernels of W lanes of 32 bits
+/// have W / 2 of these.
+template <int N>
+INSONIFY_INLINE void multiply_words(lanes<std::uint64_t, N>& into, const lanes<std::uint64_t, N>& a, std::uint32_t b) {
+    // One instruction, which clang sees for itself and g++ has to be told. dispatch.hpp has made it known.
+#if INSONIFY_DISPATCH && !defined(__clang__)
+    using halves = lanes<std::int32_t, 2 * N>;
+    const lanes<std::uint64_t, N> factor = lanes<std::uint64_t, N>{} + std::uint64_t{b};
+    if constexpr (N == 4) {
+        into = lanes<std::uint64_t, N>(__builtin_ia32_pmuludq256(halves(a), halves(factor)));
+    } else if constexpr (N == 2) {
+        into = lanes<std::uint64_t, N>(__builtin_ia32_pmuludq128(halves(a), halves(factor)));
+    } else
+#endif
+        into = (a & std::uint64_t{0xFFFFFFFFu}) * std::uint64_t{b};
+}
+
+/// Philox4x32-10 of `Count` times N counters under one key, in place; the lower half of each lane holds a word, the
+/// upper half is of no meaning. Several counters run side by side because each waits for its products.
+template <int N, std::size_t Count>
+INSONIFY_INLINE void philox_rounds(lanes<std::uint64_t, N> (&counter)[Count][4], std::uint32_t key_0,
+                                   std::uint32_t key_1) {
+    using words = lanes<std::uint64_t, N>;
+    words keys_0 = words{} + std::uint64_t{key_0}, keys_1 = words{} + std::uint64_t{key_1};
+    unroll<10>([&](int) INSONIFY_INLINE_LAMBDA {
+        unroll<static_cast<int>(Count)>([&](int i) INSONIFY_INLINE_LAMBDA {
+            words a, b;
+            multiply_words<N>(a, counter[i][0], 0xD2511F53u);
+            multiply_words<N>(b, counter[i][2], 0xCD9E8D57u);
+            counter[i][0] = (b >> 32) ^ counter[i][1] ^ keys_0;
+            counter[i][1] = b;
+            counter[i][2] = (a >> 32) ^ counter[i][3] ^ keys_1;
+            counter[i][3] = a;
+        });
+        keys_0 = keys_0 + std::uint64_t{0x9E3779B9u};
+        keys_1 = keys_1 + std::uint64_t{0xBB67AE85u};
+    });
+}
+
 /// The words of N counters under one key, Philox4x32-10, in place; each lane of 64 bits holds a word.
 template <int N>
 INSONIFY_INLINE void philox_lanes(lanes<std::uint64_t, N> (&counter)[4], std::uint32_t key_0, std::uint32_t key_1) {
-    using words = lanes<std::uint64_t, N>;
-    const words low = words{} + std::uint64_t{0xFFFFFFFFu};
-    for (int round = 0; round < 10; ++round) {
-        const words a = counter[0] * std::uint64_t{0xD2511F53u}, b = counter[2] * std::uint64_t{0xCD9E8D57u};
-        counter[0] = (b >> 32) ^ counter[1] ^ std::uint64_t{key_0};
-        counter[1] = b & low;
-        counter[2] = (a >> 32) ^ counter[3] ^ std::uint64_t{key_1};
-        counter[3] = a & low;
-        key_0 += 0x9E3779B9u;
-        key_1 += 0xBB67AE85u;
-    }
+    lanes<std::uint64_t, N> all[1][4] = {{counter[0], counter[1], counter[2], counter[3]}};
+    philox_rounds<N, 1>(all, key_0, key_1);
+    for (int i = 0; i < 4; ++i) counter[i] = all[0][i] & std::uint64_t{0xFFFFFFFFu};
 }
 
 /// A number below 2^52 as a double: put where a double of 2^52 has its last bits, it becomes that much more.
@@ -64,11 +96,37 @@ INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x
     const doubles s = f / (m + 1.0);
     const doubles t = s * s;
     doubles tail = doubles{} + 1.0 / 23;
-    for (int n = 21; n >= 3; n -= 2) tail = tail * t + 1.0 / n;
+    unroll<10>([&](int i) INSONIFY_INLINE_LAMBDA { tail = tail * t + 1.0 / (21 - 2 * i); });
     const doubles half_square = 0.5 * f * f;
     constexpr double ln2_high = 0x1.62e42feep-1;
     constexpr double ln2_low = 0x1.a39ef35793c76p-33;
     into = k * ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * ln2_low)) - f);
+}
+
+/// numeric::exp for |x| < 700, to 2 ulp.
+template <int N>
+INSONIFY_INLINE void exp_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
+    using doubles = lanes<double, N>;
+    using words = lanes<std::uint64_t, N>;
+    constexpr double ln2_high = 0x1.62e42feep-1, ln2_low = 0x1.a39ef35793c76p-33;
+    doubles k = x * std::numbers::log2e + 0x1.8p52;  // the nearest power of two, in its last bits
+    words bits;
+    std::memcpy(&bits, &k, sizeof bits);
+    k = k - 0x1.8p52;
+    const doubles r = (x - k * ln2_high) - k * ln2_low;
+    doubles sum = doubles{} + 1.0;
+    unroll<14>([&](int i) INSONIFY_INLINE_LAMBDA { sum = sum * (r * (1.0 / (14 - i))) + 1.0; });
+    bits = (bits << 52) + std::uint64_t{0x3FF0000000000000u};
+    doubles power;
+    std::memcpy(&power, &bits, sizeof power);
+    into = sum * power;
+}
+
+/// The largest whole number not above x, for |x| < 2^51.
+template <int N>
+INSONIFY_INLINE void floor_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
+    const lanes<double, N> nearest = (x + 0x1.8p52) - 0x1.8p52;
+    into = nearest > x ? nearest - 1.0 : nearest;
 }
 
 /// Cosine and sine of x turns, 0 < x < 1, by Taylor's series around the nearest quarter; absolute error < 3e-16.
@@ -83,10 +141,11 @@ INSONIFY_INLINE void circle_lanes(lanes<double, N>& cosine, lanes<double, N>& si
     const doubles angle = (x - 0.25 * rounded) * (2 * numeric::pi);
     const doubles t = angle * angle;
     doubles odd = doubles{} + 1.0, even = doubles{} + 1.0;
-    for (int n = 16; n >= 2; n -= 2) {
+    unroll<8>([&](int i) INSONIFY_INLINE_LAMBDA {
+        const int n = 16 - 2 * i;
         odd = 1.0 - odd * t * (1.0 / (n * (n + 1)));
         even = 1.0 - even * t * (1.0 / (n * (n - 1)));
-    }
+    });
     odd = odd * angle;
     const quarters is_odd = quarters((bits & 1) != 0);
     const doubles first = is_odd ? odd : even, second = is_odd ? even : odd;

@@ -3,6 +3,7 @@
 
 #include <insonify/core/image.hpp>
 #include <insonify/core/quantize.hpp>
+#include <insonify/filter/concept.hpp>
 
 #include <array>
 #include <concepts>
@@ -25,6 +26,12 @@ struct color_table {
     template <std::same_as<float> Value>
     constexpr rgb8 operator()(Value value) const {
         return colors[quantize<std::uint8_t>(value)];
+    }
+    void row(const float* from, rgb8* to, int count, int, int) const {
+        std::uint8_t codes[run_length];
+        quantize_row(std::span<const float>(from, static_cast<std::size_t>(count)),
+                     std::span<std::uint8_t>(codes, static_cast<std::size_t>(count)));
+        for (int i = 0; i < count; ++i) to[i] = colors[codes[i]];
     }
 };
 

@@ -6,8 +6,10 @@
 //     measured  f.pass(view), which looks at the whole image, returns a function as below
 //     pixel     f(pixel), f(pixel, x, y), or f.pass() that returns such a function   -> pixel
 //
-// What `pass` returns is a value and is copied for each run of rows, so it may remember what it drew for the last
-// pixel.
+// What `pass` returns is a value and is copied for each run of rows, so it may remember what it did last. It may do
+// many pixels of a row at once, as noise does: `row(from, to, count, x, y)`, to[i] = fn(from[i], x + i, y), of at most
+// run_length pixels, where `to` may be `from`. And it may be told the pixels' area before the first of them:
+// `place(area)`, which throws where a map is of another size.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -44,6 +46,28 @@ INSONIFY_INLINE auto call_pixel(Fn& fn, const Pixel& pixel, int, int) {
 template <class Fn, class Pixel>
 concept pixel_function = requires(Fn& fn, const Pixel& pixel) {
     { detail::call_pixel(fn, pixel, 0, 0) } -> detail::storable;
+};
+
+/// The pixels of an image, as a part of a larger one or as all of it.
+struct pixel_area {
+    int x, y, width, height;
+};
+
+/// The most pixels that `row` is asked for at once; they fit the nearest cache several times over.
+inline constexpr int run_length = 512;
+
+namespace detail {
+
+template <class Fn, class Pixel>
+using pass_result = decltype(call_pixel(std::declval<Fn&>(), std::declval<const Pixel&>(), 0, 0));
+
+}  // namespace detail
+
+/// A function of a pixel that does many pixels of a row at once.
+template <class Fn, class Pixel>
+concept row_function = pixel_function<Fn, Pixel> &&
+    requires(Fn& fn, const Pixel* from, detail::pass_result<Fn, Pixel>* to) {
+    fn.row(from, to, 1, 0, 0);
 };
 
 /// Takes an image and returns an image. Asked first: a generic lambda (`[](const auto& picture)`) is one of these.

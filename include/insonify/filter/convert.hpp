@@ -24,6 +24,10 @@ struct to_code {
     constexpr rgb<Code> operator()(const rgb<Channel>& value) const {
         return {quantize<Code>(value.r), quantize<Code>(value.g), quantize<Code>(value.b)};
     }
+    void row(const float* from, Code* to, int count, int, int) const {
+        const auto pixels = static_cast<std::size_t>(count);
+        quantize_row(std::span<const float>(from, pixels), std::span<Code>(to, pixels));
+    }
 };
 
 struct to_unit {

@@ -1,21 +1,20 @@
-// Noise by pixel: gaussian, speckle (uniform, gaussian, Rayleigh) and poisson, on floats in [0, 1].
+// Noise by pixel that a sensor or a channel adds: gaussian, speckle (uniform or gaussian) and salt and pepper.
 //
-// As in MATLAB's imnoise, the image is clipped to [0, 1] before and after. NaN (no data) stays NaN.
+// As in MATLAB's imnoise, the image is clipped to [0, 1] before and after, codes of 8 and 16 bits stand for code / 255
+// and code / 65535, and colours get noise in each channel. NaN (no data) stays NaN.
 //
-// The noise of a pixel is a function of (seed, kind of noise, frame, x, y) and nothing else. Images of a set differ by
-// `.frame`; two filters of one kind in one chain must differ by `.seed`.
+// The noise of a pixel is a function of (seed, kind of noise, frame, channel, x, y) and nothing else. Images of a set
+// differ by `.frame`; two filters of one kind in one chain must differ by `.seed`.
 //
 // Based on: George E. P. Box, Mervin E. Muller. A Note on the Generation of Random Normal Deviates. Annals of
-// Mathematical Statistics 29, 1958. Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random
-// Variables. Insurance: Mathematics and Economics 12, 1993 (algorithm PTRS).
+// Mathematical Statistics 29, 1958.
 #pragma once
 
-#include <insonify/core/dispatch.hpp>
-#include <insonify/core/random.hpp>
+#include <insonify/filter/correlated.hpp>
+#include <insonify/filter/noise_pass.hpp>
+#include <insonify/filter/parameter.hpp>
 
-#include <concepts>
-#include <cstdint>
-#include <type_traits>
+#include <optional>
 
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
@@ -28,193 +27,196 @@ namespace insonify::inline INSONIFY_ABI {
 
 namespace detail {
 
-/// One stream per kind of noise; the numbers are part of what a seed means.
-enum class noise_stream : std::uint32_t { gaussian = 0x6E6F6900, speckle, gaussian_speckle, rayleigh, poisson };
-
-inline philox_key noise_key(std::uint64_t seed, noise_stream stream) {
-    return stream_key(seed, static_cast<std::uint32_t>(stream));
+inline void check_variance(const char* name, const parameter& variance) {
+    variance.check(
+        name, [](float v) { return numeric::is_finite(v) && v >= 0; }, "finite and at least 0");
 }
 
-constexpr float clip_to_unit(float value) {
-    return value < 0 ? 0.0f : value > 1 ? 1.0f : value;
-}
-
-inline void require_variance(const char* name, float variance) {
-    require(numeric::is_finite(variance) && variance >= 0, name, variance, "finite and at least 0");
-}
-
-/// Noise of one draw per pixel. Four pixels in a row share a Philox block; the draws of 64 pixels are made at once, and
-/// kept.
-template <class Law>
-class noise_pass {
+/// The square roots of a parameter, by runs.
+class deviation {
   public:
-    noise_pass(Law law, philox_key key, std::uint32_t frame) : law_(law), key_(key), frame_(frame) {}
-
-    template <std::same_as<float> Pixel>
-    Pixel operator()(Pixel pixel, int x, int y) {
-        if (x >> 6 != group_ || y != row_) {
-            group_ = x >> 6;
-            row_ = y;
-            dispatch(*this, best_isa());
-        }
-        return clip_to_unit(law_.add(clip_to_unit(pixel), draws_[x & 63]));
+    /// @param factor  by which the variance is multiplied first
+    deviation(const char* name, parameter variance, double factor)
+        : name_(name), variance_(std::move(variance)), factor_(factor) {
+        if (variance_.is_constant()) std::fill_n(values_, run_length, root(variance_.value()));
     }
 
-    /// Makes the draws of the row's 64 pixels.
-    template <int Width>
-    INSONIFY_INLINE void run() const {
-        constexpr int N = Width > 1 ? 4 : 1;
-        using words = lanes<std::uint64_t, N>;
-        words step;
-        count_up<std::uint64_t, N>(step);
-        for (int block = 0; block < 16; block += N) {
-            const auto first = static_cast<std::uint64_t>(static_cast<std::uint32_t>(16 * group_ + block));
-            words word[4] = {step + first, words{} + std::uint64_t{static_cast<std::uint32_t>(row_)}, words{},
-                             words{} + std::uint64_t{frame_}};
-            philox_lanes<N>(word, key_[0], key_[1]);
-            float draw[4][static_cast<unsigned>(N)];
-            law_.template draw<N>(draw, word);
-            for (int k = 0; k < N; ++k)
-                for (int i = 0; i < 4; ++i) draws_[4 * (block + k) + i] = draw[i][k];
+    const float* row(const noise_run& run) {
+        if (!variance_.is_constant()) {
+            variance_.row(values_, run.count, run.x, run.y);
+            for (int i = 0; i < run.count; ++i) values_[i] = root(values_[i]);
         }
+        return values_;
     }
+    void place(const pixel_area& area) { variance_.place(name_, area); }
 
   private:
-    Law law_;
-    philox_key key_;
-    std::uint32_t frame_;
-    int group_ = -1;
-    int row_ = -1;
-    mutable float draws_[64] = {};
+    float root(float variance) const {
+        return static_cast<float>(numeric::square_root(factor_ * static_cast<double>(variance)));
+    }
+
+    const char* name_;
+    parameter variance_;
+    double factor_;
+    float values_[run_length] = {};
 };
 
-/// Draws as floats, in memory.
-template <int N>
-INSONIFY_INLINE void narrow(float* into, const lanes<double, N>& draws) {
-    lanes<float, N> floats;
-    convert(floats, draws);
-    store(into, floats);
-}
-
-struct normal_law {
-    double mean;
-    double deviation;
+struct added_draw {
+    float mean;
 
     template <int N>
-    INSONIFY_INLINE void draw(float (&into)[4][static_cast<unsigned>(N)],
-                              const lanes<std::uint64_t, N> (&word)[4]) const {
-        lanes<double, N> a, b;
-        for (int i = 0; i < 4; i += 2) {
-            normal_lanes<N>(a, b, word[i], word[i + 1]);
-            narrow<N>(into[i], mean + deviation * a);
-            narrow<N>(into[i + 1], mean + deviation * b);
-        }
+    INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& draw,
+                               const lanes<float, N>& scale) const {
+        value = value + (mean + scale * draw);
+    }
+};
+struct multiplied_draw {
+    template <int N>
+    INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& draw,
+                               const lanes<float, N>& scale) const {
+        value = value + scale * draw * value;
     }
 };
 
-struct additive_normal : normal_law {
-    static float add(float pixel, float draw) { return pixel + draw; }
-};
-struct multiplicative_normal : normal_law {
-    static float add(float pixel, float draw) { return pixel + draw * pixel; }
-};
+/// One draw per pixel, as wide as a deviation says.
+template <class Draws, class Rule>
+class scaled_law {
+  public:
+    scaled_law(Rule rule, noise_key noise, deviation scale) : rule_(rule), noise_(noise), scale_(std::move(scale)) {}
 
-struct multiplicative_uniform {
-    double half_width;
-
-    template <int N>
-    INSONIFY_INLINE void draw(float (&into)[4][static_cast<unsigned>(N)],
-                              const lanes<std::uint64_t, N> (&word)[4]) const {
-        lanes<double, N> u;
-        for (int i = 0; i < 4; ++i) {
-            uniform_lanes<N>(u, word[i]);
-            narrow<N>(into[i], half_width * (2.0 * u - 1.0));
-        }
+    /// With draws that are alike where they are close.
+    scaled_law(Rule rule, noise_key noise, deviation scale, const correlation_length& length)
+        : scaled_law(rule, noise, std::move(scale)) {
+        if (length.x > 0 || length.y > 0)
+            correlated_.emplace(noise, field_taps(static_cast<double>(length.x)),
+                                field_taps(static_cast<double>(length.y)));
     }
-    static float add(float pixel, float draw) { return pixel + draw * pixel; }
+
+    void row(const float* from, float* to, const noise_run& run) {
+        const float* const scale = scale_.row(run);
+        draw_buffer buffer;
+        const float* draws = buffer;
+        if (correlated_) {
+            correlated_->row(buffer, 0, run);
+        } else {
+            draws = white_draws<Draws>(buffer, noise_, 0, run);
+        }
+        apply_rule(rule_, from, draws, scale, to, run.count);
+    }
+    void place(const pixel_area& area) { scale_.place(area); }
+
+  private:
+    Rule rule_;
+    noise_key noise_;
+    deviation scale_;
+    std::optional<correlated_draws> correlated_;
 };
 
-struct rayleigh_factor {
-    /// sqrt(-ln u) has the mean sqrt(pi) / 2.
+/// Black or white by chance: p is uniform in (0, 1].
+struct struck_pixel {
     template <int N>
-    INSONIFY_INLINE void draw(float (&into)[4][static_cast<unsigned>(N)],
-                              const lanes<std::uint64_t, N> (&word)[4]) const {
-        lanes<double, N> u;
-        for (int i = 0; i < 4; ++i) {
-            uniform_lanes<N>(u, word[i]);
-            log_lanes<N>(u, u);
-            square_root<N>(u, -4 / numeric::pi * u);
-            narrow<N>(into[i], u);
-        }
+    INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& p, const lanes<float, N>& density) const {
+        using floats = lanes<float, N>;
+        using flags = lanes<std::int32_t, N>;
+        const floats struck = p + p < density ? floats{} : floats{} + 1.0f;
+        value = (flags(p < density) & flags(value == value)) != 0 ? struck : value;
     }
-    static float add(float pixel, float draw) { return draw * pixel; }
+};
+
+class salt_law {
+  public:
+    salt_law(noise_key noise, parameter density) : noise_(noise), density_(std::move(density)) {}
+
+    void row(const float* from, float* to, const noise_run& run) const {
+        float density[run_length];
+        density_.row(density, run.count, run.x, run.y);
+        draw_buffer buffer;
+        const float* const p = white_draws<unit_draws>(buffer, noise_, 0, run);
+        apply_rule(struck_pixel{}, from, p, density, to, run.count);
+    }
+    void place(const pixel_area& area) { density_.place("salt_and_pepper.density", area); }
+
+  private:
+    noise_key noise_;
+    parameter density_;
 };
 
 }  // namespace detail
 
-/// Adds normal noise: J = I + N(mean, variance). MATLAB: imnoise(I, "gaussian", mean, variance).
+/// Adds normal noise: J = I + N(mean, variance). MATLAB, Octave: imnoise(I, "gaussian", mean, variance); scikit-image:
+/// random_noise(I, "gaussian").
 struct gaussian {
     float mean = 0;
-    float variance = 0.01f;
+    parameter variance = 0.01f;
+    correlation_length correlation{};  ///< of the noise
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a mean that is not finite, or a variance that is negative or not finite
+    /// @throws invalid_input for a mean that is not finite, a variance that is negative or not finite, or a correlation
+    ///         length outside 0 to 16; on application, for a map of another size than the image
     auto pass() const {
         detail::require(numeric::is_finite(mean), "gaussian.mean", mean, "finite");
-        detail::require_variance("gaussian.variance", variance);
-        const detail::additive_normal law{
-            {static_cast<double>(mean), numeric::square_root(static_cast<double>(variance))}};
-        return detail::noise_pass(law, detail::noise_key(seed, detail::noise_stream::gaussian), frame);
+        detail::check_variance("gaussian.variance", variance);
+        detail::require_correlation("gaussian.correlation", correlation);
+        return detail::noise_pass(detail::scaled_law<detail::normal_draws, detail::added_draw>(
+            {mean}, {seed, detail::noise_stream::gaussian, frame}, {"gaussian.variance", variance, 1}, correlation));
     }
 };
 
 /// Uniform multiplicative noise: J = I + n I, n uniform in +-sqrt(3 variance). MATLAB: imnoise(I, "speckle", variance);
 /// Octave and scikit-image draw n from the normal distribution, which is `gaussian_speckle` here.
 struct speckle {
-    float variance = 0.05f;
+    parameter variance = 0.05f;
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a variance that is negative or not finite
+    /// @throws invalid_input for a variance that is negative or not finite; on application, for a map of another size
+    ///         than the image
     auto pass() const {
-        detail::require_variance("speckle.variance", variance);
-        const detail::multiplicative_uniform law{numeric::square_root(3 * static_cast<double>(variance))};
-        return detail::noise_pass(law, detail::noise_key(seed, detail::noise_stream::speckle), frame);
+        detail::check_variance("speckle.variance", variance);
+        return detail::noise_pass(detail::scaled_law<detail::symmetric_draws, detail::multiplied_draw>(
+            {}, {seed, detail::noise_stream::speckle, frame}, {"speckle.variance", variance, 3}));
     }
 };
 
-/// Normal multiplicative noise: J = I + n I, n from N(0, variance). Octave: imnoise(I, "speckle", variance).
+/// Normal multiplicative noise: J = I + n I, n from N(0, variance). Octave: imnoise(I, "speckle", variance) with 0.04;
+/// scikit-image: random_noise(I, "speckle", var=variance) with 0.01.
 struct gaussian_speckle {
-    float variance = 0.04f;
+    parameter variance = 0.04f;
+    correlation_length correlation{};  ///< of the noise
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a variance that is negative or not finite
+    /// @throws invalid_input as `gaussian`
     auto pass() const {
-        detail::require_variance("gaussian_speckle.variance", variance);
-        const detail::multiplicative_normal law{{0, numeric::square_root(static_cast<double>(variance))}};
-        return detail::noise_pass(law, detail::noise_key(seed, detail::noise_stream::gaussian_speckle), frame);
+        detail::check_variance("gaussian_speckle.variance", variance);
+        detail::require_correlation("gaussian_speckle.correlation", correlation);
+        return detail::noise_pass(detail::scaled_law<detail::normal_draws, detail::multiplied_draw>(
+            {}, {seed, detail::noise_stream::gaussian_speckle, frame}, {"gaussian_speckle.variance", variance, 1},
+            correlation));
     }
 };
 
-/// Fully developed speckle of an amplitude image: J = I a, a Rayleigh with mean 1, hence std 0.5227. Bright pixels
-/// saturate at 1: keep the image's mean well below 1/2.
-struct rayleigh {
+/// Makes a share of the pixels black or white, half of it each. MATLAB, Octave: imnoise(I, "salt & pepper", density);
+/// scikit-image: random_noise(I, "s&p", amount=density). Pixels without a number stay.
+struct salt_and_pepper {
+    parameter density = 0.05f;  ///< the share, 0 to 1
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 
     using is_filter = std::true_type;
 
+    /// @throws invalid_input for a density outside 0 to 1; on application, for a map of another size than the image
     auto pass() const {
-        return detail::noise_pass(detail::rayleigh_factor{}, detail::noise_key(seed, detail::noise_stream::rayleigh),
-                                  frame);
+        density.check(
+            "salt_and_pepper.density", [](float d) { return d >= 0 && d <= 1; }, "0 to 1");
+        return detail::noise_pass(detail::salt_law({seed, detail::noise_stream::salt_and_pepper, frame}, density));
     }
 };
 

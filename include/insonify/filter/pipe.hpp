@@ -1,4 +1,5 @@
-// Filters by `|`: `image | f` applies, `f | g` makes a chain without touching a pixel, `apply` brings an executor.
+// Filters by `|`: `image | f` applies, `f | g` makes a chain without touching a pixel, `apply` brings an executor,
+// `apply_into` and `apply_in_place` the memory.
 //
 // Point-wise neighbours run as one sweep over the image, and a measured stage is the first of the sweep behind it
 // (filter/concept.hpp says which is which).
@@ -21,6 +22,11 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
+/// Column and row that filters take the first pixel of an image for.
+struct pixel_origin {
+    int x = 0, y = 0;
+};
+
 namespace detail {
 
 template <class T>
@@ -37,6 +43,9 @@ struct pass_by_reference {
     template <class Pixel>
         requires(pixel_function<const F, Pixel>)
     INSONIFY_INLINE auto operator()(const Pixel& pixel, int x, int y) const { return call_pixel(*stage, pixel, x, y); }
+    template <class From, class To>
+        requires(row_function<const F, From>)
+    void row(const From* from, To* to, int count, int x, int y) const { stage->row(from, to, count, x, y); }
 };
 
 /// The pass before the first stage.
@@ -47,24 +56,60 @@ struct untouched {
     }
 };
 
+/// Neighbours in a row, at most run_length of them; `to` may be `from`.
+template <class Pass, class From, class To>
+INSONIFY_INLINE void call_row(Pass& pass, const From* from, To* to, int count, int x, int y) {
+    if constexpr (row_function<Pass, From>) {
+        pass.row(from, to, count, x, y);
+    } else {
+        for (int i = 0; i < count; ++i) to[i] = call_pixel(pass, from[i], x + i, y);
+    }
+}
+
+/// Whoever wants to know where the image lies and how large it is before its pixels come is told.
+template <class Pass>
+void place_pass(Pass& pass, const pixel_area& area) {
+    if constexpr (requires { pass.place(area); }) pass.place(area);
+}
+
 /// Two passes in one.
 template <class First, class Second>
 struct fused {
     First first;
     Second second;
+
     template <class Pixel>
     INSONIFY_INLINE auto operator()(const Pixel& pixel, int x, int y) {
         return call_pixel(second, call_pixel(first, pixel, x, y), x, y);
     }
+    template <class From, class To>
+    INSONIFY_INLINE void row(const From* from, To* to, int count, int x, int y) {
+        using between = pass_result<First, From>;
+        if constexpr (!row_function<First, From> && !row_function<Second, between>) {
+            for (int i = 0; i < count; ++i) to[i] = (*this)(from[i], x + i, y);
+        } else if constexpr (std::is_same_v<between, To>) {
+            call_row(first, from, to, count, x, y);
+            call_row(second, to, to, count, x, y);
+        } else {
+            between buffer[run_length];
+            call_row(first, from, buffer, count, x, y);
+            call_row(second, buffer, to, count, x, y);
+        }
+    }
+    void place(const pixel_area& area) {
+        place_pass(first, area);
+        place_pass(second, area);
+    }
 };
 
-template <class Pass, class Pixel>
-using pass_result = decltype(call_pixel(std::declval<Pass&>(), std::declval<const Pixel&>(), 0, 0));
-
-template <class Pixel, class F>
-auto make_pass(const F& stage, [[maybe_unused]] image_view<const Pixel> seen) {
+template <class Pixel, class F, executor E>
+auto make_pass(const F& stage, [[maybe_unused]] image_view<const Pixel> seen, [[maybe_unused]] E& ex) {
     if constexpr (measured_filter<F, Pixel>) {
-        return stage.pass(seen);
+        if constexpr (requires { stage.pass(seen, ex); }) {
+            return stage.pass(seen, ex);
+        } else {
+            return stage.pass(seen);
+        }
     } else if constexpr (requires { stage.pass(); }) {
         return stage.pass();
     } else {
@@ -74,7 +119,9 @@ auto make_pass(const F& stage, [[maybe_unused]] image_view<const Pixel> seen) {
 
 template <class F, class Pixel>
 struct filter_result {
-    using type = pass_result<decltype(make_pass<Pixel>(std::declval<const F&>(), {})), Pixel>;
+    using type =
+        pass_result<decltype(make_pass<Pixel>(std::declval<const F&>(), {}, std::declval<const serial_executor&>())),
+                    Pixel>;
 };
 template <class F, class Pixel>
     requires image_filter<F, Pixel>
@@ -97,17 +144,39 @@ constexpr bool chain_takes() {
     }
 }
 
+/// The pixels go to a new image, or to the memory of the old one where it is given away and the type stays.
+struct into_image {};
+
+/// The pixels go where somebody wants them.
+template <class To>
+struct into_view {
+    image_view<To> target;
+};
+
+/// What stays the same from stage to stage.
+template <class E, class Sink>
+struct run_context {
+    E& ex;
+    pixel_origin origin;
+    Sink sink;
+};
+
 /// One sweep: rows in runs of some 64 Ki pixels, in any order; `to` may be `from`.
 template <class From, class To, class Pass, executor E>
-void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex) {
+void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin) {
+    Pass placed = pass;
+    place_pass(placed, {origin.x, origin.y, from.width(), from.height()});
     const int rows = 65536 / (std::max)(from.width(), 1) + 1;
     bulk_ranges(ex, static_cast<std::size_t>(from.height()), static_cast<std::size_t>(rows),
                 [&](std::size_t first, std::size_t last) {
-                    Pass own = pass;
+                    Pass own = placed;
                     for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
                         const From* const source = from.row(y).data();
                         To* const target = to.row(y).data();
-                        for (int x = 0; x < from.width(); ++x) target[x] = call_pixel(own, source[x], x, y);
+                        for (int x = 0; x < from.width(); x += run_length) {
+                            const int count = (std::min)(run_length, from.width() - x);
+                            call_row(own, source + x, target + x, count, origin.x + x, origin.y + y);
+                        }
                     }
                 });
 }
@@ -123,46 +192,55 @@ image_view<const T> look_at(image_view<T> source) {
 
 /// The pixels behind a pass, in the source's own memory where that is ours and fits.
 template <class Source, class Pass, executor E>
-auto materialize(Source&& source, const Pass& pass, E& ex) {
+auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) {
     using from = typename std::remove_cvref_t<Source>::value_type;
     using to = pass_result<Pass, from>;
     constexpr bool owned = std::is_same_v<Source, image<from>>;
     if constexpr (std::is_same_v<Pass, untouched>) {
         return image<from>(std::forward<Source>(source));
     } else if constexpr (owned && std::is_same_v<from, to>) {
-        sweep(look_at(source), source.view(), pass, ex);
+        sweep(look_at(source), source.view(), pass, ex, origin);
         return std::move(source);
     } else {
         image<to> out(source.width(), source.height());
-        sweep(look_at(source), out.view(), pass, ex);
+        sweep(look_at(source), out.view(), pass, ex, origin);
         return out;
     }
 }
 
 /// Runs the stages on `source`, of which `pass` is still to be done.
-template <class Source, class Pass, executor E>
-auto run_stages(Source&& source, const Pass& pass, E& ex) {
-    return materialize(std::forward<Source>(source), pass, ex);
+template <class Source, class Pass, class E>
+auto run_stages(Source&& source, const Pass& pass, const run_context<E, into_image>& run) {
+    return materialize(std::forward<Source>(source), pass, run.ex, run.origin);
 }
-template <class Source, class Pass, executor E, class F, class... Rest>
-auto run_stages(Source&& source, const Pass& pass, E& ex, const F& stage, const Rest&... rest) {
+template <class Source, class Pass, class E, class To>
+void run_stages(const Source& source, const Pass& pass, const run_context<E, into_view<To>>& run) {
+    const image_view<To> target = run.sink.target;
+    require(source.width() == target.width(), "to.width()", target.width(), "that of the result");
+    require(source.height() == target.height(), "to.height()", target.height(), "that of the result");
+    sweep(look_at(source), target, pass, run.ex, run.origin);
+}
+template <class Source, class Pass, class E, class Sink, class F, class... Rest>
+auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& run, const F& stage,
+                const Rest&... rest) {
     using pixel = pass_result<Pass, typename std::remove_cvref_t<Source>::value_type>;
     constexpr bool clean = std::is_same_v<Pass, untouched>;
     if constexpr (image_filter<F, pixel>) {
         if constexpr (clean && std::is_invocable_v<const F&, Source>) {
-            return run_stages(stage(std::forward<Source>(source)), untouched{}, ex, rest...);
+            return run_stages(stage(std::forward<Source>(source)), untouched{}, run, rest...);
         } else {
-            return run_stages(stage(materialize(std::forward<Source>(source), pass, ex)), untouched{}, ex, rest...);
+            return run_stages(stage(materialize(std::forward<Source>(source), pass, run.ex, run.origin)), untouched{},
+                              run, rest...);
         }
     } else if constexpr (clean) {
-        return run_stages(std::forward<Source>(source), make_pass(stage, look_at(source)), ex, rest...);
+        return run_stages(std::forward<Source>(source), make_pass(stage, look_at(source), run.ex), run, rest...);
     } else if constexpr (measured_filter<F, pixel>) {
-        image<pixel> seen = materialize(std::forward<Source>(source), pass, ex);
-        const auto next = stage.pass(look_at(seen));
-        return run_stages(std::move(seen), next, ex, rest...);
+        image<pixel> seen = materialize(std::forward<Source>(source), pass, run.ex, run.origin);
+        const auto next = make_pass(stage, look_at(seen), run.ex);
+        return run_stages(std::move(seen), next, run, rest...);
     } else {
-        auto next = make_pass(stage, image_view<const pixel>{});
-        return run_stages(std::forward<Source>(source), fused<Pass, decltype(next)>{pass, std::move(next)}, ex,
+        auto next = make_pass(stage, image_view<const pixel>{}, run.ex);
+        return run_stages(std::forward<Source>(source), fused<Pass, decltype(next)>{pass, std::move(next)}, run,
                           rest...);
     }
 }
@@ -177,13 +255,16 @@ struct filter_chain {
 
     template <class Pixel>
         requires(detail::chain_takes<Pixel, Stages...>())
-    auto operator()(image<Pixel> in) const { return run(std::move(in), serial_executor{}); }
+    auto operator()(image<Pixel> in) const {
+        const serial_executor ex;
+        return run(std::move(in), detail::run_context<const serial_executor, detail::into_image>{ex, {}, {}});
+    }
 
-    template <class Source, executor_argument Executor>
-    auto run(Source&& source, Executor&& ex) const {
+    template <class Source, class Context>
+    auto run(Source&& source, const Context& context) const {
         return std::apply(
             [&](const Stages&... each) {
-                return detail::run_stages(std::forward<Source>(source), detail::untouched{}, ex, each...);
+                return detail::run_stages(std::forward<Source>(source), detail::untouched{}, context, each...);
             },
             stages);
     }
@@ -219,12 +300,13 @@ filter_chain<Stages...> make_chain(std::tuple<Stages...> stages) {
     return {std::move(stages)};
 }
 
-template <class Source, class F, class E>
-auto apply_to(Source&& source, const F& f, E& ex) {
+template <class Source, class F, class E, class Sink>
+auto apply_to(Source&& source, const F& f, E& ex, pixel_origin origin, Sink sink) {
+    const run_context<E, Sink> run{ex, origin, sink};
     if constexpr (is_chain<F>) {
-        return f.run(std::forward<Source>(source), ex);
+        return f.run(std::forward<Source>(source), run);
     } else {
-        return run_stages(std::forward<Source>(source), untouched{}, ex, f);
+        return run_stages(std::forward<Source>(source), untouched{}, run, f);
     }
 }
 
@@ -232,18 +314,37 @@ auto apply_to(Source&& source, const F& f, E& ex) {
 
 /// The filtered image, its rows shared out by the executor; the same bytes for any executor. An image that is moved in
 /// lends its memory to the result where the pixel type stays.
+///
+/// @param origin  where the image's first pixel lies in a larger one: parts that are filtered one by one get the noise
+///                of the whole. What measures an image measures the part.
 /// @throws whatever a stage says of its parameters, before the first pixel of its sweep
 template <class Pixel, filter_for<Pixel> F, executor_argument Executor = serial_executor>
-auto apply(const image<Pixel>& in, const F& f, Executor&& ex = serial_executor{}) {
-    return detail::apply_to(in, f, ex);
+auto apply(const image<Pixel>& in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
+    return detail::apply_to(in, f, ex, origin, detail::into_image{});
 }
 template <class Pixel, filter_for<Pixel> F, executor_argument Executor = serial_executor>
-auto apply(image<Pixel>&& in, const F& f, Executor&& ex = serial_executor{}) {
-    return detail::apply_to(std::move(in), f, ex);
+auto apply(image<Pixel>&& in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
+    return detail::apply_to(std::move(in), f, ex, origin, detail::into_image{});
 }
 template <class Pixel, filter_for<std::remove_const_t<Pixel>> F, executor_argument Executor = serial_executor>
-auto apply(image_view<Pixel> in, const F& f, Executor&& ex = serial_executor{}) {
-    return detail::apply_to(in, f, ex);
+auto apply(image_view<Pixel> in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
+    return detail::apply_to(in, f, ex, origin, detail::into_image{});
+}
+
+/// Filters into memory that is there already. `to` is all of `in` (no other part of it) or apart from it.
+/// @throws invalid_input if `to` isn't as large as the result; and as `apply`
+template <class Pixel, class To, filter_for<std::remove_const_t<Pixel>> F, executor_argument Executor = serial_executor>
+    requires(std::same_as<typename detail::filter_result<F, std::remove_const_t<Pixel>>::type, To>)
+void apply_into(image_view<Pixel> in, image_view<To> to, const F& f, Executor&& ex = serial_executor{},
+                pixel_origin origin = {}) {
+    detail::apply_to(in, f, ex, origin, detail::into_view<To>{to});
+}
+
+/// Filters where the pixels are.
+template <class Pixel, filter_for<Pixel> F, executor_argument Executor = serial_executor>
+    requires(std::same_as<typename detail::filter_result<F, Pixel>::type, Pixel>)
+void apply_in_place(image_view<Pixel> pixels, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
+    apply_into(pixels, pixels, f, ex, origin);
 }
 
 /// `image | filter`: the filtered image, on the calling thread.
@@ -259,6 +360,14 @@ template <class Pixel, filter_for<std::remove_const_t<Pixel>> F>
 auto operator|(image_view<Pixel> in, const F& f) {
     return apply(in, f);
 }
+
+// A filter of the library on pixels that it, or a stage of it, doesn't take: compilers show these lines.
+// clang-format off
+template <class Pixel, detail::library_filter F>
+void operator|(const image<Pixel>&, const F&) requires(!filter_for<F, Pixel>) = delete;
+template <class Pixel, detail::library_filter F>
+void operator|(image_view<Pixel>, const F&) requires(!filter_for<F, std::remove_const_t<Pixel>>) = delete;
+// clang-format on
 
 /// `filter | filter`: both in a row, for later. One of them must be a filter of the library or a chain.
 template <detail::stage F, detail::stage G>

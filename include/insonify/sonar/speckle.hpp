@@ -9,8 +9,9 @@
 // Transactions on Mathematical Software 26, 2000.
 #pragma once
 
+#include <insonify/core/correlation.hpp>
 #include <insonify/core/executor.hpp>
-#include <insonify/core/random.hpp>
+#include <insonify/core/gamma.hpp>
 #include <insonify/sonar/slant_range.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -72,42 +73,14 @@ class ping_noise {
     philox_key key_;
 };
 
-/// A gamma-distributed number of mean one.
-template <class Draw>
-double gamma_of_mean_one(double shape, const Draw& draw) {
-    // Shapes below one are those of one more, times a power of a uniform number.
-    const double d = (shape < 1 ? shape + 1 : shape) - 1.0 / 3, c = 1 / numeric::square_root(9 * d);
-    for (std::uint32_t trial = 0;; ++trial) {
-        const philox_counter words = draw(trial);
-        const double x = normal_pair(words[0], words[1])[0], u = uniform_open(words[2]);
-        const double root = 1 + c * x, v = root * root * root;
-        if (!(v > 0) || !(numeric::log(u) < 0.5 * x * x + d * (1 - v + numeric::log(v)))) continue;
-        return d * v / shape * (shape < 1 ? numeric::pow(uniform_open(words[3]), 1 / shape) : 1);
-    }
-}
-
-/// The taps of a Gaussian filter under which white noise keeps its variance, from the middle outwards.
-inline std::vector<float> correlation_taps(double length) {
-    const double deviation = length * 0.70710678118654752;
-    std::vector<double> taps{1};
-    double square = 1;
-    for (int i = 1; i <= 3 * deviation; ++i) {
-        taps.push_back(numeric::exp(-0.5 * i * i / (deviation * deviation)));
-        square += 2 * taps.back() * taps.back();
-    }
-    std::vector<float> result;
-    for (const double tap : taps) result.push_back(static_cast<float>(tap / numeric::square_root(square)));
-    return result;
-}
-
 /// A complex Gaussian field of unit power, by rows; real and imaginary parts take turns.
 class speckle_field {
   public:
     speckle_field(const ping_noise& noise, const seabed_speckle& s, int bins)
         : noise_(noise),
           bins_(static_cast<std::size_t>(bins)),
-          across_(correlation_taps(static_cast<double>(s.across_track))),
-          along_(correlation_taps(static_cast<double>(s.along_track))) {}
+          across_(intensity_taps(static_cast<double>(s.across_track))),
+          along_(intensity_taps(static_cast<double>(s.along_track))) {}
 
     /// The field of one look at so many pings in a row, the lowest number first.
     image<float> pings(std::int64_t first, int count, std::uint32_t look) const {

@@ -23,8 +23,9 @@ struct draw_kernel {
     draws& into;
     std::size_t count;
 
-    template <int N>
+    template <int Width>
     INSONIFY_INLINE void run() const {
+        constexpr int N = Width > 1 ? Width / 2 : 1;
         using words = lanes<std::uint64_t, N>;
         words step;
         count_up<std::uint64_t, N>(step);

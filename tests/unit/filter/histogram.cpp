@@ -1,5 +1,6 @@
 // Histograms, equalization and matching: closed cases, laws, and the published rules computed another way.
 #include <insonify/core/random.hpp>
+#include <insonify/core/thread_pool.hpp>
 #include <insonify/filter/convert.hpp>
 #include <insonify/filter/histogram.hpp>
 #include <insonify/filter/match.hpp>
@@ -253,4 +254,68 @@ TEST_CASE("equalization is histeq: a flat histogram of 64 levels") {
     CHECK((source | in::equalize{.levels = 2}) == (source | in::match_binned(in::histogram{{5, 5}})));
     CHECK((source | in::to_uint8 | in::equalize{}) == (source | in::equalize{} | in::to_uint8));
     CHECK_THROWS_AS((source | in::equalize{.levels = 1}), in::invalid_input);
+}
+
+TEST_CASE("codes of 16 bits: counted at 65536 levels, matched by exact ranks and by bins") {
+    in::image<std::uint16_t> all(256, 256);
+    for (std::size_t i = 0; i < all.size(); ++i) all.pixels()[i] = static_cast<std::uint16_t>(i);
+    CHECK(in::histogram_of(all, 65536).counts == std::vector<std::uint64_t>(65536, 1));
+    for (const int bins : {2, 3, 64, 255, 256, 1000}) {
+        CHECK(in::histogram_of(all, bins).total() == 65536);
+        CHECK(in::histogram_of(all, bins).counts == in::histogram_of(all | in::to_float, bins).counts);
+    }
+    CHECK((all | in::match_histogram(all)) == all);
+
+    const auto source = random_image(70, 50, 14, 1, 1 << 14) | in::to_uint16;
+    const auto reference = random_image(60, 40, 15, 2, 1 << 14);
+    const in::match_histogram match(reference);
+    CHECK((source | match) == (source | in::to_float | match | in::to_uint16));
+    CHECK((source | in::match_histogram(reference | in::to_uint16)).size() == source.size());
+    const auto binned = source | in::match_binned(reference, 128);
+    CHECK(in::distribution_of(binned).values.size() <= 128);
+    CHECK(is_monotone(source | in::to_float, binned | in::to_float));
+    // histeq takes 65536 source levels for uint16.
+    const auto map = histeq_rule(in::histogram_of(source, 65536).counts, in::histogram_of(reference, 128).counts);
+    for (std::size_t i = 0; i < source.size(); ++i)
+        REQUIRE(binned.pixels()[i] == static_cast<std::uint16_t>(65535 * map[source.pixels()[i]] + 0.5));
+}
+
+TEST_CASE("histograms of parts add up, on any executor") {
+    const auto source = random_image(300, 401, 16, 2, 999);
+    for (const int bins : {64, 256, 65536}) {
+        in::histogram sum = in::histogram_of(source.view().part(0, 0, 300, 100), bins);
+        sum += in::histogram_of(source.view().part(0, 100, 150, 301), bins);
+        sum += in::histogram_of(source.view().part(150, 100, 150, 301), bins);
+        CHECK(sum == in::histogram_of(source, bins));
+        in::thread_pool pool(3);
+        CHECK(in::histogram_of(source, bins, pool) == sum);
+        CHECK((source | in::match_binned(sum)) == (source | in::match_binned(source, bins)));
+    }
+    in::histogram other = in::histogram_of(source, 8);
+    CHECK_THROWS_AS(other += in::histogram_of(source, 9), in::invalid_input);
+
+    const in::match_binned look(source);
+    in::thread_pool pool(3);
+    const auto codes = source | in::to_uint8;
+    CHECK(apply(codes, look, pool) == (codes | look));
+    CHECK(apply(source, in::equalize{}, pool) == (source | in::equalize{}));
+}
+
+TEST_CASE("bins and equalization of images without contrast, without pixels and without numbers") {
+    const in::image<float> flat(5, 5, 0.4f), reference = random_image(30, 30, 17, 1, 255);
+    CHECK(in::distribution_of(flat | in::match_binned(reference)).values.size() == 1);
+    // histeq: the level at which half of the reference's pixels are reached.
+    CHECK((flat | in::match_binned(in::histogram{{1, 1, 1, 1, 1}})) == in::image<float>(5, 5, 0.5f));
+    CHECK((flat | in::equalize{.levels = 5}) == in::image<float>(5, 5, 0.5f));
+    CHECK((in::image<float>(5, 5, 0.0f) | in::equalize{.levels = 5}) == in::image<float>(5, 5, 1.0f));
+    CHECK((reference | in::match_binned(flat, 6)) == in::image<float>(30, 30, 0.4f));
+    CHECK((in::image<float>() | in::equalize{}).empty());
+    const in::image<float> none(2, 2, not_a_number);
+    CHECK(std::isnan((none | in::equalize{})(1, 1)));
+    CHECK(std::isnan((none | in::match_binned(reference))(0, 1)));
+    CHECK(in::histogram_of(none).total() == 0);
+    in::image<float> holes = reference;
+    for (int i = 0; i < 30; ++i) holes(i, i) = not_a_number;
+    CHECK(in::histogram_of(holes, 256).total() == 870);
+    CHECK(in::histogram_of(holes, 77).total() == 870);
 }

@@ -2,6 +2,7 @@
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/filter/colormap.hpp>
 #include <insonify/filter/convert.hpp>
+#include <insonify/filter/echo_noise.hpp>
 #include <insonify/filter/gray.hpp>
 #include <insonify/filter/match.hpp>
 #include <insonify/filter/noise.hpp>
@@ -139,8 +140,9 @@ TEST_CASE("only filters of the library compose with whatever is callable, and on
     STATIC_REQUIRE_FALSE(in::detail::stage<in::image<float>>);
     STATIC_REQUIRE_FALSE(in::detail::stage<int>);
     STATIC_REQUIRE(in::filter_for<in::speckle, float>);
-    STATIC_REQUIRE_FALSE(in::filter_for<in::speckle, std::uint8_t>);
+    STATIC_REQUIRE_FALSE(in::filter_for<in::speckle, std::int8_t>);
     STATIC_REQUIRE_FALSE(in::filter_for<in::speckle, double>);
+    STATIC_REQUIRE_FALSE(in::filter_for<in::speckle, in::rgb<double>>);
     STATIC_REQUIRE_FALSE(in::filter_for<decltype([](float v) { return v > 0; }), float>);
     STATIC_REQUIRE_FALSE(in::filter_for<in::to_gray, float>);
     STATIC_REQUIRE_FALSE(in::filter_for<in::match_histogram, in::rgb8>);

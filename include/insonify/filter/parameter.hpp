@@ -1,0 +1,97 @@
+// A parameter of a filter: one number, a number for each pixel, or a number for each type of seabed.
+#pragma once
+
+#include <insonify/core/image_view.hpp>
+#include <insonify/filter/concept.hpp>
+
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+/// @throws invalid_input for a map of another size than the area
+inline void check_size(const std::string& name, int width, int height, const pixel_area& area) {
+    require(width == area.width, "width of the map for " + name, width, "that of the image");
+    require(height == area.height, "height of the map for " + name, height, "that of the image");
+}
+
+}  // namespace detail
+
+/// One number for all pixels, or a map of them that is as large as the image. Views are looked at when the filter runs,
+/// and not kept alive.
+///
+///     in::speckle{.variance = 0.05f}
+///     in::speckle{.variance = variances.view()}
+///     in::speckle{.variance = {labels.seabed, {0.02f, 0.05f, 0.05f, 0.1f}}}   // by seabed::type
+class parameter {
+  public:
+    template <std::convertible_to<float> Number>
+        requires(std::is_arithmetic_v<Number>)
+    parameter(Number value) : values_{static_cast<float>(value)} {}
+
+    /// A number for each pixel.
+    parameter(image_view<const float> map) : map_(map) {}
+    parameter(image_view<float> map) : map_(map) {}
+
+    /// `values[type]` for a pixel of that type, the last of them for types beyond.
+    /// @throws invalid_input for no values
+    parameter(image_view<const std::uint8_t> types, std::vector<float> values)
+        : values_(std::move(values)), types_(types), by_type_(true) {
+        detail::require(!values_.empty(), "values of a parameter by type", values_.size(), "at least 1");
+    }
+
+    bool is_constant() const { return !by_type_ && !values_.empty(); }
+
+    /// The number of all pixels. @pre is_constant()
+    float value() const { return values_.front(); }
+
+    /// Where the pixels that it is asked for lie.
+    /// @throws invalid_input for a map of another size
+    void place(const std::string& name, const pixel_area& area) {
+        x_ = area.x, y_ = area.y;
+        if (by_type_) {
+            detail::check_size(name, types_.width(), types_.height(), area);
+        } else if (!is_constant()) {
+            detail::check_size(name, map_.width(), map_.height(), area);
+        }
+    }
+
+    /// The numbers of `count` pixels of a row from (x, y) on, into `buffer`.
+    void row(float* buffer, int count, int x, int y) const {
+        if (by_type_) {
+            const std::uint8_t* const type = types_.row(y - y_).data() + (x - x_);
+            for (int i = 0; i < count; ++i) buffer[i] = values_[(std::min)(std::size_t{type[i]}, values_.size() - 1)];
+        } else if (values_.empty()) {
+            std::copy_n(map_.row(y - y_).data() + (x - x_), count, buffer);
+        } else {
+            std::fill_n(buffer, count, values_.front());
+        }
+    }
+
+    /// @throws invalid_input for a number that isn't `allowed`
+    template <std::predicate<float> Allowed>
+    void check(std::string_view name, const Allowed& allowed, std::string_view expected) const {
+        for (const float value : values_) detail::require(allowed(value), name, value, expected);
+        for (int y = 0; y < map_.height(); ++y)
+            for (const float value : map_.row(y)) detail::require(allowed(value), name, value, expected);
+    }
+
+  private:
+    std::vector<float> values_;  // one for all, or one for each type
+    image_view<const float> map_;
+    image_view<const std::uint8_t> types_;
+    bool by_type_ = false;
+    int x_ = 0, y_ = 0;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,114 @@
+// A filter for some of the pixels: `image | where(labels.shadow, match)` measures and changes these and no others.
+#pragma once
+
+#include <insonify/filter/parameter.hpp>
+#include <insonify/filter/pipe.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+/// A pass for the pixels of a mask that are not 0; the others stay.
+template <class Pass>
+class masked_pass {
+  public:
+    masked_pass(Pass pass, image_view<const std::uint8_t> mask) : pass_(std::move(pass)), mask_(mask) {}
+
+    template <class Pixel>
+    Pixel operator()(const Pixel& pixel, int x, int y) {
+        return mask_(x - x_, y - y_) != 0 ? call_pixel(pass_, pixel, x, y) : pixel;
+    }
+    template <class Pixel>
+    void row(const Pixel* from, Pixel* to, int count, int x, int y) {
+        Pixel changed[run_length];
+        call_row(pass_, from, changed, count, x, y);
+        const std::uint8_t* const chosen = mask_.row(y - y_).data() + (x - x_);
+        for (int i = 0; i < count; ++i) to[i] = chosen[i] != 0 ? changed[i] : from[i];
+    }
+    void place(const pixel_area& area) {
+        check_size("where", mask_.width(), mask_.height(), area);
+        x_ = area.x, y_ = area.y;
+        place_pass(pass_, area);
+    }
+
+  private:
+    Pass pass_;
+    image_view<const std::uint8_t> mask_;
+    int x_ = 0, y_ = 0;
+};
+
+}  // namespace detail
+
+/// The pixels where the mask isn't 0, in one row: what `histogram_of`, `distribution_of` and the filters that match
+/// take for a reference, if only a part of a picture is one.
+/// @throws invalid_input for a mask of another size
+template <class Pixel>
+image<Pixel> pixels_where(image_view<const std::uint8_t> mask, image_view<const Pixel> source) {
+    detail::check_size("pixels_where", mask.width(), mask.height(), {0, 0, source.width(), source.height()});
+    int count = 0;
+    for (int y = 0; y < mask.height(); ++y)
+        for (const std::uint8_t chosen : mask.row(y)) count += chosen != 0 ? 1 : 0;
+    image<Pixel> result(count, count > 0 ? 1 : 0);
+    Pixel* next = result.pixels().data();
+    for (int y = 0; y < mask.height(); ++y)
+        for (int x = 0; x < mask.width(); ++x)
+            if (mask(x, y) != 0) *next++ = source(x, y);
+    return result;
+}
+template <class Pixel>
+image<Pixel> pixels_where(image_view<const std::uint8_t> mask, const image<Pixel>& source) {
+    return pixels_where(mask, source.view());
+}
+
+/// Made by `where(mask, filter)`.
+template <class F>
+struct where_filter {
+    image_view<const std::uint8_t> mask;
+    F filter;
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a mask of another size, and as the filter
+    template <class Pixel>
+        requires(measured_filter<F, Pixel>&& std::same_as<typename detail::filter_result<F, Pixel>::type, Pixel>)
+    auto pass(image_view<const Pixel> source) const {
+        const image<Pixel> chosen = pixels_where(mask, source);
+        auto inner = filter.pass(chosen.view());
+        return detail::masked_pass<decltype(inner)>(std::move(inner), mask);
+    }
+    template <class Pixel>
+        requires(pixel_filter<F, Pixel> && !measured_filter<F, Pixel> &&
+                 std::same_as<typename detail::filter_result<F, Pixel>::type, Pixel>)
+    auto pass(image_view<const Pixel> source) const {
+        const serial_executor ex;
+        auto inner = detail::make_pass(filter, source, ex);
+        return detail::masked_pass<decltype(inner)>(std::move(inner), mask);
+    }
+};
+
+/// Does to the pixels where `mask` isn't 0 what a filter does, and leaves the others alone. A filter that measures
+/// measures these alone. Nothing changes where the mask chooses nothing.
+///
+///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
+///
+/// @param mask  as large as the image; not kept alive
+template <class F>
+    requires(!detail::is_chain<std::decay_t<F>>)
+where_filter<std::decay_t<F>> where(image_view<const std::uint8_t> mask, F&& filter) {
+    return {mask, std::forward<F>(filter)};
+}
+/// Does so stage by stage.
+template <class... Stages>
+filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask, const filter_chain<Stages...>& chain) {
+    return std::apply(
+        [&](const Stages&... stages) {
+            return filter_chain<where_filter<Stages>...>{{{mask, stages}...}};
+        },
+        chain.stages);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,15 @@
+// A function that changes the pixel that it is given and returns nothing is no filter.
+// expect: filter_for
+#include <insonify/filter/noise.hpp>
+#include <insonify/filter/pipe.hpp>
+
+namespace in = insonify;
+
+int main() {
+    const in::image<float> frame(4, 4);
+#if defined(INSONIFY_COMPILE_FAIL)
+    return (frame | [](float& v) { v *= 2; }).empty();
+#else
+    return (frame | [](float v) { return v * 2; }).empty();
+#endif
+}

@@ -1,0 +1,128 @@
+// Draws in lanes of floats: the draws of random.hpp to their rounding, the same at every instruction set.
+#include <insonify/core/draw_lanes.hpp>
+#include <insonify/core/random.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+using namespace insonify::detail;
+
+namespace {
+
+constexpr std::uint32_t first_block = 0xFFFFFFF0u;  // whose counters pass 2^32
+
+/// What blocks `first_block` and on make, in the order of their words.
+struct draws {
+    std::vector<float> normals, symmetric, units, logarithms;
+};
+struct draw_kernel_of_all {
+    draws& into;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        for (std::size_t i = 0; i < into.normals.size(); i += 4 * N) {
+            const std::uint32_t counter[4] = {first_block + static_cast<std::uint32_t>(i / 4), 5, 6, 7};
+            lanes<std::uint32_t, N> word[4];
+            philox_words<N>(word, counter, 0x12345678u, 0x9ABCDEF0u);
+            lanes<float, N> draw[4];
+            normal_lanes<N>(draw[0], draw[1], word[0], word[1]);
+            normal_lanes<N>(draw[2], draw[3], word[2], word[3]);
+            store_draws<N>(&into.normals[i], draw);
+            for (int k = 0; k < 4; ++k) symmetric_lanes<N>(draw[k], word[k]);
+            store_draws<N>(&into.symmetric[i], draw);
+            for (int k = 0; k < 4; ++k) unit_lanes<N>(draw[k], word[k]);
+            store_draws<N>(&into.units[i], draw);
+            for (int k = 0; k < 4; ++k) log_uniform_lanes<N>(draw[k], word[k]);
+            store_draws<N>(&into.logarithms[i], draw);
+        }
+    }
+};
+
+draws make(std::size_t count, in::isa level) {
+    draws result{std::vector<float>(count), std::vector<float>(count), std::vector<float>(count),
+                 std::vector<float>(count)};
+    in::detail::dispatch(draw_kernel_of_all{result}, level);
+    return result;
+}
+
+float log_of_word(std::uint32_t word) {
+    float result;
+    log_uniform_lanes<1>(result, word);
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("Draws in lanes are those of their words, block after block, to a float's rounding") {
+    constexpr std::size_t count = 1 << 18;
+    const draws found = make(count, in::isa::scalar);
+    double normal = 0, symmetric = 0, unit = 0, logarithm = 0;
+    for (std::size_t i = 0; i < count; i += 4) {
+        const auto words =
+            in::philox4x32({first_block + static_cast<std::uint32_t>(i / 4), 5, 6, 7}, {0x12345678u, 0x9ABCDEF0u});
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double u = in::uniform_open(words[k]);
+            const double z = in::normal_pair(words[k & 2], words[(k & 2) + 1])[k & 1];
+            normal = std::fmax(normal, std::abs(z - static_cast<double>(found.normals[i + k])));
+            symmetric = std::fmax(symmetric, std::abs(2 * u - 1 - static_cast<double>(found.symmetric[i + k])));
+            unit = std::fmax(unit, std::abs(u - static_cast<double>(found.units[i + k])) / u);
+            logarithm = std::fmax(logarithm,
+                                  std::abs(std::log(u) - static_cast<double>(found.logarithms[i + k])) / -std::log(u));
+        }
+    }
+    CHECK(normal < 6e-7);
+    CHECK(symmetric < 6e-8);
+    CHECK(unit < 1e-4);  // of the smallest of them: 31 bits
+    CHECK(logarithm < 3e-7);
+}
+
+TEST_CASE("Draws in lanes have the same bits at every instruction set") {
+    const draws scalar = make(1 << 12, in::isa::scalar);
+    for (const in::isa level : {in::isa::baseline, in::isa::avx2}) {
+        const draws wide = make(1 << 12, level);
+        CHECK(wide.normals == scalar.normals);
+        CHECK(wide.symmetric == scalar.symmetric);
+        CHECK(wide.units == scalar.units);
+        CHECK(wide.logarithms == scalar.logarithms);
+    }
+}
+
+TEST_CASE("The logarithm of a word is exact at both ends") {
+    for (const std::uint32_t word :
+         {0u, 1u, 2u, 77u, 0x7FFFFFFFu, 0x80000000u, 0xB504F333u, 0xFFFFFF00u, 0xFFFFFFFFu}) {
+        const double exact = std::log1p(-(static_cast<double>(~word) + 0.5) * 0x1p-32);
+        CHECK(static_cast<double>(log_of_word(word)) == Approx(exact).epsilon(3e-7));
+    }
+}
+
+TEST_CASE("The circle is round to 1.2e-7, at the quarters and their halves too") {
+    double worst = 0;
+    for (std::uint64_t word = 0; word <= 0xFFFFFFFFu; word += 0x3FFFD) {
+        float cosine, sine;
+        circle_lanes<1>(cosine, sine, static_cast<std::uint32_t>(word));
+        const auto [exact_sine, exact_cosine] = in::numeric::sin_cos_turns(static_cast<double>(word) * 0x1p-32);
+        worst = std::fmax(worst, std::fmax(std::abs(static_cast<double>(cosine) - exact_cosine),
+                                           std::abs(static_cast<double>(sine) - exact_sine)));
+    }
+    CHECK(worst < 1.2e-7);
+}
+
+TEST_CASE("Exponentials and floors in lanes") {
+    for (double x = -690; x < 690; x += 0.37) {
+        double found;
+        exp_lanes<1>(found, x);
+        CHECK(found == Approx(std::exp(x)).epsilon(1e-15));
+        floor_lanes<1>(found, x);
+        CHECK(found == std::floor(x));
+    }
+    for (const double x : {-3.0, -0.5, 0.0, 7.0, 1e9 + 0.5}) {
+        double found;
+        floor_lanes<1>(found, x);
+        CHECK(found == std::floor(x));
+    }
+}

@@ -1,0 +1,213 @@
+// Rayleigh, looks, K and Rician noise against their distributions, in closed form or by their moments.
+#include <insonify/filter/echo_noise.hpp>
+#include <insonify/filter/noise.hpp>
+#include <insonify/filter/pipe.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+
+namespace {
+
+constexpr int side = 512;
+constexpr float level = 0.02f;  // far from saturation
+
+struct moments {
+    double mean, index;  // variance / mean^2
+};
+moments of(const in::image<float>& picture) {
+    double sum = 0, squares = 0;
+    for (const float v : picture.pixels()) {
+        sum += static_cast<double>(v);
+        squares += static_cast<double>(v) * static_cast<double>(v);
+    }
+    const double mean = sum / static_cast<double>(picture.size());
+    return {mean, squares / static_cast<double>(picture.size()) / (mean * mean) - 1};
+}
+
+template <class Noise>
+in::image<float> noisy(const Noise& noise, float value = level) {
+    return in::image<float>(side, side, value) | noise;
+}
+
+/// Kolmogorov and Smirnov's distance of pixel / level to a law.
+template <class Cdf>
+double distance(const in::image<float>& picture, Cdf cdf) {
+    std::vector<float> sorted(picture.pixels().begin(), picture.pixels().end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto n = static_cast<double>(sorted.size());
+    double result = 0;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const double p = cdf(static_cast<double>(sorted[i]) / static_cast<double>(level));
+        result = std::fmax(result, std::fmax(p - static_cast<double>(i) / n, static_cast<double>(i + 1) / n - p));
+    }
+    return result;
+}
+
+double correlation(const in::image<float>& a, const in::image<float>& b, int dx = 0, int dy = 0) {
+    const moments ma = of(a), mb = of(b);
+    double sum = 0;
+    for (int y = 0; y + dy < a.height(); ++y)
+        for (int x = 0; x + dx < a.width(); ++x)
+            sum += (static_cast<double>(a(x, y)) - ma.mean) * (static_cast<double>(b(x + dx, y + dy)) - mb.mean);
+    return sum / ((a.width() - dx) * (a.height() - dy)) /
+           (ma.mean * std::sqrt(ma.index) * mb.mean * std::sqrt(mb.index));
+}
+
+/// Gamma(looks = 3, mean 1) up to x.
+double three_looks(double x) {
+    const double t = 3 * x;
+    return 1 - std::exp(-t) * (1 + t + t * t / 2);
+}
+
+constexpr double limit = 1.95 / side;  // passed once in a thousand
+
+}  // namespace
+
+TEST_CASE("Intensities follow their laws") {
+    CHECK(distance(noisy(in::rayleigh{.of = in::echo::intensity, .seed = 1}),
+                   [](double x) { return 1 - std::exp(-x); }) < limit);
+    CHECK(distance(noisy(in::gamma_speckle{.looks = 3, .of = in::echo::intensity, .seed = 2}), three_looks) < limit);
+    // Chi-square of one degree.
+    CHECK(distance(noisy(in::gamma_speckle{.looks = 0.5f, .of = in::echo::intensity, .seed = 3}, level),
+                   [](double x) { return std::erf(std::sqrt(x / 2)); }) < limit);
+    // K of shape 1/2: P(I > t) = exp(-sqrt(2 t)), from the integral of exp(-t / tau) over chi-square textures.
+    CHECK(distance(
+              noisy(in::k_speckle{.shape = 0.5f, .of = in::echo::intensity, .seed = 4}, level / 4) |
+                  [](float v) { return 4 * v; },
+              [](double x) { return 1 - std::exp(-std::sqrt(2 * x)); }) < limit);
+    CHECK(distance(noisy(in::rician{.steady = 0, .of = in::echo::intensity, .seed = 5}),
+                   [](double x) { return 1 - std::exp(-x); }) < limit);
+}
+
+TEST_CASE("Amplitudes follow their laws, with the mean of the image") {
+    CHECK(distance(noisy(in::rayleigh{.seed = 1}),
+                   [](double x) { return 1 - std::exp(-x * x * in::numeric::pi / 4); }) < limit);
+    const double mean_root = in::detail::mean_root_of_gamma(3);
+    CHECK(distance(noisy(in::gamma_speckle{.looks = 3, .seed = 2}),
+                   [&](double x) { return three_looks(x * x * mean_root * mean_root); }) < limit);
+    for (const auto& picture : {noisy(in::rayleigh{}), noisy(in::gamma_speckle{}), noisy(in::k_speckle{}),
+                                noisy(in::rician{}), noisy(in::rician{.steady = 20})}) {
+        const moments m = of(picture);
+        CHECK(std::abs(m.mean / static_cast<double>(level) - 1) < 4 * std::sqrt(m.index) / side);
+    }
+}
+
+TEST_CASE("Scintillation indices are those of the literature") {
+    const auto index = [](const auto& noise) { return of(noisy(noise)).index; };
+    using enum in::echo;
+    CHECK(index(in::rayleigh{.of = intensity}) == Approx(1).epsilon(0.02));
+    for (const float looks : {0.5f, 1.0f, 1.3f, 2.2f, 4.0f, 64.0f, 1e4f})
+        CHECK(index(in::gamma_speckle{.looks = looks, .of = intensity}) ==
+              Approx(1 / static_cast<double>(looks)).epsilon(0.04));
+    for (const float shape : {1.0f, 4.0f, 20.0f, 1e6f})
+        CHECK(index(in::k_speckle{.shape = shape, .of = intensity}) ==
+              Approx(1 + 2 / static_cast<double>(shape)).epsilon(0.06));
+    for (const float steady : {0.0f, 0.5f, 1.0f, 10.0f, 1e4f}) {
+        const auto s = static_cast<double>(steady);
+        CHECK(index(in::rician{.steady = steady, .of = intensity}) ==
+              Approx((1 + 2 * s) / ((1 + s) * (1 + s))).epsilon(0.02));
+    }
+    CHECK(std::sqrt(index(in::rayleigh{})) == Approx(0.5227).epsilon(0.005));
+}
+
+TEST_CASE("Mean amplitudes: closed forms, and both sides of where a series takes over") {
+    using in::detail::mean_of_rice;
+    using in::detail::mean_root_of_gamma;
+    for (const double shape : {0.01, 0.5, 1.0, 3.3, 19.99, 20.01, 500.0}) {
+        const double exact = std::exp(std::lgamma(shape + 0.5) - std::lgamma(shape)) / std::sqrt(shape);
+        CHECK(mean_root_of_gamma(shape) == Approx(exact).epsilon(1e-10));
+    }
+    CHECK(mean_of_rice(0) == Approx(std::sqrt(in::numeric::pi) / 2).epsilon(1e-14));
+    CHECK(mean_of_rice(299.999) == Approx(mean_of_rice(300.001)).epsilon(1e-8));
+    CHECK(mean_of_rice(1e6) == Approx(1).epsilon(1e-6));
+}
+
+TEST_CASE("Correlated echoes keep their law, and their intensities fall to 1 / e where they should") {
+    const auto check = [](const auto& noise, double index) {
+        const auto picture = noisy(noise);
+        CHECK(of(picture).mean == Approx(static_cast<double>(level)).epsilon(0.02));
+        CHECK(of(picture).index == Approx(index).epsilon(0.06));
+        CHECK(correlation(picture, picture, 3, 0) == Approx(std::exp(-1)).margin(0.04));
+        CHECK(correlation(picture, picture, 0, 2) == Approx(std::exp(-1)).margin(0.04));
+        CHECK(correlation(picture, picture, 12, 0) == Approx(0).margin(0.03));
+    };
+    const in::correlation_length length{3, 2};
+    using enum in::echo;
+    check(in::rayleigh{.of = intensity, .correlation = length}, 1);
+    check(in::gamma_speckle{.looks = 2, .of = intensity, .correlation = length}, 0.5);
+    const auto steady = noisy(in::rician{.steady = 1, .of = intensity, .correlation = length});
+    CHECK(of(steady).index == Approx(0.75).epsilon(0.06));
+    const auto rough = noisy(in::k_speckle{.shape = 4, .of = intensity, .correlation = length});
+    CHECK(of(rough).index == Approx(1.5).epsilon(0.08));
+    CHECK(correlation(rough, rough, 1, 0) > 0.2);
+}
+
+TEST_CASE("Correlated gaussian noise: its variance, and 1 / e at its length") {
+    const auto picture = noisy(in::gaussian{.variance = 0.0025f, .correlation = {4, 0}}, 0.5f);
+    CHECK(of(picture).mean == Approx(0.5).epsilon(0.002));
+    CHECK(of(picture).index == Approx(0.01).epsilon(0.03));
+    CHECK(correlation(picture, picture, 4, 0) == Approx(std::exp(-1)).margin(0.03));
+    CHECK(correlation(picture, picture, 0, 1) == Approx(0).margin(0.01));
+    const auto grain = noisy(in::gaussian_speckle{.variance = 0.01f, .correlation = {2, 4}}, 0.5f);
+    CHECK(of(grain).index == Approx(0.01).epsilon(0.03));
+    CHECK(correlation(grain, grain, 0, 4) == Approx(std::exp(-1)).margin(0.04));
+}
+
+TEMPLATE_TEST_CASE("Echo noise is independent of its neighbours, of other frames, of other seeds and of its kin", "",
+                   in::rayleigh, in::gamma_speckle, in::k_speckle, in::rician) {
+    const auto base = noisy(TestType{.seed = 1});
+    const double most = 4.5 / side;
+    CHECK(std::abs(correlation(base, base, 1, 0)) < most);
+    CHECK(std::abs(correlation(base, base, 0, 1)) < most);
+    CHECK(std::abs(correlation(base, base, 4, 0)) < most);
+    CHECK(std::abs(correlation(base, noisy(TestType{.seed = 2}))) < most);
+    CHECK(std::abs(correlation(base, noisy(TestType{.seed = 1, .frame = 1}))) < most);
+    if constexpr (!std::same_as<TestType, in::gamma_speckle>)
+        CHECK(std::abs(correlation(base, noisy(in::gamma_speckle{.seed = 1}))) < most);
+    CHECK(noisy(TestType{.seed = 1}) == base);
+}
+
+TEST_CASE("Shapes by pixel and by type of seabed") {
+    in::image<std::uint8_t> types(side, side);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) types(x, y) = x < side / 2 ? 0 : 1;
+    const auto picture = noisy(in::gamma_speckle{.looks = {types, {1, 16}}, .of = in::echo::intensity});
+    const auto half = [&](int x) { return of(in::image<float>(picture.view().part(x, 0, side / 2, side))).index; };
+    CHECK(half(0) == Approx(1).epsilon(0.04));
+    CHECK(half(side / 2) == Approx(1.0 / 16).epsilon(0.04));
+    // By a map of the same numbers, the same noise.
+    const auto looks = types | [](std::uint8_t t) { return t == 0 ? 1.0f : 16.0f; };
+    CHECK(noisy(in::gamma_speckle{.looks = looks.view(), .of = in::echo::intensity}) == picture);
+}
+
+TEST_CASE("Shapes that can't be are refused") {
+    const in::image<float> source(4, 4, 0.1f);
+    for (const float bad : {0.0f, -1.0f, std::nanf(""), std::numeric_limits<float>::infinity(), 2e6f}) {
+        CHECK_THROWS_AS((source | in::gamma_speckle{.looks = bad}), in::invalid_input);
+        CHECK_THROWS_AS((source | in::k_speckle{.shape = bad}), in::invalid_input);
+        CHECK_THROWS_AS((source | in::k_speckle{.looks = bad}), in::invalid_input);
+        if (bad != 0) CHECK_THROWS_AS((source | in::rician{.steady = bad}), in::invalid_input);
+    }
+    CHECK_THROWS_AS((source | in::gamma_speckle{.looks = 1.5f, .correlation = {1, 1}}), in::invalid_input);
+    CHECK_THROWS_AS((source | in::rayleigh{.correlation = {17, 0}}), in::invalid_input);
+    CHECK_THROWS_AS((source | in::rayleigh{.correlation = {0, -1}}), in::invalid_input);
+    const in::image<float> map(3, 4, 1.0f);
+    CHECK_THROWS_WITH((source | in::k_speckle{.shape = map.view()}), ContainsSubstring("map for k_speckle.shape is 3"));
+}
+
+TEST_CASE("Extreme shapes make finite pixels") {
+    for (const float shape : {0.01f, 1e6f}) {
+        for (const auto& picture : {noisy(in::gamma_speckle{.looks = shape}), noisy(in::k_speckle{.shape = shape}),
+                                    noisy(in::rician{.steady = shape})}) {
+            CHECK(std::all_of(picture.pixels().begin(), picture.pixels().end(),
+                              [](float v) { return v >= 0 && v <= 1; }));
+        }
+    }
+    CHECK(std::isnan((in::image<float>{{std::nanf("")}} | in::k_speckle{})(0, 0)));
+    CHECK((in::image<float>{{0, -3}} | in::rayleigh{}) == in::image<float>{{0, 0}});
+}
