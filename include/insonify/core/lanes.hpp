@@ -150,6 +150,7 @@ INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
     // Four lanes of eight lie side by side with the other four and go the same way.
     using floats = lanes<float, N>;
     floats row[4], pair[4];
+#pragma GCC unroll 4
     for (int k = 0; k < 4; ++k) {
         if constexpr (N == 4) {
             load(row[k], rows(k));
@@ -161,6 +162,7 @@ INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
             row[k] = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
         }
     }
+#pragma GCC unroll 2
     for (int k = 0; k < 4; k += 2)
         if constexpr (N == 4) {
             pair[k] = __builtin_shufflevector(row[k], row[k + 1], 0, 4, 1, 5);
@@ -169,6 +171,7 @@ INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
             pair[k] = __builtin_shufflevector(row[k], row[k + 1], 0, 8, 1, 9, 4, 12, 5, 13);
             pair[k + 1] = __builtin_shufflevector(row[k], row[k + 1], 2, 10, 3, 11, 6, 14, 7, 15);
         }
+#pragma GCC unroll 2
     for (int k = 0; k < 2; ++k)
         if constexpr (N == 4) {
             into[2 * k] = __builtin_shufflevector(pair[k], pair[k + 2], 0, 1, 4, 5);
