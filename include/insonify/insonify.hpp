@@ -71,6 +71,7 @@
 #include <insonify/seabed/ripples.hpp>
 #include <insonify/seabed/rock.hpp>
 #include <insonify/seabed/sample.hpp>
+#include <insonify/seabed/sediment.hpp>
 #include <insonify/seabed/strewn.hpp>
 #include <insonify/seabed/tessellate.hpp>
 #include <insonify/seabed/trawls.hpp>
