@@ -35,14 +35,12 @@ enum class stream : std::uint32_t {
     ripples,
     mud,
     mounds,
-    ridges,
+    outcrops,
     blocks,
-    stones,
     rubble,
     mask,
     second_ripples,
     trawls,
-    texture,
 };
 
 constexpr std::uint64_t scramble(std::uint64_t z) {

@@ -1,4 +1,4 @@
-// Rock: outcrops that stand out of the bottom in ridges, broken into blocks, boulders and rubble.
+// Rock: outcrops that step up from the bottom, broken into blocks, boulders and rubble.
 #pragma once
 
 #include <insonify/seabed/blocks.hpp>
@@ -20,8 +20,8 @@ class rock_sampler;
 /// Blocks come in sizes that halve from one class to the next. Above a size there are N of them per square metre,
 /// N ~ size^-sizes, and each is as high as its size allows.
 struct rock {
-    float relief = 0.5f;     ///< metres, >= 0: about the height of ridges with their blocks
-    float outcrop = 6.0f;    ///< metres, > 0: from ridge to ridge
+    float relief = 0.5f;     ///< metres, >= 0: about the height of outcrops with their blocks
+    float outcrop = 6.0f;    ///< metres, > 0: from outcrop to outcrop
     float block = 1.4f;      ///< metres, > 0: spacing of the largest blocks, which are 0.6 to 1.8 of it wide
     float smallest = 0.3f;   ///< metres, in (0, block]: spacing of the smallest
     float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; 2 covers as much by each class
@@ -50,7 +50,7 @@ class rock_sampler {
         detail::require(r.steepness > 0 && r.steepness < 1e6f, "rock.steepness", r.steepness, "a slope above 0");
         double cell = static_cast<double>(r.outcrop) / 2;
         for (std::uint32_t k = 0; k < 3; ++k, cell /= 2) {
-            ridges_.push_back(gradient_noise(cell, {r.seed, detail::stream::ridges, k}));
+            outcrops_.push_back(gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
         }
         // A class of blocks half as large has 2^sizes times as many of them, on four times as many places.
         const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
@@ -95,37 +95,26 @@ class rock_sampler {
         using lanes = insonify::detail::lanes<float, N>;
         using insonify::detail::load;
         using insonify::detail::store;
-        // Ridged octaves: creases of the noise become crests, and where one is low the finer are lower still.
-        // F. Kenton Musgrave, in: David S. Ebert and others. Texturing and Modeling: A Procedural Approach. 3rd
-        // edition, 2003 (ridged multifractal).
-        detail::stretch_values weights, noise;
-        weights.fill(0.35f * relief_);
-        for (const gradient_noise& octave : ridges_) {
-            noise.fill(0);
-            octave.template add<N>(part, 1, noise.data());
-            for (std::size_t i = 0; i < part.whole(); i += N) {
-                lanes n, weight, height;
-                load(n, &noise[i]);
-                load(weight, &weights[i]);
-                load(height, heights + i);
-                lanes crest = 1.0f - 0.8f * (n < 0.0f ? -n : n);
-                detail::clamp01(crest);
-                weight = weight * (crest * crest);
-                height = height + weight;
-                store(heights + i, height);
-                weight = weight * 0.7f;
-                store(&weights[i], weight);
-            }
+        // Where a noise exceeds a level, the bottom steps up to an outcrop's top, over faces as steep as a bank.
+        detail::stretch_values weights{}, tops;
+        float amplitude = 1;
+        for (const gradient_noise& octave : outcrops_) {
+            octave.template add<N>(part, amplitude, weights.data());
+            amplitude *= 0.5f;
         }
-        // Blocks stand on the ridges and thin out between them, where sediment has buried them.
         for (std::size_t i = 0; i < part.whole(); i += N) {
-            lanes weight;
-            load(weight, heights + i);
-            weight = 0.35f + (2.5f / relief_) * weight;
-            detail::clamp01(weight);
-            store(&weights[i], weight);
+            lanes n, step, height;
+            load(n, &weights[i]);
+            n = 0.5f + 1.8f * (n - 0.25f);
+            detail::clamp01(n);
+            detail::fade(step, n);
+            load(height, heights + i);
+            height = height + (0.4f * relief_) * step;
+            store(heights + i, height);
+            // Blocks are whole on an outcrop; around it sediment has buried most of them.
+            step = 0.3f + 0.5f * step;
+            store(&weights[i], step);
         }
-        detail::stretch_values& tops = noise;
         for (const detail::block_layer& layer : blocks_) {
             tops.fill(0);
             layer.template raise<N>(part, tops.data());
@@ -140,7 +129,7 @@ class rock_sampler {
         }
     }
 
-    std::vector<gradient_noise> ridges_;
+    std::vector<gradient_noise> outcrops_;
     std::vector<detail::block_layer> blocks_;
     power_law_noise surface_;
     float relief_;
