@@ -66,6 +66,7 @@
 #include <insonify/seabed/mud.hpp>
 #include <insonify/seabed/noise.hpp>
 #include <insonify/seabed/none.hpp>
+#include <insonify/seabed/normals.hpp>
 #include <insonify/seabed/recipe.hpp>
 #include <insonify/seabed/ripple_train.hpp>
 #include <insonify/seabed/ripples.hpp>

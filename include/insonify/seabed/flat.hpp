@@ -11,7 +11,7 @@ class flat_sampler;
 
 /// Level sand with power-law roughness; `{.surface = {.rms = 0}}` is a plane.
 struct flat {
-    roughness surface{.rms = 0.004f, .longest = 1.5f};
+    roughness surface{.rms = 0.007f, .longest = 4, .shortest = 0.06f};
     std::uint64_t seed = 1;
     type kind = type::sand;
 

@@ -13,7 +13,7 @@ class mud_sampler;
 
 /// Fine sediment: low, smooth relief; scattered mounds and pock marks, each a round bump or dent; furrows, if any.
 struct mud {
-    roughness surface{.rms = 0.008f, .longest = 3.0f, .shortest = 0.1f};
+    roughness surface{.rms = 0.008f, .longest = 4, .shortest = 0.06f};
     float density = 0.2f;        ///< mounds and pock marks per square metre, at most 1 / (4 size)^2; 0 for none
     float size = 0.35f;          ///< metres, > 0: radius of the largest; the smallest have 0.4 of it
     float mound_height = 0.04f;  ///< metres, >= 0: of the largest mounds

@@ -27,7 +27,7 @@ struct rock {
     float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; 2 covers as much by each class
     float fracture = 0.5f;   ///< in [0, 1]: how many places hold one of the smallest blocks, or of the most frequent
     float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees
-    roughness surface{.rms = 0.012f, .longest = 0.8f, .shortest = 0.08f, .exponent = 3.0f};
+    roughness surface{.rms = 0.012f, .longest = 0.8f, .shortest = 0.08f};
     std::uint64_t seed = 1;
     type kind = type::rock;
 

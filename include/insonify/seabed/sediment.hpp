@@ -92,9 +92,9 @@ inline sediment sediment_of_phi(float phi) {
     return static_cast<sediment>(best);
 }
 
-/// The power-law roughness of a sediment, from a metre down.
+/// The power-law roughness of a sediment: relief that is four times as long as a metre is 4^0.625 times as high.
 inline roughness roughness_of(sediment s) {
-    return {.rms = facts_of(s).rms(), .longest = 1, .shortest = 0.06f};
+    return {.rms = 2.3784f * facts_of(s).rms(), .longest = 4, .shortest = 0.06f};
 }
 
 /// The seabed that a sediment makes, with its label: outcrops and boulders of rock, cobbles, level sand, soft mud.

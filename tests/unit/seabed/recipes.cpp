@@ -63,32 +63,6 @@ double shadowed(const sb::heightfield& field, double degrees) {
     return static_cast<double>(dark) / static_cast<double>(field.heights.size());
 }
 
-/// Zeros of psi in a square: plaquettes around which its phase winds.
-int forks(const sb::ripples& recipe, double side) {
-    const auto sampler = recipe.prepare();
-    const double step = static_cast<double>(recipe.wavelength) / 8;
-    const int n = static_cast<int>(side / step);
-    const auto turns = [](double from, double to) {
-        return (to - from) / (2 * pi) - std::round((to - from) / (2 * pi));
-    };
-    std::vector<double> above, here;
-    int count = 0;
-    for (int j = 0; j < n; ++j) {
-        here.clear();
-        for (int i = 0; i < n; ++i) {
-            const auto psi = sampler.psi(i * step, j * step);
-            here.push_back(std::atan2(psi.im, psi.re));
-        }
-        for (std::size_t i = 1; j > 0 && i < here.size(); ++i) {
-            const double winding = turns(above[i - 1], above[i]) + turns(above[i], here[i]) +
-                                   turns(here[i], here[i - 1]) + turns(here[i - 1], above[i - 1]);
-            count += std::abs(winding) > 0.5 ? 1 : 0;
-        }
-        above = here;
-    }
-    return count;
-}
-
 struct backwards {
     template <class Fn>
     void bulk(std::size_t count, Fn&& fn) const {
@@ -271,16 +245,6 @@ TEST_CASE("the spectrum of ripples peaks at their wavelength, along their direct
         if (power > best) best = power, peak = cycles;
     }
     CHECK(peak == Approx(n / 16.0).epsilon(0.1));
-}
-
-TEST_CASE("crests fork, the more the wider the waves spread") {
-    const auto count = [](float spread) { return forks({.wavelength = 1, .spread = spread, .seed = 2}, 20); };
-    const int few = count(0.03f), some = count(0.09f), many = count(0.25f);
-    INFO(few << " " << some << " " << many);
-    CHECK(few > 0);
-    CHECK(some > few + few / 2);
-    CHECK(many > some + some / 2);
-    CHECK(forks({.wavelength = 1, .spread = 0, .bandwidth = 0, .seed = 2}, 10) == 0);
 }
 
 TEST_CASE("interpolating the envelope of ripples costs less than a hundredth of their height") {
