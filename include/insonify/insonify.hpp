@@ -59,6 +59,7 @@
 #include <insonify/seabed/blend.hpp>
 #include <insonify/seabed/blocks.hpp>
 #include <insonify/seabed/cover.hpp>
+#include <insonify/seabed/edit.hpp>
 #include <insonify/seabed/flat.hpp>
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/seabed/lattice.hpp>
@@ -72,6 +73,7 @@
 #include <insonify/seabed/ripples.hpp>
 #include <insonify/seabed/rock.hpp>
 #include <insonify/seabed/sample.hpp>
+#include <insonify/seabed/sculpt.hpp>
 #include <insonify/seabed/sediment.hpp>
 #include <insonify/seabed/strewn.hpp>
 #include <insonify/seabed/tessellate.hpp>

@@ -109,6 +109,15 @@ struct lattice {
     double v(double y) const { return y * frequency + offset_y; }
 };
 
+/// The nearest length of eight bits: its multiples are exact, so places that are multiples of it are the same in
+/// whatever row they are sampled.
+inline double eight_bits(double length) {
+    double unit = 1;
+    while (unit * 256 <= length) unit *= 2;
+    while (unit * 128 > length) unit /= 2;
+    return static_cast<double>(numeric::floor_to_int(length / unit + 0.5)) * unit;
+}
+
 /// Where a coordinate lies on a lattice.
 struct lattice_coordinate {
     std::int64_t cell;
