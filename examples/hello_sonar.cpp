@@ -7,7 +7,7 @@ using namespace in::literals;
 
 int main(int argc, char** argv) {
     in::scene scene;
-    scene.seabed = in::seabed::ripples{.wavelength = 0.8f, .height = 0.05f, .direction = 0.6f, .seed = 7};
+    scene.seabed = in::seabed::ripples{.wavelength = 0.8f, .steepness = 0.0625f, .direction = 0.6f, .seed = 7};
     scene.add(in::cylinder{.radius = 0.25f, .length = 2.0f}, {.position = {-2, 0, 0.25}, .yaw = 60_deg}, "cylinder");
 
     const auto rig = in::overhead{.altitude = 4, .size = {1024, 1024}, .grazing = 6_deg};

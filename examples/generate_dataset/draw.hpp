@@ -89,7 +89,7 @@ inline in::seabed::any seabed_of(const plan& p, const stock& shared) {
     const auto relief = static_cast<float>(p.relief);
     const auto wavelength = static_cast<float>(p.wavelength);
     const in::seabed::ripples ripples{.wavelength = wavelength,
-                                      .height = wavelength * (0.03f + 0.05f * relief),
+                                      .steepness = 0.03f + 0.05f * relief,
                                       .direction = static_cast<float>(p.direction),
                                       .seed = p.seabed_seed};
     const in::seabed::mud mud{.seed = p.seabed_seed};

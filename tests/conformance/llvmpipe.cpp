@@ -232,7 +232,7 @@ TEST_CASE("Random triangles: what differs lies within its snapping") {
 TEST_CASE("A seabed and targets by a camera that looks along it, across the near plane") {
     REQUIRE_PEER();
     in::mesh scene = in::seabed::tessellate(
-        in::seabed::sample(in::seabed::ripples{.wavelength = 1.5f, .height = 0.2f}, {{-20, -20}, 0.25, 161, 161}));
+        in::seabed::sample(in::seabed::ripples{.wavelength = 1.5f, .steepness = 0.13f}, {{-20, -20}, 0.25, 161, 161}));
     for (glm::vec3& p : scene.positions) p += glm::vec3(-20, -20, 0);
     const auto add = [&](const in::mesh& m, const in::pose& where) {
         const auto first = static_cast<std::uint32_t>(scene.positions.size());

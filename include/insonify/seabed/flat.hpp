@@ -11,10 +11,9 @@ class flat_sampler;
 
 /// Level sand with power-law roughness; `{.surface = {.rms = 0}}` is a plane.
 struct flat {
-    static constexpr type kind = type::sand;
-
-    roughness surface{.rms = 0.004f, .longest = 1.5f};
+    roughness surface{.rms = 0.007f, .longest = 4, .shortest = 0.06f};
     std::uint64_t seed = 1;
+    type kind = type::sand;
 
     /// @throws invalid_input for parameters out of the ranges of `roughness`
     flat_sampler prepare() const;
@@ -27,8 +26,9 @@ class flat_sampler {
     explicit flat_sampler(const flat& f) : surface_(f.surface, f.seed, detail::stream::sand) {}
 
     void row(const scanline& line, std::span<float> heights) const {
-        std::fill(heights.begin(), heights.end(), 0.0f);
-        surface_.add_row(line, heights);
+        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
+            surface_.add(part, values);
+        });
     }
 
   private:

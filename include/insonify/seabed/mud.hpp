@@ -1,7 +1,9 @@
-// Mud: gentle relief with the mounds and pock marks of what lives and seeps in it.
+// Mud: gentle relief with the mounds and pock marks of what lives and seeps in it, and the tracks of trawls.
 #pragma once
 
 #include <insonify/seabed/noise.hpp>
+#include <insonify/seabed/strewn.hpp>
+#include <insonify/seabed/trawls.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -9,17 +11,17 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 class mud_sampler;
 
-/// Fine sediment: low, smooth relief; scattered mounds and pock marks, each a round bump or dent.
+/// Fine sediment: low, smooth relief; scattered mounds and pock marks, each a round bump or dent; furrows, if any.
 struct mud {
-    static constexpr type kind = type::mud;
-
-    roughness surface{.rms = 0.012f, .longest = 3.0f, .shortest = 0.15f, .exponent = 3.6f};
+    roughness surface{.rms = 0.008f, .longest = 4, .shortest = 0.06f};
     float density = 0.2f;        ///< mounds and pock marks per square metre, at most 1 / (4 size)^2; 0 for none
     float size = 0.35f;          ///< metres, > 0: radius of the largest; the smallest have 0.4 of it
     float mound_height = 0.04f;  ///< metres, >= 0: of the largest mounds
     float pock_depth = 0.04f;    ///< metres, >= 0: of the largest pock marks
     float pock_share = 0.4f;     ///< in [0, 1]: how many of them are pock marks
+    trawl_marks trawls{};        ///< none unless they have a density
     std::uint64_t seed = 1;
+    type kind = type::mud;
 
     /// @throws invalid_input for parameters out of their range
     mud_sampler prepare() const;
@@ -29,11 +31,7 @@ struct mud {
 /// Evaluates `mud`.
 class mud_sampler {
   public:
-    explicit mud_sampler(const mud& m)
-        : surface_(m.surface, m.seed, detail::stream::mud),
-          hash_(m.seed, detail::stream::mounds),
-          mound_(m.mound_height),
-          pock_(-m.pock_depth) {
+    explicit mud_sampler(const mud& m) : surface_(m.surface, m.seed, detail::stream::mud), trawls_(m.trawls, m.seed) {
         const float cell = 4 * m.size;
         detail::require(m.size > 0 && m.size < 1e6f, "mud.size", m.size, "metres above 0");
         detail::require(m.density >= 0 && m.density * cell * cell <= 1, "mud.density", m.density,
@@ -42,48 +40,23 @@ class mud_sampler {
                         "metres, at least 0");
         detail::require(m.pock_depth >= 0 && m.pock_depth < 1e6f, "mud.pock_depth", m.pock_depth, "metres, at least 0");
         detail::require(m.pock_share >= 0 && m.pock_share <= 1, "mud.pock_share", m.pock_share, "0 to 1");
-        lattice_.frequency = 1 / static_cast<double>(cell);
-        filled_ = m.density * cell * cell;
-        mounds_ = filled_ * (1 - m.pock_share);
+        const float filled = m.density * cell * cell;
+        marks_ = {static_cast<double>(cell),       filled, filled * (1 - m.pock_share), m.mound_height, m.pock_depth,
+                  {m.seed, detail::stream::mounds}};
     }
 
     void row(const scanline& line, std::span<float> heights) const {
-        std::fill(heights.begin(), heights.end(), 0.0f);
-        surface_.add_row(line, heights);
-        if (filled_ > 0) add_features(line, heights);
+        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
+            surface_.add(part, values);
+            marks_.add(part, values);
+            trawls_.add(part, values);
+        });
     }
 
   private:
-    // A cell holds one feature or none, wholly inside it: no neighbour needs to be looked at.
-    void add_features(const scanline& line, std::span<float> heights) const {
-        const detail::lattice_coordinate v(line.y * lattice_.frequency);
-        const auto hash = hash_[v.cell];
-        float height = 0, x = 0, y_square = 0, inverse_square = 0;
-        detail::walk(
-            lattice_, line, heights.size(),
-            [&](std::int64_t column) {
-                const std::uint64_t bits = hash(column);
-                const detail::pair_of_bits centre(bits), traits(detail::scramble(bits));
-                const float radius = 0.175f + 0.075f * traits.a;  // in cells; a quarter at most
-                const float chance = 0.5f * traits.b + 0.5f;
-                const float scale = radius * 4;
-                height = chance < mounds_ ? mound_ * scale : chance < filled_ ? pock_ * scale : 0.0f;
-                x = 0.5f + 0.25f * centre.a;
-                const float y = v.fraction - (0.5f + 0.25f * centre.b);
-                y_square = y * y;
-                inverse_square = 1 / (radius * radius);
-            },
-            [&](std::size_t i, float t) {
-                const float inside = detail::clamp01(1 - ((t - x) * (t - x) + y_square) * inverse_square);
-                heights[i] += height * inside * inside;
-            });
-    }
-
     power_law_noise surface_;
-    detail::cell_hash hash_;
-    detail::lattice lattice_;
-    float mound_, pock_;
-    float filled_ = 0, mounds_ = 0;  // how many cells hold a feature, and how many a mound
+    detail::round_marks marks_;
+    detail::trawl_furrows trawls_;
 };
 
 inline mud_sampler mud::prepare() const {

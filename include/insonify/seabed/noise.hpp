@@ -4,113 +4,20 @@
 // whole y direction are paid for once per cell crossed, not once per sample.
 //
 // Based on: Ken Perlin. Improving Noise. SIGGRAPH, 2002 (gradients on a lattice, quintic fade).
-// Guy L. Steele, Doug Lea, Christine H. Flood. Fast Splittable Pseudorandom Number Generators. OOPSLA, 2014 (the
-// finaliser that hashes cells, "variant 13").
 #pragma once
 
-#include <insonify/core/numeric.hpp>
-#include <insonify/core/random.hpp>
-#include <insonify/seabed/recipe.hpp>
+#include <insonify/seabed/lattice.hpp>
 
-#include <cstdint>
 #include <vector>
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
-
-namespace detail {
-
-/// What draws are for: every layer of every recipe has its own stream of the seed.
-enum class stream : std::uint32_t { sand = 0x5EAB0000, ripples, mud, mounds, ridges, blocks, stones, rubble, mask };
-
-constexpr std::uint64_t scramble(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-}
-
-/// 64 random bits for each cell of a plane: a pure function of (seed, stream, layer, column, row). Philox draws the
-/// key; the cells themselves are hashed by two finalisers, five times cheaper and the row's shared along it.
-class cell_hash {
-  public:
-    cell_hash(std::uint64_t seed, stream purpose, std::uint32_t layer = 0) {
-        const philox_key key = stream_key(seed, static_cast<std::uint32_t>(purpose) + (layer << 8));
-        key_ = (std::uint64_t{key[1]} << 32) | key[0];
-    }
-
-    class row {
-      public:
-        explicit row(std::uint64_t key) : key_(key) {}
-        std::uint64_t operator()(std::int64_t column) const {
-            return scramble(key_ + static_cast<std::uint64_t>(column) * 0x9E3779B97F4A7C15u);
-        }
-
-      private:
-        std::uint64_t key_;
-    };
-    row operator[](std::int64_t index) const {
-        return row(scramble(key_ + static_cast<std::uint64_t>(index) * 0xD1342543DE82EF95u));
-    }
-
-  private:
-    std::uint64_t key_;
-};
-
-/// Two numbers in [-1, 1) from 64 bits.
-struct pair_of_bits {
-    float a, b;
-    explicit constexpr pair_of_bits(std::uint64_t bits)
-        : a(static_cast<float>(static_cast<std::int32_t>(static_cast<std::uint32_t>(bits))) * 0x1p-31f),
-          b(static_cast<float>(static_cast<std::int32_t>(bits >> 32)) * 0x1p-31f) {}
-};
-
-/// A square lattice laid over the world, in cells per metre and cells of offset.
-struct lattice {
-    double frequency = 1;
-    double offset_x = 0, offset_y = 0;
-
-    /// Shifted by its own hash: what is special at lattice lines must not line up over the layers of a sum.
-    static lattice shifted(double cell, const cell_hash& hash) {
-        const pair_of_bits shift(hash[0x7FFFFFFF](0x7FFFFFFF));
-        return {1 / cell, static_cast<double>(shift.a), static_cast<double>(shift.b)};
-    }
-};
-
-/// Where a coordinate lies on a lattice. The cell is found in double, so what goes to float is the fraction alone.
-struct lattice_coordinate {
-    std::int64_t cell;
-    float fraction;
-    explicit lattice_coordinate(double cells)
-        : cell(numeric::floor_to_int(cells)), fraction(static_cast<float>(cells - static_cast<double>(cell))) {}
-};
-
-/// Walks the cells of a lattice that a row crosses: `enter(cell)` at each change, `visit(i, t)` at each sample, with t
-/// in [0, 1] across the cell.
-template <class Enter, class Visit>
-void walk(const lattice& l, const scanline& line, std::size_t count, Enter&& enter, Visit&& visit) {
-    const auto cells = [&](std::size_t i) { return line.x(i) * l.frequency + l.offset_x; };
-    for (std::size_t i = 0; i < count;) {
-        const std::int64_t cell = numeric::floor_to_int(cells(i));
-        const auto begin = static_cast<double>(cell);
-        const double end = begin + 1;
-        enter(cell);
-        for (double c; i < count && (c = cells(i)) < end; ++i) visit(i, static_cast<float>(c - begin));
-    }
-}
-
-/// Perlin's quintic: 0 to 1 with two derivatives zero at both ends.
-constexpr float fade(float t) {
-    return t * t * t * (t * (t * 6 - 15) + 10);
-}
-constexpr float mix(float a, float b, float t) {
-    return a + t * (b - a);
-}
-constexpr float clamp01(float t) {
-    return t < 0 ? 0 : t > 1 ? 1 : t;
-}
-
-}  // namespace detail
 
 /// Gradient noise: mean 0, variance 1, twice differentiable, waves of about one to three cells.
 class gradient_noise {
@@ -124,40 +31,113 @@ class gradient_noise {
     /// @param cell  metres, > 0
     gradient_noise(double cell, detail::cell_hash hash) : lattice_(detail::lattice::shifted(cell, hash)), hash_(hash) {}
 
-    /// Calls `visit(i, value)` for each sample of the row.
-    template <class Visit>
-    void row(const scanline& line, std::size_t count, Visit&& visit) const {
-        const detail::lattice_coordinate v(line.y * lattice_.frequency + lattice_.offset_y);
-        const auto below = hash_[v.cell], above = hash_[v.cell + 1];
-        const float rise = detail::fade(v.fraction);
+    /// Adds `amplitude` times the noise along a stretch to its values.
+    template <int N>
+    INSONIFY_INLINE void add(const detail::stretch& part, float amplitude, float* values) const {
+        const detail::lattice_coordinate v(lattice_.v(part.y));
+        const line_of_cells line{hash_[v.cell], hash_[v.cell + 1], v.fraction, detail::fade(v.fraction),
+                                 amplitude * gain};
+        const std::int64_t first = numeric::floor_to_int(lattice_.u(part.x[0]));
+        const std::int64_t last = numeric::floor_to_int(lattice_.u(part.x[part.whole() - 1])) + 1;
+        const bool dense = last - first < most_columns;
+        alignas(32) side sides[most_columns + 8];
+        if (dense) line.template tabulate<N>(sides, static_cast<std::uint32_t>(first), static_cast<int>(last - first));
 
-        // The lattice column at a cell's side, already blended over y: a line in x through `height` at the column.
-        struct side {
-            float slope, height;
-        };
-        const auto side_of = [&](std::int64_t column) {
-            const detail::pair_of_bits low(below(column)), high(above(column));
-            return side{gain * detail::mix(low.a, high.a, rise),
-                        gain * detail::mix(low.b * v.fraction, high.b * (v.fraction - 1), rise)};
-        };
-        side left{}, right{};
-        std::int64_t column = 0;
-        bool started = false;
-        detail::walk(
-            lattice_, line, count,
-            [&](std::int64_t cell) {
-                left = started && cell == column + 1 ? right : side_of(cell);
-                right = side_of(cell + 1);
-                column = cell;
-                started = true;
-            },
-            [&](std::size_t i, float t) {
-                visit(i,
-                      detail::mix(left.height + left.slope * t, right.height + right.slope * (t - 1), detail::fade(t)));
-            });
+        for (std::size_t i = 0; i < part.whole(); i += N) {
+            using insonify::detail::lane;
+            lanes<float, N> across, share, sum, corner[4];  // height and slope at both sides of the cell
+            lanes<std::int32_t, N> cell;
+            const auto fetch = [&](const side* from) INSONIFY_INLINE_LAMBDA {
+                if constexpr (N == 1)
+                    std::memcpy(corner, &from[cell].height, sizeof corner);
+                else
+                    insonify::detail::transpose<N>(
+                        corner, [&](int k) INSONIFY_INLINE_LAMBDA { return &from[lane(cell, k)].height; });
+            };
+            if (dense) {
+                detail::locate<N>(across, cell, &part.x[i], lattice_.frequency, lattice_.offset_x,
+                                  static_cast<double>(first));
+                const std::int32_t begin = lane(cell, 0);
+                if (begin == lane(cell, N - 1)) {
+                    const float* const both = &sides[begin].height;
+                    for (int k = 0; k < 4; ++k) corner[k] = lanes<float, N>{} + both[k];
+                } else {
+                    fetch(sides);
+                }
+            } else {
+                // So wide apart that each sample has its own columns.
+                for (int k = 0; k < N; ++k) {
+                    const detail::lattice_coordinate u(lattice_.u(part.x[i + static_cast<std::size_t>(k)]));
+                    line.template tabulate<1>(sides + 2 * k, static_cast<std::uint32_t>(u.cell), 1);
+                    insonify::detail::set_lane(across, k, u.fraction);
+                    insonify::detail::set_lane(cell, k, 2 * k);
+                }
+                fetch(sides);
+            }
+            const lanes<float, N> left = corner[0] + corner[1] * across,
+                                  right = corner[2] + corner[3] * (across - 1.0f);
+            detail::fade(share, across);
+            insonify::detail::load(sum, values + i);
+            sum = sum + (left + share * (right - left));
+            insonify::detail::store(values + i, sum);
+        }
     }
 
   private:
+    template <class T, int N>
+    using lanes = insonify::detail::lanes<T, N>;
+    template <int N>
+    using words = lanes<std::uint32_t, N>;
+
+    /// A column of the lattice at a row's y, already blended over y: a line in x through `height` at the column.
+    struct side {
+        float height, slope;
+    };
+    static constexpr std::int64_t most_columns = 512;  // beyond that, samples lie in cells of their own
+
+    struct line_of_cells {
+        detail::cell_hash::row below, above;
+        float up, rise, gain;  // the row's way up in its cells, its fade, and what to multiply by
+
+        template <int N>
+        INSONIFY_INLINE void sides_of(lanes<float, N>& height, lanes<float, N>& slope, const words<N>& column) const {
+            lanes<float, N> low_x, low_y, high_x, high_y;
+            gradient<N>(low_x, low_y, below, column);
+            gradient<N>(high_x, high_y, above, column);
+            low_y = low_y * up;
+            high_y = high_y * (up - 1.0f);
+            slope = gain * (low_x + rise * (high_x - low_x));
+            height = gain * (low_y + rise * (high_y - low_y));
+        }
+
+        /// Both components in [-1, 1), from 16 bits each.
+        template <int N>
+        INSONIFY_INLINE static void gradient(lanes<float, N>& x, lanes<float, N>& y, const detail::cell_hash::row& row,
+                                             const words<N>& column) {
+            using ints = lanes<std::int32_t, N>;
+            words<N> bits;
+            row.mixed(bits, column);
+            insonify::detail::convert(x, ints(ints(bits << 16) >> 16));
+            insonify::detail::convert(y, ints(ints(bits) >> 16));
+            x = x * 0x1p-15f;
+            y = y * 0x1p-15f;
+        }
+
+        template <int N>
+        INSONIFY_INLINE void tabulate(side* sides, std::uint32_t first, int last) const {
+            words<N> column;
+            insonify::detail::count_up<std::uint32_t, N>(column);
+            column = column + first;
+            for (int i = 0; i <= last; i += N) {
+                lanes<float, N> height, slope;
+                sides_of<N>(height, slope, column);
+                for (int k = 0; k < N; ++k)
+                    sides[i + k] = {insonify::detail::lane(height, k), insonify::detail::lane(slope, k)};
+                column = column + static_cast<std::uint32_t>(N);
+            }
+        }
+    };
+
     detail::lattice lattice_;
     detail::cell_hash hash_;
 };
@@ -179,7 +159,7 @@ struct roughness {
 class power_law_noise {
   public:
     /// @throws invalid_input for parameters out of the ranges above
-    power_law_noise(const roughness& r, std::uint64_t seed, detail::stream purpose) {
+    power_law_noise(const roughness& r, std::uint64_t seed, detail::stream purpose, std::uint32_t layer = 0) {
         detail::require(r.rms >= 0 && r.rms < 1e6f, "roughness.rms", r.rms, "metres, at least 0");
         detail::require(r.longest > 0 && r.longest < 1e6f, "roughness.longest", r.longest, "metres above 0");
         detail::require(r.shortest >= 1e-4f && r.shortest <= r.longest, "roughness.shortest", r.shortest,
@@ -193,7 +173,7 @@ class power_law_noise {
         double variance = 1, sum = 0;
         double cell = static_cast<double>(r.longest);
         for (std::uint32_t k = 0; k == 0 || cell >= static_cast<double>(r.shortest); ++k) {
-            octaves_.push_back({gradient_noise(cell, {seed, purpose, k}), static_cast<float>(variance)});
+            octaves_.push_back({gradient_noise(cell, {seed, purpose, 64 * layer + k}), static_cast<float>(variance)});
             slope_ += variance * static_cast<double>(gradient_noise::mean_square_slope) / (cell * cell);
             sum += variance;
             variance *= ratio;
@@ -205,11 +185,9 @@ class power_law_noise {
             o.amplitude = static_cast<float>(numeric::square_root(static_cast<double>(o.amplitude) * scale));
     }
 
-    /// Adds the relief along a row to `heights`, metres.
-    void add_row(const scanline& line, std::span<float> heights) const {
-        for (const octave& o : octaves_) {
-            o.noise.row(line, heights.size(), [&](std::size_t i, float n) { heights[i] += o.amplitude * n; });
-        }
+    /// Adds the relief along a stretch to its values, metres.
+    void add(const detail::stretch& part, detail::stretch_values& values, isa level = best_isa()) const {
+        if (!octaves_.empty()) detail::dispatch(kernel{*this, part, values.data()}, level);
     }
 
     /// No height is farther from 0, metres. Of a cell's corners, weights times distances add up to 1 at most.
@@ -227,10 +205,24 @@ class power_law_noise {
         gradient_noise noise;
         float amplitude;
     };
+    struct kernel {
+        const power_law_noise& noise;
+        const detail::stretch& part;
+        float* values;
+
+        template <int N>
+        INSONIFY_INLINE void run() const {
+            for (const octave& o : noise.octaves_) o.noise.template add<N>(part, o.amplitude, values);
+        }
+    };
     std::vector<octave> octaves_;
     double slope_ = 0;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 INSONIFY_ARITHMETIC_END

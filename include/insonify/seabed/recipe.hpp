@@ -18,8 +18,27 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
-/// What the bottom is made of, as a label and for the backscatter law.
-enum class type : std::uint8_t { sand, ripples, mud, rock };
+/// What the bottom is made of, as a label, for the backscatter law and for speckle: four that say what it looks like,
+/// and the twelve of `sediment` (see sediment.hpp).
+enum class type : std::uint8_t {
+    sand,
+    ripples,
+    mud,
+    rock,
+    rough_rock,
+    hard_rock,
+    cobble,
+    sandy_gravel,
+    coarse_sand,
+    medium_sand,
+    fine_sand,
+    very_fine_sand,
+    coarse_silt,
+    medium_silt,
+    sandy_mud,
+    silty_clay,
+};
+inline constexpr std::size_t type_count = 16;
 
 /// Equally spaced samples along x: sample i lies at (x(i), y), metres in the world. Each position is computed from i
 /// alone, never accumulated, and parts of a row keep their origin: cutting a row changes no bit of it.
@@ -46,14 +65,14 @@ concept typed_sampler = requires(const S& s, const scanline& row, std::span<floa
     s.row(row, heights, types);
 };
 
-/// Recipes of a single type say so.
+/// Recipes of a single type say so: by a member, or for all of them by a static one.
 template <class R>
-concept single_typed = requires {
-    { std::remove_cvref_t<R>::kind } -> std::convertible_to<type>;
+concept single_typed = requires(const R& r) {
+    { r.kind } -> std::convertible_to<type>;
 };
 
 /// Anything that `prepare`s a sampler and answers for a single point.
-/// It has one type, `static constexpr type kind`, or one per point, `type type_at(x, y)` and a typed sampler.
+/// It has one type, `kind`, or one per point, `type type_at(x, y)` and a typed sampler.
 template <class R>
 concept recipe = requires(const R& r, double x, double y) {
     { r(x, y) } -> std::convertible_to<float>;
@@ -69,7 +88,7 @@ using insonify::detail::refuse;
 using insonify::detail::require;
 
 /// How many samples are worked on at a time where scratch space is needed.
-inline constexpr std::size_t chunk = 128;
+inline constexpr std::size_t chunk = 256;
 
 /// Gives the sampler of a single-typed recipe the interface of a typed one.
 template <sampler S>
@@ -90,7 +109,7 @@ struct with_kind {
 template <recipe R>
 auto prepare(const R& r) {
     if constexpr (single_typed<R>) {
-        return detail::with_kind<decltype(r.prepare())>{r.prepare(), R::kind};
+        return detail::with_kind<decltype(r.prepare())>{r.prepare(), r.kind};
     } else {
         return r.prepare();
     }

@@ -1,7 +1,13 @@
-// Rock: outcrops that stand out of the bottom in ridges, broken into blocks and rubble.
+// Rock: outcrops that step up from the bottom, broken into blocks, boulders and rubble.
 #pragma once
 
 #include <insonify/seabed/blocks.hpp>
+#include <insonify/seabed/noise.hpp>
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
+#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -9,17 +15,21 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 class rock_sampler;
 
-/// Outcrops with steep faces, blocks of three sizes on and around them, and rough surfaces.
+/// Outcrops with steep faces, blocks on and around them, and rough surfaces.
+///
+/// Blocks come in sizes that halve from one class to the next. Above a size there are N of them per square metre,
+/// N ~ size^-sizes, and each is as high as its size allows.
 struct rock {
-    static constexpr type kind = type::rock;
-
-    float relief = 0.5f;     ///< metres, >= 0: about the height of ridges with their blocks
-    float outcrop = 6.0f;    ///< metres, > 0: from ridge to ridge
-    float block = 1.4f;      ///< metres, > 0: spacing of the largest blocks; others have 1/2 and 1/4 of it
-    float fracture = 0.5f;   ///< in [0, 1]: how many places hold a block
+    float relief = 0.5f;     ///< metres, >= 0: about the height of outcrops with their blocks
+    float outcrop = 6.0f;    ///< metres, > 0: from outcrop to outcrop
+    float block = 1.4f;      ///< metres, > 0: spacing of the largest blocks, which are 0.6 to 1.8 of it wide
+    float smallest = 0.3f;   ///< metres, in (0, block]: spacing of the smallest
+    float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; 2 covers as much by each class
+    float fracture = 0.5f;   ///< in [0, 1]: how many places hold one of the smallest blocks, or of the most frequent
     float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees
-    roughness surface{.rms = 0.012f, .longest = 0.8f, .shortest = 0.04f, .exponent = 3.0f};
+    roughness surface{.rms = 0.012f, .longest = 0.8f, .shortest = 0.08f};
     std::uint64_t seed = 1;
+    type kind = type::rock;
 
     /// @throws invalid_input for parameters out of their range
     rock_sampler prepare() const;
@@ -33,54 +43,93 @@ class rock_sampler {
         detail::require(r.relief >= 0 && r.relief < 1e6f, "rock.relief", r.relief, "metres, at least 0");
         detail::require(r.outcrop > 0 && r.outcrop < 1e6f, "rock.outcrop", r.outcrop, "metres above 0");
         detail::require(r.block > 0 && r.block < 1e6f, "rock.block", r.block, "metres above 0");
+        detail::require(r.smallest >= 1e-3f && r.smallest <= r.block, "rock.smallest", r.smallest,
+                        "metres from 0.001 to rock.block");
+        detail::require(r.sizes >= 0 && r.sizes <= 4, "rock.sizes", r.sizes, "0 to 4");
         detail::require(r.fracture >= 0 && r.fracture <= 1, "rock.fracture", r.fracture, "0 to 1");
         detail::require(r.steepness > 0 && r.steepness < 1e6f, "rock.steepness", r.steepness, "a slope above 0");
         double cell = static_cast<double>(r.outcrop) / 2;
         for (std::uint32_t k = 0; k < 3; ++k, cell /= 2) {
-            ridges_.push_back(gradient_noise(cell, {r.seed, detail::stream::ridges, k}));
+            outcrops_.push_back(gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
         }
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            const float size = r.block / static_cast<float>(1 << k);
-            // Small blocks hold less height than their size would allow: rubble lies, it doesn't stand.
-            const float height = 0.8f * r.relief / static_cast<float>(1 << k);
-            blocks_.push_back(
-                {static_cast<double>(size), r.fracture, height, r.steepness, {r.seed, detail::stream::blocks, k}});
+        // A class of blocks half as large has 2^sizes times as many of them, on four times as many places.
+        const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
+        float share = 1, height = 0.8f * r.relief, most = 1;
+        float size = r.block;
+        std::vector<float> shares;
+        for (; shares.empty() || size >= r.smallest; size /= 2, share *= ratio) {
+            shares.push_back(share);
+            most = (std::max)(most, share);
+        }
+        size = r.block;
+        for (std::uint32_t k = 0; k < shares.size(); ++k, size /= 2, height /= 2) {
+            blocks_.push_back({static_cast<double>(size),
+                               r.fracture * shares[k] / most,
+                               height,
+                               r.steepness,
+                               {r.seed, detail::stream::blocks, k}});
         }
     }
 
     void row(const scanline& line, std::span<float> heights) const {
-        for (std::size_t i = 0; i < heights.size(); i += detail::chunk) {
-            part(line.from(i), heights.subspan(i, (std::min)(detail::chunk, heights.size() - i)));
-        }
+        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
+            if (relief_ > 0) detail::dispatch(kernel{*this, part, values.data()}, best_isa());
+            surface_.add(part, values);
+        });
     }
 
   private:
-    void part(const scanline& line, std::span<float> heights) const {
-        // Ridged octaves: creases of the noise become crests, and where one is low the finer are lower still.
-        // F. Kenton Musgrave, in: David S. Ebert and others. Texturing and Modeling: A Procedural Approach. 3rd
-        // edition, 2003 (ridged multifractal).
-        std::array<float, detail::chunk> weight;
-        weight.fill(0.35f * relief_);
-        std::fill(heights.begin(), heights.end(), 0.0f);
-        for (const gradient_noise& octave : ridges_) {
-            octave.row(line, heights.size(), [&](std::size_t i, float n) {
-                const float crest = detail::clamp01(1 - 0.8f * (n < 0 ? -n : n));
-                weight[i] *= crest * crest;
-                heights[i] += weight[i];
-                weight[i] *= 0.7f;
-            });
+    struct kernel {
+        const rock_sampler& rock;
+        const detail::stretch& part;
+        float* values;
+
+        template <int N>
+        INSONIFY_INLINE void run() const {
+            rock.add_relief<N>(part, values);
         }
-        // Blocks stand on the ridges and thin out between them, where sediment has buried them.
-        for (std::size_t i = 0; i < heights.size(); ++i) {
-            weight[i] = relief_ > 0 ? detail::clamp01(0.35f + 2.5f * heights[i] / relief_) : 0.0f;
+    };
+
+    template <int N>
+    INSONIFY_INLINE void add_relief(const detail::stretch& part, float* heights) const {
+        using lanes = insonify::detail::lanes<float, N>;
+        using insonify::detail::load;
+        using insonify::detail::store;
+        // Where a noise exceeds a level, the bottom steps up to an outcrop's top, over faces as steep as a bank.
+        detail::stretch_values weights{}, tops;
+        float amplitude = 1;
+        for (const gradient_noise& octave : outcrops_) {
+            octave.template add<N>(part, amplitude, weights.data());
+            amplitude *= 0.5f;
+        }
+        for (std::size_t i = 0; i < part.whole(); i += N) {
+            lanes n, step, height;
+            load(n, &weights[i]);
+            n = 0.5f + 1.8f * (n - 0.25f);
+            detail::clamp01(n);
+            detail::fade(step, n);
+            load(height, heights + i);
+            height = height + (0.4f * relief_) * step;
+            store(heights + i, height);
+            // Blocks are whole on an outcrop; around it sediment has buried most of them.
+            step = 0.3f + 0.5f * step;
+            store(&weights[i], step);
         }
         for (const detail::block_layer& layer : blocks_) {
-            layer.row(line, heights.size(), [&](std::size_t i, float h) { heights[i] += weight[i] * h; });
+            tops.fill(0);
+            layer.template raise<N>(part, tops.data());
+            for (std::size_t i = 0; i < part.whole(); i += N) {
+                lanes top, weight, height;
+                load(top, &tops[i]);
+                load(weight, &weights[i]);
+                load(height, heights + i);
+                height = height + weight * top;
+                store(heights + i, height);
+            }
         }
-        surface_.add_row(line, heights);
     }
 
-    std::vector<gradient_noise> ridges_;
+    std::vector<gradient_noise> outcrops_;
     std::vector<detail::block_layer> blocks_;
     power_law_noise surface_;
     float relief_;
@@ -94,5 +143,9 @@ inline float rock::operator()(double x, double y) const {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 INSONIFY_ARITHMETIC_END

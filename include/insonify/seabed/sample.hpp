@@ -44,7 +44,7 @@ heightfield sample(const Recipe& source, const grid& where, Executor&& ex = seri
     heightfield result{
         .heights = image<float>(where.width, where.height), .origin = where.origin, .spacing = where.spacing};
     if constexpr (single_typed<Recipe>) {
-        result.fallback = Recipe::kind;
+        result.fallback = source.kind;
     } else {
         result.types = image<type>(where.width, where.height);
     }

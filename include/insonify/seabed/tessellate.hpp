@@ -4,6 +4,7 @@
 #include <insonify/core/executor.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/seabed/heightfield.hpp>
+#include <insonify/seabed/normals.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -30,8 +31,8 @@ struct cell_facets {
 /// to (i + 1, j + 1); 2 (width - 1) (height - 1) triangles if no height is missing.
 ///
 /// Positions are relative to the heightfield's origin, x in [0, spacing (width - 1)], so that float holds them wherever
-/// the field lies: place the mesh at `field.origin`. Vertex (i, j) is number j width + i. Normals are those of central
-/// differences, one-sided at edges. Vertices without data lie at z = 0 and belong to no triangle.
+/// the field lies: place the mesh at `field.origin`. Vertex (i, j) is number j width + i. Normals are those that
+/// `normals` gives. Vertices without data lie at z = 0 and belong to no triangle.
 /// @throws invalid_input as `validate`, and for 2^32 vertices or more
 template <executor_argument Executor = serial_executor>
 mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}) {
@@ -47,32 +48,15 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}) {
 
     // Write the vertices, and count the triangles of each row of cells on the way.
     std::vector<std::size_t> first_triangle(height, 0);
-    const auto spacing = static_cast<float>(field.spacing);
     ex.bulk(height, [&](std::size_t j) {
         const auto row_at = [&](std::size_t index) { return heights.row(static_cast<int>(index)).data(); };
         const float* const here = row_at(j);
-        const float* const back = row_at(j > 0 ? j - 1 : j);
         const float* const ahead = row_at(j + 1 < height ? j + 1 : j);
-        // Twice the rise per cell; a neighbour that is missing or beyond the edge (the vertex itself) leaves the side
-        // that is there to count twice.
-        const auto rise = [](float before, float at, float after, bool both) {
-            const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
-            if (has_before && has_after) return both ? after - before : 2 * (after - before);
-            return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
-        };
-        const bool inner = j > 0 && j + 1 < height;
+        detail::row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
+        const auto y = static_cast<float>(field.spacing * static_cast<double>(j));
         for (std::size_t i = 0; i < width; ++i) {
-            const std::size_t vertex = j * width + i;
-            const bool known = numeric::is_finite(here[i]);
-            result.positions[vertex] = {static_cast<float>(field.spacing * static_cast<double>(i)),
-                                        static_cast<float>(field.spacing * static_cast<double>(j)),
-                                        known ? here[i] : 0.0f};
-            const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width ? i + 1 : i;
-            const float x = known ? rise(here[left], here[i], here[right], right - left == 2) : 0.0f;
-            const float y = known ? rise(back[i], here[i], ahead[i], inner) : 0.0f;
-            const float z = 2 * spacing;
-            const float inverse = 1 / numeric::square_root(x * x + y * y + z * z);
-            result.normals[vertex] = {-x * inverse, -y * inverse, z * inverse};
+            result.positions[j * width + i] = {static_cast<float>(field.spacing * static_cast<double>(i)), y,
+                                               numeric::is_finite(here[i]) ? here[i] : 0.0f};
         }
         if (j + 1 == height) return;
         std::size_t count = 0;

@@ -31,14 +31,10 @@ class bottom_tiles {
     bottom_tiles(const seabed::any& source, double spacing)
         : prepared_(seabed::prepare(source)), spacing_(even(spacing)), scale_(1 / spacing_) {}
 
-    /// The nearest length of eight bits: its multiples are exact, so a vertex is the same in whatever row it is
-    /// sampled.
+    /// A length whose multiples are exact, so that a vertex is the same in whatever row it is sampled.
     static double even(double length) {
         require(length > 1e-9 && length < 1e9, "cell", length, "metres above 0");
-        double unit = 1;
-        while (unit * 256 <= length) unit *= 2;
-        while (unit * 128 > length) unit /= 2;
-        return static_cast<double>(numeric::floor_to_int(length / unit + 0.5)) * unit;
+        return seabed::detail::eight_bits(length);
     }
 
     /// Samples what a fan of pings looks at, and forgets the rest.

@@ -5,7 +5,7 @@
 #include <insonify/geometry/topology.hpp>
 #include <insonify/geometry/transform.hpp>
 #include <insonify/seabed/any.hpp>
-#include <insonify/sonar/backscatter.hpp>
+#include <insonify/sonar/sediment.hpp>
 
 #include <array>
 #include <limits>
@@ -31,7 +31,7 @@ struct target {
 /// The bottom and what lies on it. Heights are metres above the datum z = 0.
 struct scene {
     insonify::seabed::any seabed = insonify::seabed::flat{};
-    std::array<material, 4> bottom{{{0.45f}, {0.5f}, {0.4f}, {0.6f}}};  ///< by seabed::type: sand, ripples, mud, rock
+    std::array<material, insonify::seabed::type_count> bottom = default_bottom();  ///< by seabed::type
     std::vector<target> targets;
 
     /// Adds a mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.

@@ -1,42 +1,33 @@
-// What bottoms send back, in decibels, for those who want sediments by name instead of relative gray values.
-//
-// Values are relative: they are for 100 kHz, a side-scan sonar's 300 to 900 kHz extrapolates them, and the report gives
-// 3 dB for well known sands and silts, 10 dB for rock.
+// How bright sediments are: the table of seabed/sediment.hpp as materials.
 #pragma once
 
+#include <insonify/seabed/sediment.hpp>
 #include <insonify/sonar/backscatter.hpp>
-#include <insonify/sonar/sonar_equation.hpp>
 
-#include <string_view>
+#include <array>
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// A kind of bottom: with Lambert's law, S_b = level + 20 log10(sin grazing).
-struct sediment {
-    std::string_view name;
-    float level;  ///< decibels
+using seabed::sediment;
 
-    /// For `scene::bottom`; use with `lambert_backscatter`.
-    material surface() const { return {static_cast<float>(from_decibels(static_cast<double>(level)))}; }
-};
+/// The backscattering strength of a sediment at normal incidence by Lambert's law, as a factor; for those who compute
+/// levels. Use with `lambert_backscatter`.
+inline material surface_of(sediment s) {
+    return {static_cast<float>(numeric::pow(10, static_cast<double>(seabed::facts_of(s).level) / 10))};
+}
 
-/// From rough rock to mud: Lambert levels that meet the backscattering strengths of APL-UW's model at 20 degrees
-/// (APL-UW High-Frequency Ocean Environmental Acoustic Models Handbook, TR 9407, 1994).
-inline constexpr sediment sediments[] = {
-    {"rough rock", 3.1f},    {"rock", -2.7f},         {"cobble", -6.9f},      {"sandy gravel", -10.0f},
-    {"coarse sand", -12.5f}, {"medium sand", -14.9f}, {"fine sand", -17.9f},  {"very fine sand", -17.7f},
-    {"coarse silt", -18.5f}, {"sandy mud", -22.5f},   {"silty clay", -22.6f},
-};
-
-/// One of `sediments` by its name.
-/// @throws invalid_input for a name that isn't there
-inline const sediment& sediment_of(std::string_view name) {
-    for (const sediment& s : sediments)
-        if (s.name == name) return s;
-    detail::raise(
-        invalid_input("sediment \"" + std::string(name) + "\" is unknown, expected one of insonify::sediments"));
+/// What a scene takes the bottom to be made of, by seabed::type: gray values that the paper's pictures have, and
+/// sediments relative to those, medium sand as bright as sand.
+inline std::array<material, seabed::type_count> default_bottom() {
+    std::array<material, seabed::type_count> bottom{{{0.45f}, {0.5f}, {0.4f}, {0.6f}}};
+    const float sand = bottom[0].reflectivity / surface_of(sediment::medium_sand).reflectivity;
+    for (std::size_t i = 0; i < seabed::sediment_count; ++i) {
+        const auto s = static_cast<sediment>(i);
+        bottom[static_cast<std::size_t>(seabed::type_of(s))] = {sand * surface_of(s).reflectivity};
+    }
+    return bottom;
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

@@ -38,7 +38,7 @@ struct whole_object {
 struct typed_bottom {
     const mesh& surface;
     const seabed::heightfield& field;
-    const std::array<material, 4>& materials;
+    const std::array<material, seabed::type_count>& materials;
     static constexpr std::uint16_t instance = labels::no_instance;
     static constexpr bool uniform = false;
 

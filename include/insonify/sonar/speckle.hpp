@@ -28,10 +28,25 @@ struct speckle_law {
     float steady = 0;  ///< power of a steady echo among the others, over theirs: Rician amplitudes
 };
 
+/// The fluctuation of a sediment, as the table has it.
+constexpr speckle_law speckle_of(seabed::sediment s) {
+    return {1, seabed::facts_of(s).texture, seabed::facts_of(s).steady};
+}
+
+/// By seabed::type: sand, ripples, mud, rock, and the sediments.
+constexpr std::array<speckle_law, seabed::type_count> default_speckle() {
+    std::array<speckle_law, seabed::type_count> laws{{{1, 15, 0}, {1, 0, 0}, {1, 0, 1}, {1, 1.5f, 0}}};
+    for (std::size_t i = 0; i < seabed::sediment_count; ++i) {
+        const auto s = static_cast<seabed::sediment>(i);
+        laws[static_cast<std::size_t>(seabed::type_of(s))] = speckle_of(s);
+    }
+    return laws;
+}
+
 /// Speckle by type of seabed. The defaults are illustrative: relief that is drawn makes its own fluctuations, so
 /// ripples take plain Rayleigh, and a texture stands for structure finer than the seabed is sampled.
 struct seabed_speckle {
-    std::array<speckle_law, 4> bottom{{{1, 15, 0}, {1, 0, 0}, {1, 0, 1}, {1, 1.5f, 0}}};  ///< by seabed::type
+    std::array<speckle_law, seabed::type_count> bottom = default_speckle();  ///< by seabed::type
     speckle_law elsewhere{};   ///< where the labels name no seabed: targets, and noise in the water column
     float along_track = 1;     ///< pings at which the correlation of intensities has fallen to 1 / e, 0 to 16
     float across_track = 1;    ///< the same in bins

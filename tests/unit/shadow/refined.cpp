@@ -108,7 +108,7 @@ TEST_CASE("Points are dark where a ray meets a triangle: 99 % of them on ripples
         in::seabed::any recipe;
         int most_wrong;  ///< of a thousand
     };
-    const bottom_kind kinds[] = {{in::seabed::ripples{.wavelength = 0.6f, .height = 0.06f}, 10},
+    const bottom_kind kinds[] = {{in::seabed::ripples{.wavelength = 0.6f, .steepness = 0.1f}, 10},
                                  {in::seabed::mud{}, 10},
                                  {in::seabed::rock{}, 40}};
     in::random_sequence random(11);

@@ -478,7 +478,7 @@ TEST_CASE("No seabed leaves the extent that its parameters promise, and none pro
 
 TEST_CASE("A coarse picture hears what a fine one does") {
     in::scene s;
-    s.seabed = in::seabed::ripples{.height = 0.04f};
+    s.seabed = in::seabed::ripples{.steepness = 0.05f};
     s.add(in::cube{.size = glm::vec3(0.5f)}, {.position = {9, 1, 0.25}, .yaw = 0.5f}, "cube");
     using bare = in::record_options<in::labels, in::lambert_backscatter, in::sonar_equation<>>;
     in::side_scan fine{.altitude = 5, .pings = 50, .range = 20, .bins = 2000};

@@ -228,8 +228,8 @@ TEST_CASE("What is left out isn't there, and people's own parts fit in") {
 }
 
 TEST_CASE("Sediments by name are as far apart as the table says") {
-    const float rock = in::sediment_of("rough rock").surface().reflectivity;
-    const float sand = in::sediment_of("fine sand").surface().reflectivity;
+    const float rock = in::surface_of(in::seabed::sediment_of("rough rock")).reflectivity;
+    const float sand = in::surface_of(in::sediment::fine_sand).reflectivity;
     CHECK(10 * std::log10(static_cast<double>(rock / sand)) == Approx(21.0).margin(1e-3));
-    CHECK_THROWS_WITH(in::sediment_of("lava"), ContainsSubstring("lava"));
+    CHECK_THROWS_WITH(in::seabed::sediment_of("lava"), ContainsSubstring("lava"));
 }

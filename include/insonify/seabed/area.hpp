@@ -1,0 +1,201 @@
+// Where a type of bottom lies: patches by lot, shapes, pictures. All answer with the distance to their border.
+#pragma once
+
+#include <insonify/core/image.hpp>
+#include <insonify/seabed/noise.hpp>
+
+#include <variant>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// Patches strewn by a noise that exceeds a threshold.
+struct patches {
+    float coverage = 0.5f;  ///< in [0, 1]: their share of the area, over many patches
+    float size = 12.0f;     ///< metres, > 0: scale of the patches
+};
+
+/// What is nearer to a point than a radius.
+struct disc {
+    glm::dvec2 centre{0.0, 0.0};
+    float radius = 5;  ///< metres, >= 0
+};
+
+/// What is nearer to a path than half a width.
+struct band {
+    std::vector<glm::dvec2> path;  ///< at least one point
+    float width = 4;               ///< metres, >= 0
+};
+
+/// What a polygon encloses, by the even-odd rule.
+struct polygon {
+    std::vector<glm::dvec2> corners;  ///< at least three
+};
+
+/// Where a picture, laid over the world like a heightfield, is above 1/2; interpolated between its pixels, outside as
+/// at its nearest edge. A step from 0 to 1 between two pixels is taken for a border across the spacing.
+struct stencil {
+    image<float> shares;
+    glm::dvec2 origin{0.0, 0.0};  ///< of pixel (0, 0), metres
+    double spacing = 1;           ///< metres, > 0
+};
+
+using area = std::variant<patches, disc, band, polygon, stencil>;
+
+namespace detail {
+
+/// The value that a standard normal variable exceeds with probability p, absolute error < 4.5e-4.
+/// Milton Abramowitz, Irene A. Stegun. Handbook of Mathematical Functions. 1964 (eq. 26.2.23, by C. Hastings).
+inline double normal_exceeded(double p) {
+    const double tail = p < 0.5 ? p : 1 - p;
+    const double t = numeric::square_root(-2 * numeric::log(tail));
+    const double value =
+        t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+    return p < 0.5 ? value : -value;
+}
+
+/// Distance from p to the segment from a to b, squared.
+inline double square_distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+    const glm::dvec2 ab = b - a, ap = p - a;
+    const double length = ab.x * ab.x + ab.y * ab.y;
+    const double t = length > 0 ? (std::min)((std::max)((ap.x * ab.x + ap.y * ab.y) / length, 0.0), 1.0) : 0.0;
+    const double x = ap.x - t * ab.x, y = ap.y - t * ab.y;
+    return x * x + y * y;
+}
+inline double distance_to_path(const glm::dvec2& p, const std::vector<glm::dvec2>& path) {
+    double square = square_distance(p, path[0], path[0]);
+    for (std::size_t i = 1; i < path.size(); ++i) square = (std::min)(square, square_distance(p, path[i - 1], path[i]));
+    return numeric::square_root(square);
+}
+
+inline double inside(const disc& d, const glm::dvec2& p) {
+    const glm::dvec2 off = p - d.centre;
+    return static_cast<double>(d.radius) - numeric::square_root(off.x * off.x + off.y * off.y);
+}
+inline double inside(const band& b, const glm::dvec2& p) {
+    return 0.5 * static_cast<double>(b.width) - distance_to_path(p, b.path);
+}
+inline double inside(const polygon& shape, const glm::dvec2& p) {
+    bool odd = false;
+    double square = square_distance(p, shape.corners.back(), shape.corners.front());
+    for (std::size_t i = 0; i < shape.corners.size(); ++i) {
+        const glm::dvec2 &a = shape.corners[i], &b = shape.corners[i + 1 < shape.corners.size() ? i + 1 : 0];
+        square = (std::min)(square, square_distance(p, a, b));
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
+    }
+    const double distance = numeric::square_root(square);
+    return odd ? distance : -distance;
+}
+inline double inside(const stencil& s, const glm::dvec2& p) {
+    struct place {
+        int cell, next;
+        double across;
+    };
+    const auto axis = [](double u, int pixels) {
+        const double held = u > 0 ? (std::min)(u, static_cast<double>(pixels - 1)) : 0.0;
+        const int cell = (std::min)(static_cast<int>(held), (std::max)(pixels - 2, 0));
+        return place{cell, (std::min)(cell + 1, pixels - 1), held - cell};
+    };
+    const auto [x, right, u] = axis((p.x - s.origin.x) / s.spacing, s.shares.width());
+    const auto [y, up, v] = axis((p.y - s.origin.y) / s.spacing, s.shares.height());
+    const auto share = [&](int i, int j) { return static_cast<double>(s.shares(i, j)); };
+    const double low = share(x, y) + u * (share(right, y) - share(x, y));
+    const double high = share(x, up) + u * (share(right, up) - share(x, up));
+    return (low + v * (high - low) - 0.5) * s.spacing;
+}
+
+inline void validate(const disc& d) {
+    require(d.radius >= 0 && d.radius < 1e9f, "disc.radius", d.radius, "metres, at least 0");
+    require(numeric::is_finite(d.centre.x), "disc.centre.x", d.centre.x, "a finite position");
+    require(numeric::is_finite(d.centre.y), "disc.centre.y", d.centre.y, "a finite position");
+}
+inline void validate_points(const std::vector<glm::dvec2>& points, const char* name, std::size_t least) {
+    require(points.size() >= least, std::string(name) + ".size()", points.size(), "more points");
+    for (const glm::dvec2& p : points) {
+        require(numeric::is_finite(p.x), name, p.x, "finite positions");
+        require(numeric::is_finite(p.y), name, p.y, "finite positions");
+    }
+}
+inline void validate(const band& b) {
+    validate_points(b.path, "band.path", 1);
+    require(b.width >= 0 && b.width < 1e9f, "band.width", b.width, "metres, at least 0");
+}
+inline void validate(const polygon& p) {
+    validate_points(p.corners, "polygon.corners", 3);
+}
+inline void validate(const stencil& s) {
+    require(!s.shares.empty(), "stencil.shares.size()", s.shares.size(), "at least 1");
+    require(s.spacing > 0 && s.spacing < 1e6, "stencil.spacing", s.spacing, "metres above 0");
+    require(s.origin.x >= -1e9 && s.origin.x <= 1e9, "stencil.origin.x", s.origin.x, "within 1e9 metres");
+    require(s.origin.y >= -1e9 && s.origin.y <= 1e9, "stencil.origin.y", s.origin.y, "within 1e9 metres");
+    for (const float share : s.shares.pixels())
+        require(numeric::is_finite(share), "stencil.shares", share, "finite numbers");
+}
+
+/// Evaluates an `area` along rows.
+class outline {
+  public:
+    /// @param border  metres, > 0: the finest detail of the outline
+    /// @param ragged  metres: how far a shape's outline strays
+    /// @param layer   tells the outlines of one seed apart
+    outline(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
+        : shape_(std::move(where)), noise_(roughness_of(shape_, border, ragged), seed, stream::mask, layer) {
+        if (const auto* p = std::get_if<patches>(&shape_)) {
+            require(p->coverage >= 0 && p->coverage <= 1, "patches.coverage", p->coverage, "0 to 1");
+            // The noise falls by its slope per metre across a border: scaled so, it is about the distance.
+            scale_ = static_cast<float>(1 / noise_.rms_slope());
+            offset_ = p->coverage <= 0 ? -never
+                      : p->coverage >= 1
+                          ? never
+                          : -scale_ * static_cast<float>(normal_exceeded(static_cast<double>(p->coverage)));
+        }
+        std::visit(
+            [](const auto& shape) {
+                if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(shape)>, patches>) validate(shape);
+            },
+            shape_);
+    }
+
+    /// Writes how far inside the area the positions of a stretch lie, metres, negative outside.
+    void margins(const stretch& part, stretch_values& values) const {
+        values.fill(0);
+        noise_.add(part, values);
+        std::visit(
+            [&](const auto& shape) {
+                for (std::size_t i = 0; i < part.count; ++i) {
+                    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, patches>)
+                        values[i] = offset_ + scale_ * values[i];
+                    else
+                        values[i] += static_cast<float>(inside(shape, {part.x[i], part.y}));
+                }
+            },
+            shape_);
+    }
+
+  private:
+    static constexpr float never = 1e30f;  // beyond any value of the noise
+
+    static roughness roughness_of(const area& where, float border, float ragged) {
+        require(border >= 1e-3f && border < 1e6f, "layer.border", border, "metres from 0.001");
+        require(ragged >= 0 && ragged < 1e6f, "layer.ragged", ragged, "metres, at least 0");
+        if (const auto* p = std::get_if<patches>(&where)) {
+            require(p->size >= border && p->size < 1e6f, "patches.size", p->size, "metres, at least layer.border");
+            return {.rms = 1, .longest = p->size, .shortest = border, .exponent = 3.6f};
+        }
+        const float longest = (std::max)(6 * ragged, border);
+        return {.rms = ragged, .longest = longest, .shortest = (std::min)(border, longest), .exponent = 3.6f};
+    }
+
+    area shape_;
+    power_law_noise noise_;
+    float scale_ = 1, offset_ = 0;
+};
+
+}  // namespace detail
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,121 @@
+// One bottom laid over another, with the border between them as nature makes it: what stands high is buried last.
+//
+// Across a border the layer rises from beneath: its crests come out first, as narrow tips, while its troughs are still
+// filled; further in, the highest of what lies below looks out of it last. Types follow the surface that is on top.
+#pragma once
+
+#include <insonify/seabed/area.hpp>
+#include <insonify/seabed/flat.hpp>
+#include <insonify/seabed/mud.hpp>
+#include <insonify/seabed/ripples.hpp>
+#include <insonify/seabed/rock.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// The recipes of a single type.
+using simple = std::variant<flat, ripples, mud, rock>;
+
+namespace detail {
+
+/// About how far a recipe's surface strays from its mean level, metres: how deep it has to sink to be gone.
+inline float relief_of(const roughness& r) {
+    return 2 * r.rms;
+}
+inline float relief_of(const flat& f) {
+    return relief_of(f.surface);
+}
+inline float relief_of(const ripples& r) {
+    return 0.5f * (r.height() + r.second.height()) + relief_of(r.surface);
+}
+inline float relief_of(const mud& m) {
+    return (std::max)((std::max)(m.mound_height, m.pock_depth), relief_of(m.surface));
+}
+inline float relief_of(const rock& r) {
+    return 0.5f * r.relief + relief_of(r.surface);
+}
+template <recipe R>
+float relief_of(const R&) {
+    return 0.05f;
+}
+template <recipe... R>
+float relief_of(const std::variant<R...>& any_of) {
+    return std::visit([](const auto& held) { return relief_of(held); }, any_of);
+}
+
+/// A layer along its border.
+class border {
+  public:
+    /// @param width   metres, > 0
+    /// @param relief  metres: that of the layer and of what lies below it, the larger
+    border(float width, float relief) : per_metre_(1 / width), relief_(relief + 1e-6f) {}
+
+    /// From 0, where there is no layer, to 1, where there is nothing else.
+    float across(float margin) const { return clamp01(0.5f + margin * per_metre_); }
+
+    struct meeting {
+        float height;
+        bool is_layer;
+    };
+    /// What is on top at `t` of the way across; at 0 and 1 the very heights of the one and the other.
+    meeting at(float t, float below, float layer) const {
+        const float rise = layer - below;
+        if (t <= 0) return {below, false};
+        if (t >= 1) return {layer, true};
+        // Relief beyond what was foreseen fades.
+        if (t < 0.5f) {
+            const float over = rise - relief_ * (1 - 2 * t);
+            return {over > 0 ? below + over * clamp01(4 * t) : below, over > 0};
+        }
+        const float over = -rise - relief_ * (2 * t - 1);
+        return {over > 0 ? layer + over * clamp01(4 - 4 * t) : layer, !(over > 0)};
+    }
+
+  private:
+    float per_metre_, relief_;
+};
+
+/// Lays what `layer` samples over `heights` and `types`, which hold what lies below, or don't where the layer hides it:
+/// `below` is asked to fill them where they are wanted.
+template <class Below, typed_sampler Layer>
+void lay_over(const outline& where, const border& edge, const Layer& layer, const scanline& line,
+              std::span<float> heights, std::span<type> types, Below&& below) {
+    const std::size_t count = heights.size();
+    const stretch part(line, count);
+    stretch_values across;
+    where.margins(part, across);
+    bool any_layer = false, any_below = false;
+    for (std::size_t i = 0; i < count; ++i) {
+        across[i] = edge.across(across[i]);
+        any_layer |= across[i] > 0;
+        any_below |= across[i] < 1;
+    }
+    // Away from borders one of the two is all there is to evaluate.
+    if (!any_below) return layer.row(line, heights, types);
+    below(line, heights, types);
+    if (!any_layer) return;
+
+    std::array<float, chunk> other;
+    std::array<type, chunk> other_types;
+    layer.row(line, {other.data(), count}, {other_types.data(), types.size()});
+    for (std::size_t i = 0; i < count; ++i) {
+        const border::meeting top = edge.at(across[i], heights[i], other[i]);
+        heights[i] = top.height;
+        if (top.is_layer && !types.empty()) types[i] = other_types[i];
+    }
+}
+
+/// Calls `fill(line, heights, types)` for parts of a row no longer than a stretch.
+template <class Fill>
+void by_parts(const scanline& line, std::span<float> heights, std::span<type> types, Fill&& fill) {
+    for (std::size_t i = 0; i < heights.size(); i += chunk) {
+        const std::size_t count = (std::min)(chunk, heights.size() - i);
+        fill(line.from(i), heights.subspan(i, count), types.empty() ? types : types.subspan(i, count));
+    }
+}
+
+}  // namespace detail
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

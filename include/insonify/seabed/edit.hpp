@@ -1,0 +1,268 @@
+// What hands, plows and currents do to a seabed, an edit at a time: see sculpt.hpp for how they are applied.
+#pragma once
+
+#include <insonify/seabed/area.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// Adds a round hill with soft edges, or with a negative height a hollow.
+struct raise {
+    glm::dvec2 centre{0.0, 0.0};
+    float radius = 1;     ///< metres, > 0
+    float height = 0.1f;  ///< metres, in the middle
+};
+
+/// Pulls the ground to a level.
+struct flatten {
+    glm::dvec2 centre{0.0, 0.0};
+    float radius = 1;  ///< metres, > 0: of the plain with its edge, which is a quarter of it wide
+    float level = 0;   ///< metres above the datum
+};
+
+/// Takes away relief that is shorter than a length or two.
+struct smooth {
+    glm::dvec2 centre{0.0, 0.0};
+    float radius = 1;      ///< metres, > 0: with its edge
+    float length = 0.25f;  ///< metres, > 0; to eight bits, so that its multiples are exact
+};
+
+/// A straight slope between two points, as a slipway.
+struct ramp {
+    glm::dvec2 from{0.0, 0.0}, to{1.0, 0.0};
+    float width = 1;                          ///< metres, > 0: with its edges, each a quarter of it wide
+    float from_height = 0, to_height = 0.5f;  ///< metres above the datum
+};
+
+/// A furrow or ridge along a path, or the same mark again and again.
+struct stamp {
+    std::vector<glm::dvec2> path;  ///< at least one point
+    float radius = 0.3f;           ///< metres, > 0: half the width of a furrow, with its edges
+    float height = -0.1f;          ///< metres, in the middle; negative to dig
+    float every = 0;               ///< metres along the path from mark to mark; 0: without end
+};
+
+/// What a current digs around a target: a moat, deepest on the side it comes from, and two tails of what it dug.
+struct scour {
+    glm::dvec2 centre{0.0, 0.0};
+    float radius = 0.5f;  ///< metres, > 0: of the target
+    float depth = 0.15f;  ///< metres, >= 0
+    float width = 0.6f;   ///< metres, > 0: of the moat
+    float current = 0;    ///< radians from +x: where it flows to
+    float tail = 2;       ///< metres, >= 0
+};
+
+/// Sediment heaped up to a level: what half buries a target. Ground that is higher stays.
+struct heap {
+    glm::dvec2 centre{0.0, 0.0};
+    float radius = 0.5f;  ///< metres, >= 0: of its level top
+    float level = 0.2f;   ///< metres above the datum
+    float slope = 0.6f;   ///< > 0: of its sides; sand lies at 0.6, mud flatter
+};
+
+using edit = std::variant<raise, flatten, smooth, ramp, stamp, scour, heap>;
+
+namespace detail {
+
+/// 1 in the middle, 0 with its slope from a distance of 1.
+constexpr float brush(float r) {
+    const float inside = clamp01(1 - r * r);
+    return inside * inside;
+}
+/// 1 up to three quarters of the way, then down to 0.
+constexpr float plateau(float r) {
+    return fade(clamp01(4 - 4 * r));
+}
+
+/// From one height to another, all the way at a weight of 1.
+constexpr float pulled(float height, float to, float weight) {
+    return height * (1 - weight) + to * weight;
+}
+
+inline float length(double x, double y) {
+    return static_cast<float>(numeric::square_root(x * x + y * y));
+}
+
+/// A box that holds all that an edit changes.
+struct box {
+    glm::dvec2 low, high;
+};
+inline box box_around(const glm::dvec2& centre, double reach) {
+    return {centre - glm::dvec2(reach), centre + glm::dvec2(reach)};
+}
+inline box box_around(const std::vector<glm::dvec2>& points, double reach) {
+    box b = box_around(points.front(), reach);
+    for (const glm::dvec2& p : points) {
+        b.low = {(std::min)(b.low.x, p.x - reach), (std::min)(b.low.y, p.y - reach)};
+        b.high = {(std::max)(b.high.x, p.x + reach), (std::max)(b.high.y, p.y + reach)};
+    }
+    return b;
+}
+
+inline void require_position(const char* name, const glm::dvec2& p) {
+    require(p.x >= -1e9 && p.x <= 1e9, name, p.x, "within 1e9 metres");
+    require(p.y >= -1e9 && p.y <= 1e9, name, p.y, "within 1e9 metres");
+}
+inline void require_metres(const char* name, float value, bool positive) {
+    require((positive ? value > 0 : value >= 0) && value < 1e6f, name, value,
+            positive ? "metres above 0" : "metres, at least 0");
+}
+inline void require_height(const char* name, float value) {
+    require(value > -1e6f && value < 1e6f, name, value, "a finite height");
+}
+
+inline box box_of(const raise& e) {
+    require_position("raise.centre", e.centre);
+    require_metres("raise.radius", e.radius, true);
+    require_height("raise.height", e.height);
+    return box_around(e.centre, static_cast<double>(e.radius));
+}
+inline box box_of(const flatten& e) {
+    require_position("flatten.centre", e.centre);
+    require_metres("flatten.radius", e.radius, true);
+    require_height("flatten.level", e.level);
+    return box_around(e.centre, static_cast<double>(e.radius));
+}
+inline box box_of(const smooth& e) {
+    require_position("smooth.centre", e.centre);
+    require_metres("smooth.radius", e.radius, true);
+    require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres from 0.001");
+    return box_around(e.centre, static_cast<double>(e.radius));
+}
+inline box box_of(const ramp& e) {
+    require_position("ramp.from", e.from);
+    require_position("ramp.to", e.to);
+    require_metres("ramp.width", e.width, true);
+    require_height("ramp.from_height", e.from_height);
+    require_height("ramp.to_height", e.to_height);
+    require(e.from != e.to, "ramp.to", e.to.x, "another point than ramp.from");
+    return box_around(std::vector<glm::dvec2>{e.from, e.to}, static_cast<double>(e.width));
+}
+inline box box_of(const stamp& e) {
+    require(!e.path.empty(), "stamp.path.size()", e.path.size(), "at least 1");
+    for (const glm::dvec2& p : e.path) require_position("stamp.path", p);
+    require_metres("stamp.radius", e.radius, true);
+    require_height("stamp.height", e.height);
+    require_metres("stamp.every", e.every, false);
+    return box_around(e.path, static_cast<double>(e.radius));
+}
+inline box box_of(const scour& e) {
+    require_position("scour.centre", e.centre);
+    require_metres("scour.radius", e.radius, true);
+    require_metres("scour.depth", e.depth, false);
+    require_metres("scour.width", e.width, true);
+    require_metres("scour.tail", e.tail, false);
+    require(numeric::is_finite(e.current), "scour.current", e.current, "a finite angle");
+    return box_around(e.centre, static_cast<double>(e.radius) + static_cast<double>(e.width + e.tail));
+}
+inline box box_of(const heap& e) {
+    require_position("heap.centre", e.centre);
+    require_metres("heap.radius", e.radius, false);
+    require_height("heap.level", e.level);
+    require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope from 0.001");
+    // The ground may be anywhere; a hundred metres below the top it is not looked for.
+    return box_around(e.centre, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
+}
+
+/// What an edit makes of a height at a position.
+inline float worked(const raise& e, const glm::dvec2& p, float height) {
+    return height + e.height * brush(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius);
+}
+inline float worked(const flatten& e, const glm::dvec2& p, float height) {
+    return pulled(height, e.level, plateau(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius));
+}
+inline float worked(const ramp& e, const glm::dvec2& p, float height) {
+    const glm::dvec2 way = e.to - e.from, off = p - e.from;
+    const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
+    const double t = (way.x * off.x + way.y * off.y) / square;
+    const double side = (way.x * off.y - way.y * off.x) / span;
+    // Beyond its ends the ramp is level, and fades as at its sides.
+    const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
+    const float weight = plateau(static_cast<float>(2 * (side < 0 ? -side : side)) / e.width) *
+                         fade(clamp01(1 - 4 * static_cast<float>(past) / e.width));
+    return pulled(height, mix(e.from_height, e.to_height, clamp01(static_cast<float>(t))), weight);
+}
+inline float worked(const stamp& e, const glm::dvec2& p, float height) {
+    if (e.every <= 0) return height + e.height * brush(static_cast<float>(distance_to_path(p, e.path)) / e.radius);
+    // The mark next to the nearest place on each leg of the path, counted along it.
+    const double every = static_cast<double>(e.every);
+    double before = 0, nearest = square_distance(p, e.path[0], e.path[0]);
+    for (std::size_t i = 1; i < e.path.size(); ++i) {
+        const glm::dvec2 &a = e.path[i - 1], way = e.path[i] - a, off = p - a;
+        const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
+        if (span == 0) continue;
+        const double along = before + (way.x * off.x + way.y * off.y) / span;
+        const double last = static_cast<double>(numeric::floor_to_int((before + span) / every)) * every;
+        const double first = -static_cast<double>(numeric::floor_to_int(-before / every)) * every;
+        const double mark = static_cast<double>(numeric::floor_to_int(along / every + 0.5)) * every;
+        const double place = ((std::min)((std::max)(mark, first), last) - before) / span;
+        const glm::dvec2 at = a + way * place;
+        if (first <= last) nearest = (std::min)(nearest, square_distance(p, at, at));
+        before += span;
+    }
+    return height + e.height * brush(static_cast<float>(numeric::square_root(nearest)) / e.radius);
+}
+inline float worked(const scour& e, const glm::dvec2& p, float height) {
+    const auto flow = numeric::sin_cos(static_cast<double>(e.current));
+    const glm::dvec2 off = p - e.centre;
+    const auto along = static_cast<float>(off.x * flow.cosine + off.y * flow.sine);
+    const auto across = static_cast<float>(off.y * flow.cosine - off.x * flow.sine);
+    const float r = length(off.x, off.y), beyond = (r - e.radius) / e.width;
+    // The moat is half as deep on the lee side.
+    const float lee = r > 0 ? 0.75f - 0.25f * along / r : 1.0f;
+    const float moat = -e.depth * lee * brush(beyond > 0 ? beyond : 0.0f);
+    if (e.tail <= 0 || along <= 0) return height + moat;
+    const float way = clamp01(along / (e.radius + e.width + e.tail)), side = across < 0 ? -across : across;
+    const float tail = 0.4f * e.depth * 4 * way * (1 - way) * brush((side - e.radius) / e.width);
+    return height + moat + tail;
+}
+inline float worked(const heap& e, const glm::dvec2& p, float height) {
+    const float beyond = length(p.x - e.centre.x, p.y - e.centre.y) - e.radius;
+    return (std::max)(height, e.level - e.slope * (std::max)(beyond, 0.0f));
+}
+
+/// Shares that the 16 places around a coordinate, four to a length, have in its smoothed value: a cubic B-spline, which
+/// leaves slopes as they are.
+inline std::array<float, 16> smooth_shares(float fraction) {
+    std::array<float, 16> shares;
+    for (std::size_t n = 0; n < 16; ++n) {
+        float t = 0.25f * (fraction + 7 - static_cast<float>(n));
+        t = t < 0 ? -t : t;
+        const float s = 2 - t;
+        shares[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
+    }
+    return shares;
+}
+
+/// A row of the ground smoothed.
+/// @param ground  fills the heights of rows
+template <class Ground>
+void smooth_row(const smooth& e, const scanline& line, std::span<float> heights, Ground&& ground) {
+    const double step = eight_bits(static_cast<double>(e.length)) / 4;
+    const lattice_coordinate v(line.y / step);
+    const std::int64_t first = numeric::floor_to_int(line.x(0) / step) - 7;
+    const std::int64_t last = numeric::floor_to_int(line.x(heights.size() - 1) / step) + 8;
+    std::vector<float> nodes(static_cast<std::size_t>(last - first + 1)), column(nodes.size(), 0.0f);
+    const auto up = smooth_shares(v.fraction);
+    for (std::size_t j = 0; j < 16; ++j) {
+        const double y = step * static_cast<double>(v.cell - 7 + static_cast<std::int64_t>(j));
+        ground(scanline{.y = y, .origin = step * static_cast<double>(first), .spacing = step}, std::span(nodes));
+        for (std::size_t n = 0; n < nodes.size(); ++n) column[n] += up[j] * nodes[n];
+    }
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        const double x = line.x(i);
+        const lattice_coordinate u(x / step);
+        const float* const from = &column[static_cast<std::size_t>(u.cell - 7 - first)];
+        const auto across = smooth_shares(u.fraction);
+        float even = 0;
+        for (std::size_t n = 0; n < 16; ++n) even += across[n] * from[n];
+        heights[i] = pulled(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));
+    }
+}
+
+}  // namespace detail
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

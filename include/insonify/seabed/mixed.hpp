@@ -1,0 +1,86 @@
+// A seabed of many: bottoms laid one over the other, each where its area says, and the type at every point.
+#pragma once
+
+#include <insonify/seabed/cover.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+class mixed_sampler;
+
+/// One bottom of a `mixed` seabed.
+struct layer {
+    simple bottom = ripples{};
+    area where = patches{};
+    float border = 0.6f;  ///< metres, from 0.001: width of the border, about a ripple or two
+    float ragged = 0.5f;  ///< metres, >= 0: how far the outline of a shape strays; patches are ragged by themselves
+};
+
+/// Bottoms on a base, in order: a later layer hides the earlier where it lies.
+///
+///     mixed{.base = flat{}, .layers = {{ripples{}, patches{.coverage = 0.4f}}, {rock{}, disc{{10, 5}, 8}}}}
+struct mixed {
+    simple base = flat{};
+    std::vector<layer> layers;
+    std::uint64_t seed = 1;  ///< of the outlines; patches of different layers are independent
+
+    /// The sampler owns what it needs.
+    /// @throws invalid_input for parameters out of their range
+    mixed_sampler prepare() const;
+    float operator()(double x, double y) const;
+    type type_at(double x, double y) const;
+};
+
+/// Evaluates `mixed`.
+class mixed_sampler {
+  public:
+    explicit mixed_sampler(const mixed& m) : base_(seabed::prepare(m.base)) {
+        float relief = detail::relief_of(m.base);
+        for (std::uint32_t i = 0; i < m.layers.size(); ++i) {
+            const layer& l = m.layers[i];
+            relief = (std::max)(relief, detail::relief_of(l.bottom));
+            layers_.push_back(
+                {seabed::prepare(l.bottom), {l.where, l.border, l.ragged, m.seed, i}, {l.border, relief}});
+        }
+    }
+
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+        detail::by_parts(line, heights, types, [&](const scanline& l, std::span<float> h, std::span<type> t) {
+            fill(layers_.size(), l, h, t);
+        });
+    }
+
+  private:
+    using bottom_sampler = decltype(seabed::prepare(std::declval<const simple&>()));
+
+    /// What the base and the first `count` layers make.
+    void fill(std::size_t count, const scanline& line, std::span<float> heights, std::span<type> types) const {
+        if (count == 0) return base_.row(line, heights, types);
+        const prepared_layer& top = layers_[count - 1];
+        detail::lay_over(top.where, top.edge, top.bottom, line, heights, types,
+                         [&](const scanline& l, std::span<float> h, std::span<type> t) { fill(count - 1, l, h, t); });
+    }
+
+    struct prepared_layer {
+        bottom_sampler bottom;
+        detail::outline where;
+        detail::border edge;
+    };
+    bottom_sampler base_;
+    std::vector<prepared_layer> layers_;
+};
+
+inline mixed_sampler mixed::prepare() const {
+    return mixed_sampler(*this);
+}
+inline float mixed::operator()(double x, double y) const {
+    return at(prepare(), x, y).height;
+}
+inline type mixed::type_at(double x, double y) const {
+    return at(prepare(), x, y).kind;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,118 @@
+// Seabeds of many: which bottom lies where, and what happens where they meet.
+#include <insonify/seabed/mixed.hpp>
+#include <insonify/seabed/sample.hpp>
+
+#include <cmath>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+namespace sb = insonify::seabed;
+
+namespace {
+
+constexpr sb::roughness smooth{.rms = 0};
+
+sb::type at(const sb::mixed& m, double x, double y) {
+    return m.type_at(x, y);
+}
+
+}  // namespace
+
+TEST_CASE("Shapes lie where they are put, later ones on earlier ones") {
+    const sb::mixed bed{.base = sb::mud{},
+                        .layers = {{sb::flat{}, sb::disc{{10, 0}, 5}, 0.1f, 0},
+                                   {sb::ripples{}, sb::band{{{0, 20}, {20, 20}, {20, 40}}, 4}, 0.1f, 0},
+                                   {sb::rock{}, sb::polygon{{{8, -2}, {12, -2}, {12, 2}, {8, 2}}}, 0.1f, 0}}};
+    CHECK(at(bed, 0, 0) == sb::type::mud);
+    CHECK(at(bed, 10, 4.8) == sb::type::sand);
+    CHECK(at(bed, 10, 5.2) == sb::type::mud);
+    CHECK(at(bed, 10, 0) == sb::type::rock);
+    CHECK(at(bed, 11.8, 1.8) == sb::type::rock);
+    CHECK(at(bed, 12.2, 1.8) == sb::type::sand);
+    CHECK(at(bed, 3, 21.8) == sb::type::ripples);
+    CHECK(at(bed, 21.8, 30) == sb::type::ripples);
+    CHECK(at(bed, 3, 22.2) == sb::type::mud);
+    CHECK(at(bed, -1.8, 20) == sb::type::ripples);  // its end is round
+}
+
+TEST_CASE("A stencil puts a bottom where a picture is bright") {
+    in::image<float> picture(4, 3, 0.0f);
+    picture(2, 1) = 1;
+    const sb::mixed bed{.layers = {{sb::rock{}, sb::stencil{picture, {100, 200}, 10}, 0.1f, 0}}};
+    CHECK(at(bed, 120, 210) == sb::type::rock);
+    CHECK(at(bed, 124, 210) == sb::type::rock);
+    CHECK(at(bed, 126, 210) == sb::type::sand);
+    CHECK(at(bed, 120, 216) == sb::type::sand);
+    CHECK(at(bed, -500, 0) == sb::type::sand);
+}
+
+TEST_CASE("Patches cover the share asked for, whatever lies above and below") {
+    const float coverage = GENERATE(0.1f, 0.4f, 0.8f);
+    const sb::mixed bed{.base = sb::flat{},
+                        .layers = {{sb::mud{.density = 0}, sb::patches{coverage, 3}, 0.3f},
+                                   {sb::ripples{}, sb::patches{0.5f, 3}, 0.3f}}};
+    const auto field = sb::sample(bed, {.spacing = 0.73, .width = 500, .height = 500});
+    double mud = 0, ripples = 0;
+    for (const sb::type t : field.types.pixels()) {
+        mud += t == sb::type::mud ? 1 : 0;
+        ripples += t == sb::type::ripples ? 1 : 0;
+    }
+    CHECK(ripples / 250000 == Approx(0.5).margin(0.03));
+    CHECK(mud / (250000 - ripples) == Approx(static_cast<double>(coverage)).margin(0.03));
+}
+
+TEST_CASE("Beyond its border a layer is its bottom and nothing else; within, the surface has no steps") {
+    const sb::ripples waves{.wavelength = 0.5f, .surface = smooth};
+    const sb::flat plain{.surface = smooth};
+    const bool under = GENERATE(false, true);
+    const sb::mixed bed = under ? sb::mixed{.base = waves, .layers = {{plain, sb::disc{{0, 0}, 4}, 1, 0}}}
+                                : sb::mixed{.base = plain, .layers = {{waves, sb::disc{{0, 0}, 4}, 1, 0}}};
+    const double spacing = 1.0 / 128;
+    const sb::grid area{.origin = {-6, -6}, .spacing = spacing, .width = 12 * 128, .height = 400};
+    const auto field = sb::sample(bed, area), rippled = sb::sample(waves, area);
+    std::size_t wrong = 0, mixed = 0;
+    float steepest = 0, steepest_ripple = 0;
+    for (int j = 0; j < area.height; ++j)
+        for (int i = 1; i < area.width; ++i) {
+            const double x = -6 + spacing * i, y = -6 + spacing * j, r = std::sqrt(x * x + y * y);
+            const float height = field.heights(i, j), wave = rippled.heights(i, j);
+            if (std::abs(r - 4) > 0.5)
+                wrong += height != ((r < 4) != under ? wave : 0.0f) ? 1u : 0u;
+            else
+                mixed += height != 0 && height != wave ? 1u : 0u;
+            steepest = std::max(steepest, std::abs(height - field.heights(i - 1, j)));
+            steepest_ripple = std::max(steepest_ripple, std::abs(wave - rippled.heights(i - 1, j)));
+        }
+    CHECK(wrong == 0);
+    CHECK(mixed > 1000);
+    CHECK(steepest < 1.5f * steepest_ripple);
+}
+
+TEST_CASE("Crests come out of a border before troughs do") {
+    const sb::mixed bed{.base = sb::flat{.surface = smooth},
+                        .layers = {{sb::ripples{.wavelength = 0.5f, .surface = smooth}, sb::disc{{0, 0}, 4}, 1, 0}}};
+    const sb::grid area{.origin = {-4.4, -4.4}, .spacing = 0.02, .width = 440, .height = 440};
+    const auto field = sb::sample(bed, area);
+    std::size_t above = 0, below = 0;
+    for (int j = 0; j < area.height; ++j)
+        for (int i = 0; i < area.width; ++i) {
+            const double x = -4.4 + 0.02 * i, y = -4.4 + 0.02 * j, r = std::sqrt(x * x + y * y);
+            if (r < 4.05 || r > 4.4 || field.types(i, j) != sb::type::ripples) continue;
+            ++(field.heights(i, j) > 0 ? above : below);
+        }
+    CHECK(above > 200);
+    CHECK(below == 0);
+}
+
+TEST_CASE("Layers name the parameter they refuse") {
+    const auto bed = [](sb::layer l) { return sb::mixed{.layers = {std::move(l)}}; };
+    CHECK_THROWS_WITH(bed({.border = 0}).prepare(), ContainsSubstring("layer.border is 0"));
+    CHECK_THROWS_WITH(bed({.ragged = -1}).prepare(), ContainsSubstring("layer.ragged is -1"));
+    CHECK_THROWS_WITH(bed({.where = sb::patches{.coverage = 2}}).prepare(), ContainsSubstring("patches.coverage is 2"));
+    CHECK_THROWS_WITH(bed({.where = sb::disc{.radius = -1}}).prepare(), ContainsSubstring("disc.radius is -1"));
+    CHECK_THROWS_WITH(bed({.where = sb::band{}}).prepare(), ContainsSubstring("band.path"));
+    CHECK_THROWS_WITH(bed({.where = sb::polygon{{{0, 0}, {1, 1}}}}).prepare(), ContainsSubstring("polygon.corners"));
+    CHECK_THROWS_WITH(bed({.where = sb::stencil{}}).prepare(), ContainsSubstring("stencil.shares"));
+    CHECK_THROWS_WITH(bed({.bottom = sb::rock{.block = 0}}).prepare(), ContainsSubstring("rock.block"));
+}

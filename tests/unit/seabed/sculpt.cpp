@@ -1,0 +1,152 @@
+// Sculpting: what each edit does to a plane, that they compose in order, and that nothing else changes.
+#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/sample.hpp>
+
+#include <cmath>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+namespace sb = insonify::seabed;
+
+namespace {
+
+const sb::flat plane{.surface = {.rms = 0}};
+
+float height(const std::vector<sb::edit>& edits, double x, double y) {
+    return sb::sculpted{.ground = plane, .edits = edits}(x, y);
+}
+
+/// A slope of one in x, of a half in y.
+struct slope {
+    static constexpr sb::type kind = sb::type::rock;
+    struct sampler {
+        void row(const sb::scanline& line, std::span<float> heights) const {
+            for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(line.x(i) + 0.5 * line.y);
+        }
+    };
+    sampler prepare() const { return {}; }
+    float operator()(double x, double y) const { return static_cast<float>(x + 0.5 * y); }
+};
+
+double variance(const in::image<float>& heights) {
+    double mean = 0, square = 0;
+    for (const float h : heights.pixels()) mean += static_cast<double>(h) / static_cast<double>(heights.size());
+    for (const float h : heights.pixels())
+        square += std::pow(static_cast<double>(h) - mean, 2) / static_cast<double>(heights.size());
+    return square;
+}
+
+}  // namespace
+
+TEST_CASE("Hills and hollows are as high as asked in the middle and end at their radius") {
+    CHECK(height({sb::raise{{3, 4}, 2, 0.5f}}, 3, 4) == 0.5f);
+    CHECK(height({sb::raise{{3, 4}, 2, -0.5f}}, 3, 4) == -0.5f);
+    CHECK(height({sb::raise{{3, 4}, 2, 0.5f}}, 4, 4) == Approx(0.5 * 0.75 * 0.75));
+    CHECK(height({sb::raise{{3, 4}, 2, 0.5f}}, 5.01, 4) == 0);
+}
+
+TEST_CASE("Flattened ground is level but for its edge") {
+    const sb::sculpted bed{.ground = sb::ripples{}, .edits = {sb::flatten{{0, 0}, 4, 0.2f}}};
+    for (const double x : {0.0, 1.5, 2.9}) CHECK(bed(x, 0.3) == 0.2f);
+    CHECK(bed(5, 0) == sb::ripples{}(5, 0));
+}
+
+TEST_CASE("Ramps rise evenly from one end to the other") {
+    const std::vector<sb::edit> edits{sb::ramp{{1, 1}, {5, 4}, 2, 0.1f, 1.1f}};
+    for (const double t : {0.0, 0.25, 0.5, 1.0})
+        CHECK(height(edits, 1 + 4 * t, 1 + 3 * t) == Approx(0.1 + t).margin(1e-6));
+    CHECK(height(edits, 3 - 0.6 * 0.7, 2.5 + 0.8 * 0.7) == Approx(0.6).margin(1e-6));  // 0.7 m beside the middle
+    CHECK(height(edits, 3 - 0.6 * 1.1, 2.5 + 0.8 * 1.1) == 0);
+}
+
+TEST_CASE("Furrows follow a path; marks come at equal steps along it, around corners too") {
+    const std::vector<glm::dvec2> path{{0, 0}, {3, 0}, {3, 4}};
+    const std::vector<sb::edit> furrow{sb::stamp{path, 0.5f, -0.2f}};
+    CHECK(height(furrow, 1.7, 0) == -0.2f);
+    CHECK(height(furrow, 3, 3.3) == -0.2f);
+    CHECK(height(furrow, 1.7, 0.6) == 0);
+    const std::vector<sb::edit> marks{sb::stamp{path, 0.5f, -0.2f, 2}};
+    for (const glm::dvec2 at : {glm::dvec2{0, 0}, {2, 0}, {3, 1}, {3, 3}}) CHECK(height(marks, at.x, at.y) == -0.2f);
+    for (const glm::dvec2 at : {glm::dvec2{1, 0}, {3, 0}, {3, 2}, {3, 4}}) CHECK(height(marks, at.x, at.y) == 0);
+}
+
+TEST_CASE("A current scours deepest where it comes from, and lays tails behind the target") {
+    const sb::scour moat{.centre = {10, 0}, .radius = 0.5f, .depth = 0.2f, .width = 0.6f, .current = 0, .tail = 2};
+    const auto at = [&](double x, double y) { return height({moat}, x, y); };
+    CHECK(at(10 - 0.5, 0) == Approx(-0.2));
+    CHECK(at(10, 0.5) == Approx(-0.15));
+    CHECK(at(9.5, 0) < at(10.5, 0));
+    CHECK(at(10 - 1.11, 0) == 0);
+    CHECK(at(12, 0.5) > 0.05f);
+    CHECK(at(12, 0.5) == at(12, -0.5));
+    CHECK(at(13.2, 0.5) == 0);
+    sb::scour turned = moat;
+    turned.current = 1.5707964f;
+    CHECK(height({turned}, 10, -0.5) == Approx(-0.2));
+}
+
+TEST_CASE("A heap is level on top, slopes down its sides, and leaves higher ground alone") {
+    const sb::heap heap{{0, 0}, 1, 0.3f, 0.5f};
+    CHECK(height({heap}, 0.9, 0) == 0.3f);
+    CHECK(height({heap}, 1.4, 0) == Approx(0.1));
+    CHECK(height({heap}, 1.7, 0) == 0);
+    CHECK(height({sb::raise{{0, 0}, 1, 0.5f}, heap}, 0, 0) == 0.5f);
+}
+
+TEST_CASE("Smoothing takes away what is short, and leaves slopes as they are") {
+    const sb::grid area{.origin = {-1, -1}, .spacing = 0.03, .width = 60, .height = 60};
+    const sb::ripples waves{.wavelength = 0.3f};
+    const sb::sculpted bed{.ground = waves, .edits = {sb::smooth{{0, 0}, 4, 0.4f}}};
+    CHECK(variance(sb::sample(bed, area).heights) < 0.02 * variance(sb::sample(waves, area).heights));
+    const sb::basic_sculpted<slope> sloped{.ground = {}, .edits = {sb::smooth{{0, 0}, 4, 0.4f}}};
+    for (const double x : {-1.3, 0.0, 0.77, 2.9})
+        CHECK(static_cast<double>(sloped(x, 1.1)) == Approx(x + 0.55).margin(1e-5));
+}
+
+TEST_CASE("Edits are done in order") {
+    const sb::edit hill = sb::raise{{0, 0}, 2, 0.5f}, level = sb::flatten{{0, 0}, 2, 0.1f};
+    CHECK(height({hill, level}, 0, 0) == 0.1f);
+    CHECK(height({level, hill}, 0, 0) == Approx(0.6f));
+    // What is smoothed is what earlier edits left.
+    CHECK(height({sb::raise{{0, 0}, 0.2f, 0.5f}, sb::smooth{{0, 0}, 2, 0.5f}}, 0, 0) < 0.1f);
+    CHECK(height({sb::smooth{{0, 0}, 2, 0.5f}, sb::raise{{0, 0}, 0.2f, 0.5f}}, 0, 0) == 0.5f);
+}
+
+TEST_CASE("What is sculpted depends on the position alone, and is the ground elsewhere, here and far away") {
+    const double origin = GENERATE(0.0, 10000000.0);
+    const sb::blend ground{.first = sb::rock{}, .patch = 3};
+    const sb::sculpted bed{.ground = ground,
+                           .edits = {sb::scour{.centre = {origin + 3, 2}}, sb::smooth{{origin + 4, 1}, 1.5f, 0.3f},
+                                     sb::stamp{{{origin + 1, 0}, {origin + 3, 3}}, 0.3f, 0.1f, 0.7f}}};
+    const double spacing = 1.0 / 32;
+    const sb::grid whole{.origin = {origin, 0}, .spacing = spacing, .width = 300, .height = 90};
+    const sb::grid patch{
+        .origin = {origin + 97 * spacing, 31 * spacing}, .spacing = spacing, .width = 64, .height = 32};
+    const auto all = sb::sample(bed, whole), part = sb::sample(bed, patch), bare = sb::sample(ground, whole);
+    const auto prepared = bed.prepare();
+    std::size_t differing = 0, changed = 0;
+    for (int j = 0; j < patch.height; ++j)
+        for (int i = 0; i < patch.width; ++i) {
+            differing += part.heights(i, j) != all.heights(i + 97, j + 31) ? 1u : 0u;
+            differing += part.types(i, j) != all.types(i + 97, j + 31) ? 1u : 0u;
+            const auto point = sb::at(prepared, patch.origin.x + i * spacing, patch.origin.y + j * spacing);
+            differing += point.height != part.heights(i, j) ? 1u : 0u;
+            changed += part.heights(i, j) != bare.heights(i + 97, j + 31) ? 1u : 0u;
+        }
+    CHECK(differing == 0);
+    CHECK(changed > 1000);
+    for (int j = 0; j < whole.height; ++j) REQUIRE(all.heights(250, j) == bare.heights(250, j));
+    CHECK(all.types == bare.types);
+}
+
+TEST_CASE("Edits name the parameter they refuse") {
+    const auto prepare = [](sb::edit e) { return sb::sculpted{.ground = plane, .edits = {std::move(e)}}.prepare(); };
+    CHECK_THROWS_WITH(prepare(sb::raise{.radius = 0}), ContainsSubstring("raise.radius is 0"));
+    CHECK_THROWS_WITH(prepare(sb::flatten{.level = std::nanf("")}), ContainsSubstring("flatten.level"));
+    CHECK_THROWS_WITH(prepare(sb::smooth{.length = 0}), ContainsSubstring("smooth.length is 0"));
+    CHECK_THROWS_WITH(prepare(sb::ramp{.to = {0, 0}}), ContainsSubstring("ramp.to"));
+    CHECK_THROWS_WITH(prepare(sb::stamp{}), ContainsSubstring("stamp.path.size() is 0"));
+    CHECK_THROWS_WITH(prepare(sb::scour{.depth = -1}), ContainsSubstring("scour.depth is -1"));
+    CHECK_THROWS_WITH(prepare(sb::heap{.slope = 0}), ContainsSubstring("heap.slope is 0"));
+}
