@@ -47,6 +47,9 @@ class overhead_painter {
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y);
         validate(options.shadow);
+        if constexpr (!shadow::ray_policy<Shadow> && !std::is_same_v<Shadow, shadow::none>)
+            require(!view_.has_near_light(), "overhead.light_distance", rig.light_distance,
+                    "infinite, or shadow::exact or penumbra");
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y);
         for (const target& t : s.targets)
             targets_.emplace_back(t.shape, bounds(t.shape, ex), view_.rig_from(to_world(t.placement)), t.is_solid);
@@ -55,16 +58,20 @@ class overhead_painter {
 
     template <executor E>
     frame<Labels> paint(E& ex) {
-        if constexpr (std::is_same_v<Shadow, shadow::none>)
+        if constexpr (std::is_same_v<Shadow, shadow::none>) {
             draw_all(no_shadow_maps{}, ex);
-        else
-            draw_all(cast_shadows(ex), ex);
+        } else {
+            const placed_mesh bottom = bottom_in_rig();
+            draw_all(cast_shadows(has_bottom() ? &bottom : nullptr, ex), ex);
+        }
         if constexpr (labelled) describe_targets(out_.labels, scene_.targets);
         return std::move(out_);
     }
 
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
+    /// Which triangle a pixel shows decides whether it faces the light, too.
+    static constexpr int subpixel_bits = shadow::ray_policy<Shadow> ? 12 : 8;
 
     bool has_bottom() const { return !std::holds_alternative<seabed::none>(scene_.seabed); }
 
@@ -142,10 +149,13 @@ class overhead_painter {
     }
 
     template <executor E>
-    shadow_maps<Shadow> cast_shadows(E& ex) const {
-        const double texel = view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel);
-        const placed_mesh bottom = bottom_in_rig();
-        return {options_.shadow, view_.light(), has_bottom() ? &bottom : nullptr, targets_, receivers(), texel, ex};
+    auto cast_shadows(const placed_mesh* bottom, E& ex) const {
+        if constexpr (shadow::ray_policy<Shadow>) {
+            return exact_shadows(options_.shadow, view_, bottom, targets_, receivers(), ex);
+        } else {
+            const double texel = view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel);
+            return shadow_maps<Shadow>(options_.shadow, view_.light(), bottom, targets_, receivers(), texel, ex);
+        }
     }
 
     /// All rays of the light that reach something which the picture may show.
@@ -208,7 +218,11 @@ class overhead_painter {
         const surface_shader<Shadows, Labels, Law, Object> shader(view_, options_.law, shadows, object, out_.image,
                                                                   out_.labels);
         return draw_lanes(*shape.shape, place, shader, depth_,
-                          {.keep = keep_depth::larger, .load = load, .tile = options_.tile, .level = options_.level},
+                          {.keep = keep_depth::larger,
+                           .load = load,
+                           .subpixel_bits = subpixel_bits,
+                           .tile = options_.tile,
+                           .level = options_.level},
                           ex);
     }
 
