@@ -47,8 +47,9 @@ struct topped_box {
 
 /// A point of the plane and a height over it, known to within a little.
 struct point_range {
-    float u_low, u_high, v_low, v_high, above;
+    float u_low = 0, u_high = 0, v_low = 0, v_high = 0, above = 0;
 
+    point_range() = default;
     /// @param slack  how far u, v and the height may be off
     point_range(double u, double v, double height, double slack)
         : u_low(rounded_down(u - slack)),
@@ -62,9 +63,6 @@ struct point_range {
 class box_tree {
   public:
     static constexpr std::size_t branches = 8;
-    /// A box of the tree, for those who come back to it; `none` is never one.
-    using position = std::uint32_t;
-    static constexpr position none = ~position{0};
 
     box_tree() = default;
 
@@ -97,32 +95,41 @@ class box_tree {
 
     bool empty() const { return count_ == 0; }
 
-    /// Whether `ask(name)` says yes to any box that the point is in and that reaches above it. No box is asked twice,
-    /// and none after a yes.
-    /// @param last  a box to ask first, such as the one that said yes to a neighbour; set to the one that says yes
+    /// Asks about every pair of a point and a box that it is in and that reaches above it.
+    /// @param points  whose bits are set, of at[0] to at[N - 1]: they should be neighbours, as they go down the tree
+    ///                together
+    /// @param ask     ask(name, k): whether the box settles it for point k, which is then asked about no more
+    /// @returns which points are settled
     template <int N, class Ask>
-    INSONIFY_INLINE bool any_over(const point_range& at, position& last, const Ask& ask) const {
-        if (empty()) return false;
-        if (last < count_ && nodes_[last / branches].holds(last % branches, at) && ask(names_[last])) return true;
+    INSONIFY_INLINE unsigned find(const point_range* at, unsigned points, const Ask& ask) const {
+        if (empty() || points == 0) return 0;
+        const point_lanes<N> each(at);
+        unsigned open = points;
+        point_range all = around(at, open);
         // Seven branches a level can wait, below 2^32 boxes and hence in eleven levels.
         std::array<waiting, 80> stack;
         std::size_t height = 0;
         stack[height++] = {static_cast<std::uint32_t>(levels_ - 1), 0};
         while (height > 0) {
             const waiting now = stack[--height];
-            for (unsigned open = nodes_[starts_[now.level] + now.node].template over<N>(at); open != 0;
-                 open &= open - 1) {
-                const position branch =
-                    static_cast<position>(branches) * now.node + static_cast<position>(std::countr_zero(open));
+            const node& here = nodes_[starts_[now.level] + now.node];
+            for (unsigned over = here.template over<N>(all); over != 0; over &= over - 1) {
+                const int k = std::countr_zero(over);
+                const std::uint32_t branch = static_cast<std::uint32_t>(branches) * now.node + static_cast<unsigned>(k);
                 if (now.level > 0) {
                     stack[height++] = {now.level - 1, branch};
-                } else if (branch != last && ask(names_[branch])) {
-                    last = branch;
-                    return true;
+                    continue;
+                }
+                for (unsigned in = each.in(here, k) & open; in != 0; in &= in - 1) {
+                    const int point = std::countr_zero(in);
+                    if (!ask(names_[branch], point)) continue;
+                    open &= ~(1u << point);
+                    if (open == 0) return points;
+                    all = around(at, open);
                 }
             }
         }
-        return false;
+        return points & ~open;
     }
 
   private:
@@ -155,11 +162,7 @@ class box_tree {
             }
             return all;
         }
-        bool holds(std::size_t k, const point_range& at) const {
-            return u_low[k] <= at.u_high && u_high[k] >= at.u_low && v_low[k] <= at.v_high && v_high[k] >= at.v_low &&
-                   top[k] > at.above;
-        }
-        /// Bit k: branch k holds the point and reaches above it.
+        /// Bit k: branch k may hold one of the points within and reach above it.
         template <int N>
         INSONIFY_INLINE unsigned over(const point_range& at) const {
             using namespace insonify::detail;
@@ -180,6 +183,41 @@ class box_tree {
             return bits;
         }
     };
+    /// The points as lanes, to compare all with one box.
+    template <int N>
+    struct point_lanes {
+        insonify::detail::lanes<float, N> u_low, u_high, v_low, v_high, above;
+
+        INSONIFY_INLINE explicit point_lanes(const point_range* at) {
+            using insonify::detail::gather;
+            gather<N>(u_low, [&](int k) { return at[k].u_low; });
+            gather<N>(u_high, [&](int k) { return at[k].u_high; });
+            gather<N>(v_low, [&](int k) { return at[k].v_low; });
+            gather<N>(v_high, [&](int k) { return at[k].v_high; });
+            gather<N>(above, [&](int k) { return at[k].above; });
+        }
+        /// Bit k: point k is in box `b` of a node and below its top.
+        INSONIFY_INLINE unsigned in(const node& n, int b) const {
+            using ints = insonify::detail::lanes<std::int32_t, N>;
+            return insonify::detail::set_lanes<N>(ints(n.u_low[b] <= u_high) & ints(n.u_high[b] >= u_low) &
+                                                  ints(n.v_low[b] <= v_high) & ints(n.v_high[b] >= v_low) &
+                                                  ints(n.top[b] > above));
+        }
+    };
+    /// The range that holds several points.
+    static point_range around(const point_range* at, unsigned points) {
+        point_range all = at[std::countr_zero(points)];
+        for (points &= points - 1; points != 0; points &= points - 1) {
+            const point_range& p = at[std::countr_zero(points)];
+            all.u_low = (std::min)(all.u_low, p.u_low);
+            all.u_high = (std::max)(all.u_high, p.u_high);
+            all.v_low = (std::min)(all.v_low, p.v_low);
+            all.v_high = (std::max)(all.v_high, p.v_high);
+            all.above = (std::min)(all.above, p.above);
+        }
+        return all;
+    }
+
     struct waiting {
         std::uint32_t level, node;
     };

@@ -99,18 +99,25 @@ class light_blockers {
         }
     }
 
-    /// Whether something stands between a point and the light.
-    /// @param place  rays.of(from)
-    /// @param last   where to look first; see box_tree
+    /// Which of up to N points have something between them and the light.
+    /// @param from    where they are; they should be neighbours
+    /// @param points  bit k: ask about from[k]
     template <int N>
-    INSONIFY_INLINE bool stop(const light_rays& rays, const light_rays::place& place, const glm::dvec3& from,
-                              box_tree::position& last) const {
-        if (trees_.empty()) return false;
-        const glm::dvec3 toward = rays.toward(from);
-        const double touching = 0x1p-40 * rays.reach();
-        return trees_[place.plane].template any_over<N>(place.at, last, [&](std::uint32_t name) {
-            return blocks(triangles_[name], from, toward, rays.ends(), touching);
-        });
+    INSONIFY_INLINE unsigned stop(const light_rays& rays, const glm::dvec3* from, unsigned points) const {
+        unsigned dark = 0;
+        for (std::size_t plane = 0; plane < trees_.size(); ++plane) {
+            point_range at[static_cast<unsigned>(N)];
+            unsigned over = 0;
+            for (unsigned rest = points; rest != 0; rest &= rest - 1) {
+                const int k = std::countr_zero(rest);
+                if (rays.plane_of(from[k]) != plane) continue;
+                at[k] = rays.range_of(plane, from[k]);
+                over |= 1u << k;
+            }
+            dark |= trees_[plane].template find<N>(
+                at, over, [&](std::uint32_t name, int k) { return blocks(triangles_[name], rays, from[k]); });
+        }
+        return dark;
     }
 
   private:
@@ -131,8 +138,8 @@ class light_blockers {
         return all;
     }
 
-    bool blocks(const glm::uvec3& t, const glm::dvec3& from, const glm::dvec3& toward, bool ends,
-                double touching) const {
+    bool blocks(const glm::uvec3& t, const light_rays& rays, const glm::dvec3& from) const {
+        const glm::dvec3 toward = rays.toward(from);
         const glm::dvec3 a = corners_[t.x] - from, b = corners_[t.y] - from, c = corners_[t.z] - from;
         const double bc = numeric::dot(toward, numeric::cross(b, c));
         const double ca = numeric::dot(toward, numeric::cross(c, a));
@@ -143,10 +150,10 @@ class light_blockers {
         const double along = numeric::dot(normal, toward), behind = numeric::dot(normal, a);
         const double sign = is_left ? 1 : -1;
         const auto size = [](double v) { return v < 0 ? -v : v; };
-        if (!(sign * along > 0 && sign * behind > touching * (size(normal.x) + size(normal.y) + size(normal.z))))
-            return false;
+        const double touching = 0x1p-40 * rays.reach() * (size(normal.x) + size(normal.y) + size(normal.z));
+        if (!(sign * along > 0 && sign * behind > touching)) return false;
         // What the light itself touches doesn't stop it.
-        return !ends || sign * (along - behind) > touching * (size(normal.x) + size(normal.y) + size(normal.z));
+        return !rays.end() || sign * (along - behind) > touching;
     }
 
     std::span<const glm::uvec3> triangles_;

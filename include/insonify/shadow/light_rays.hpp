@@ -39,8 +39,8 @@ class light_rays {
 
     /// From a point to the light: unit length if it is parallel, the whole way if it isn't.
     glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
-    /// Whether a ray ends where `toward` does.
-    bool ends() const { return is_near_; }
+    /// Whether rays end where `toward` does.
+    bool end() const { return is_near_; }
     double reach() const { return reach_; }
 
     std::size_t planes() const { return is_near_ ? 6 : 1; }
@@ -51,23 +51,25 @@ class light_rays {
         highest_ = highest;
     }
 
-    /// A point over a plane.
-    struct place {
-        std::size_t plane;
-        point_range at;
-    };
-    place of(const glm::dvec3& p) const {
+    /// Over which plane a point is.
+    std::size_t plane_of(const glm::dvec3& p) const {
+        if (!is_near_) return 0;
+        const glm::dvec3 d = p - source_;
+        const glm::dvec3 size{d.x < 0 ? -d.x : d.x, d.y < 0 ? -d.y : d.y, d.z < 0 ? -d.z : d.z};
+        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+        return static_cast<std::size_t>(2 * axis + (d[axis] < 0 ? 1 : 0));
+    }
+    /// Where it is over it, and how near to the light.
+    point_range range_of(std::size_t plane, const glm::dvec3& p) const {
         if (!is_near_) {
             const glm::dvec3 uvz = frame_(p);
-            return {0, {uvz.x, uvz.y, uvz.z, slack_}};
+            return {uvz.x, uvz.y, uvz.z, slack_};
         }
-        const glm::dvec3 d = p - source_, size{d.x < 0 ? -d.x : d.x, d.y < 0 ? -d.y : d.y, d.z < 0 ? -d.z : d.z};
-        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
-        const auto plane = static_cast<std::size_t>(2 * axis + (d[axis] < 0 ? 1 : 0));
-        const double depth = (std::max)(size[axis], smallest_depth());
-        return {plane,
-                {d[(axis + 1) % 3] / depth, d[(axis + 2) % 3] / depth, 1 / depth * (1 - small_share),
-                 small_share * reach_ / depth}};
+        const int axis = static_cast<int>(plane / 2);
+        const glm::dvec3 d = p - source_;
+        const double depth = (std::max)(d[axis] < 0 ? -d[axis] : d[axis], smallest_depth());
+        return {d[(axis + 1) % 3] / depth, d[(axis + 2) % 3] / depth, 1 / depth * (1 - small_share),
+                small_share * reach_ / depth};
     }
 
     /// What a triangle covers of a plane, and how near it comes to the light there; none if it isn't over the plane.

@@ -56,24 +56,22 @@ class exact_shadows {
     template <int N, class Fragments>
     INSONIFY_INLINE void operator()(light_shares<N>& shares, const Fragments& f, std::uint16_t shape,
                                     const lanes<std::int32_t, N>& useful) const {
-        constexpr auto count = static_cast<unsigned>(N);
-        receiver at[count];
-        int dark[count] = {};
-        for (int k = 0; k < N; ++k)
-            if (lane(useful, k) != 0)
-                at[k] = receiver(view_, shapes_[shape], f.triangles[k], f.x + k, f.y,
-                                 {lane(f.weights[1], k), lane(f.weights[2], k)});
-        for (std::size_t i = 0; i < lights_.size(); ++i) {
-            std::uint16_t by[count] = {};
-            ask<N>(by, lights_[i], at, shape, useful);
-            for (int k = 0; k < N; ++k) {
-                dark[k] += by[k] != labels::is_lit ? 1 : 0;
-                if (i == 0) set_lane(shares.caster, k, std::int32_t{by[k]});
-            }
+        receivers<N> at;
+        const unsigned asked = set_lanes<N>(useful);
+        for (unsigned rest = asked; rest != 0; rest &= rest - 1) {
+            const int k = std::countr_zero(rest);
+            at.find(k, view_, shapes_[shape], f.triangles[k], f.x + k, f.y,
+                    {lane(f.weights[1], k), lane(f.weights[2], k)});
         }
-        const int below = points_ - static_cast<int>(lights_.size());
-        for (int k = 0; k < N; ++k)
-            set_lane(shares.lit, k, static_cast<float>(points_ - below - dark[k]) / static_cast<float>(points_));
+        int lit[static_cast<unsigned>(N)] = {};
+        for (const light& l : lights_) {
+            const unsigned dark = ask<N>(l, at, shape, asked, &l == &lights_[0] ? &shares : nullptr);
+            for (unsigned rest = asked & ~dark; rest != 0; rest &= rest - 1) ++lit[std::countr_zero(rest)];
+        }
+        for (unsigned rest = asked; rest != 0; rest &= rest - 1) {
+            const int k = std::countr_zero(rest);
+            set_lane(shares.lit, k, static_cast<float>(lit[k]) / static_cast<float>(points_));
+        }
     }
 
   private:
@@ -87,12 +85,14 @@ class exact_shadows {
         shadow::light_rays rays;
         std::vector<shadow::light_blockers> casters;  ///< one for each shape
     };
-    /// The point that a pixel shows.
-    struct receiver {
-        glm::dvec3 position, normal, back;  ///< back to the camera
-        receiver() = default;
-        receiver(const overhead_geometry& view, const placed_shape& s, std::uint32_t triangle, int x, int y,
-                 const glm::dvec2& rounded) {
+    /// The points that pixels show.
+    template <int N>
+    struct receivers {
+        glm::dvec3 position[static_cast<unsigned>(N)], normal[static_cast<unsigned>(N)],
+            back[static_cast<unsigned>(N)];  ///< back: to the camera
+
+        void find(int k, const overhead_geometry& view, const placed_shape& s, std::uint32_t triangle, int x, int y,
+                  const glm::dvec2& rounded) {
             const glm::uvec3& t = s.placed->shape->triangles[triangle];
             const glm::dvec3 &a = s.corners[t.x], ab = s.corners[t.y] - a, ac = s.corners[t.z] - a;
             // Tomas Möller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
@@ -105,9 +105,9 @@ class exact_shadows {
                 b = rounded.x;
                 c = rounded.y;
             }
-            position = a + b * ab + c * ac;
-            normal = numeric::cross(ab, ac);
-            back = from;
+            position[k] = a + b * ab + c * ac;
+            normal[k] = numeric::cross(ab, ac);
+            back[k] = from;
         }
     };
 
@@ -156,26 +156,28 @@ class exact_shadows {
             }
     }
 
-    /// Who stops one light; a target's shadow goes on over what would be dark without it.
+    /// Which points one light doesn't reach; a target's shadow goes on over what would be dark without it.
+    /// @param blame  where to leave who stops it, or null
     template <int N>
-    INSONIFY_INLINE void ask(std::uint16_t* by, const light& l, const receiver* at, std::uint16_t itself,
-                             const lanes<std::int32_t, N>& useful) const {
-        for (std::size_t caster = 1; caster < l.casters.size(); ++caster)
-            ask_one<N>(by, l, caster, static_cast<std::uint16_t>(caster), at, useful);
-        for (int k = 0; k < N; ++k)
-            if (lane(useful, k) != 0 && by[k] == labels::is_lit &&
-                !shadow::is_faced(at[k].normal, l.rays.toward(at[k].position), at[k].back))
-                by[k] = itself == 0 ? labels::by_seabed : itself;
-        ask_one<N>(by, l, 0, labels::by_seabed, at, useful);
-    }
-    template <int N>
-    INSONIFY_INLINE void ask_one(std::uint16_t* by, const light& l, std::size_t caster, std::uint16_t name,
-                                 const receiver* at, const lanes<std::int32_t, N>& useful) const {
-        shadow::box_tree::position last = shadow::box_tree::none;
-        for (int k = 0; k < N; ++k)
-            if (lane(useful, k) != 0 && by[k] == labels::is_lit &&
-                l.casters[caster].template stop<N>(l.rays, l.rays.of(at[k].position), at[k].position, last))
-                by[k] = name;
+    INSONIFY_INLINE unsigned ask(const light& l, const receivers<N>& at, std::uint16_t itself, unsigned asked,
+                                 light_shares<N>* blame) const {
+        unsigned dark = 0;
+        const auto darken = [&](unsigned points, std::uint16_t by) {
+            dark |= points;
+            if (blame == nullptr) return;
+            for (; points != 0; points &= points - 1)
+                set_lane(blame->caster, std::countr_zero(points), std::int32_t{by});
+        };
+        for (std::size_t i = 1; i < l.casters.size(); ++i)
+            darken(l.casters[i].template stop<N>(l.rays, at.position, asked & ~dark), static_cast<std::uint16_t>(i));
+        unsigned turned = 0;
+        for (unsigned rest = asked & ~dark; rest != 0; rest &= rest - 1) {
+            const int k = std::countr_zero(rest);
+            if (!shadow::is_faced(at.normal[k], l.rays.toward(at.position[k]), at.back[k])) turned |= 1u << k;
+        }
+        darken(turned, itself == labels::no_instance ? labels::by_seabed : itself);
+        darken(l.casters[0].template stop<N>(l.rays, at.position, asked & ~dark), labels::by_seabed);
+        return dark;
     }
 
     overhead_geometry view_;
