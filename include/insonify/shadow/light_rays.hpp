@@ -32,7 +32,8 @@ class light_rays {
     light_rays(const point_light& light, double reach)
         : source_(light.position), frame_(directional_light{}), is_near_(true) {
         for (int i = 0; i < 3; ++i)
-            detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i], "finite coordinates");
+            insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
+                                      "finite coordinates");
         for (int i = 0; i < 3; ++i) reach = (std::max)(reach, source_[i] < 0 ? -source_[i] : source_[i]);
         reach_ = reach;
     }

@@ -65,7 +65,7 @@ inline void validate(const refined& r) {
 
 template <class P>
 concept policy = std::same_as<P, none> || std::same_as<P, map> || std::same_as<P, pcf> || std::same_as<P, refined> ||
-                 std::same_as<P, exact> || std::same_as<P, penumbra>;
+    std::same_as<P, exact> || std::same_as<P, penumbra>;
 
 /// Those that ask rays instead of a map.
 template <class P>

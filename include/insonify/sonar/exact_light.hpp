@@ -25,13 +25,13 @@ class exact_shadows {
   public:
     /// @param bottom     the seabed, or null; it has to outlive this, and so do the targets
     /// @param targets    in the order of their instance numbers
-    /// @param receivers  which rays of the middle of a parallel light reach something that the picture may show
+    /// @param asked      which rays of the middle of a parallel light reach something that the picture may show
     template <executor E>
     exact_shadows(const shadow::exact&, const overhead_geometry& view, const placed_mesh* bottom,
-                  std::span<const placed_mesh> targets, const shadow::map_extent& receivers, E& ex)
+                  std::span<const placed_mesh> targets, const shadow::map_extent& asked, E& ex)
         : exact_shadows(view, bottom, targets, ex) {
         lights_.push_back(light_at(view, {0, 0}));
-        if (!receivers.empty()) lights_[0].rays.keep_to(receivers.lowest, receivers.highest);
+        if (!asked.empty()) lights_[0].rays.keep_to(asked.lowest, asked.highest);
         cast(ex);
     }
     template <executor E>
@@ -182,8 +182,8 @@ class exact_shadows {
 
     overhead_geometry view_;
     std::vector<placed_shape> shapes_;  ///< the seabed and the targets
-    std::vector<light> lights_;  ///< the middle first
-    int points_ = 1;             ///< of the light, with those below the horizon
+    std::vector<light> lights_;         ///< the middle first
+    int points_ = 1;                    ///< of the light, with those below the horizon
     double reach_ = 0;
 };
 

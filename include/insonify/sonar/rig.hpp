@@ -30,9 +30,9 @@ struct overhead {
     /// rays are parallel; from nearby they spread, and only `shadow::exact` and `penumbra` can say where they end. They
     /// don't weaken on their way.
     float light_distance = std::numeric_limits<float>::infinity();
-    float intensity = 4;      ///< of the light on a surface that faces it
-    float sky = 0.05f;        ///< light from everywhere, which no shadow stops; 0 for none
-    float ambient = 0;        ///< light that reaches every surface alike, whatever its slope; 0 for none
+    float intensity = 4;  ///< of the light on a surface that faces it
+    float sky = 0.05f;    ///< light from everywhere, which no shadow stops; 0 for none
+    float ambient = 0;    ///< light that reaches every surface alike, whatever its slope; 0 for none
 };
 
 /// @throws invalid_input for a value that can't be right
