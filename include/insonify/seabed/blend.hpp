@@ -73,6 +73,8 @@ class blend_sampler {
         }
     }
 
+    height_range range() const { return merge(first_.range(), second_.range()); }
+
   private:
     static constexpr float never = 1e30f;  // beyond any value of the noise
 

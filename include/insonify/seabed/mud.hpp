@@ -53,6 +53,11 @@ class mud_sampler {
         if (filled_ > 0) add_features(line, heights);
     }
 
+    height_range range() const {
+        return {1.00001 * static_cast<double>(pock_) - surface_.most(),
+                1.00001 * static_cast<double>(mound_) + surface_.most()};
+    }
+
   private:
     // A cell holds one feature or none, wholly inside it: no neighbour needs to be looked at.
     void add_features(const scanline& line, std::span<float> heights) const {

@@ -54,6 +54,13 @@ class rock_sampler {
         }
     }
 
+    height_range range() const {
+        double top = surface_.most(), octave = 1.00001 * 0.35 * static_cast<double>(relief_);
+        for (std::size_t k = 0; k < ridges_.size(); ++k, octave *= 0.7) top += octave;
+        for (const detail::block_layer& layer : blocks_) top += layer.most();
+        return {-surface_.most(), top};
+    }
+
   private:
     void part(const scanline& line, std::span<float> heights) const {
         // Ridged octaves: creases of the noise become crests, and where one is low the finer are lower still.

@@ -42,6 +42,14 @@ struct penumbra {
     int samples = 16;                                               ///< points of it, the first in the middle
 };
 
+/// Radius of the light over its distance; of all but `penumbra` 0.
+inline double radius_of(const auto&) {
+    return 0;
+}
+inline double radius_of(const penumbra& p) {
+    return numeric::tan(0.5 * static_cast<double>(p.diameter));
+}
+
 /// @throws invalid_input for a value out of its range
 inline void validate(const none&) {}
 inline void validate(const exact&) {}

@@ -38,7 +38,7 @@ class exact_shadows {
     exact_shadows(const shadow::penumbra& p, const overhead_geometry& view, const placed_mesh* bottom,
                   std::span<const placed_mesh> targets, const shadow::map_extent&, E& ex)
         : exact_shadows(view, bottom, targets, ex) {
-        const double radius = numeric::tan(0.5 * static_cast<double>(p.diameter));
+        const double radius = shadow::radius_of(p);
         for (int i = 0; i < p.samples; ++i) {
             // A sunflower's seeds fill a disc evenly, ring by ring.
             const double share = i == 0 ? 0 : numeric::square_root((i + 0.5) / p.samples);
@@ -124,21 +124,13 @@ class exact_shadows {
         for (std::size_t i = 0; i < targets.size(); ++i) place(shapes_[i + 1], targets[i]);
     }
 
-    /// Where a point beside the light's middle stands as seen from the datum, which is at a distance of 1.
-    static glm::dvec3 toward(const overhead_geometry& view, const glm::dvec2& beside) {
-        const glm::dvec3& middle = view.light().to_light();
-        const glm::dvec2& travel = view.light().travel();
-        const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(middle, across);
-        return middle + beside.x * across + beside.y * up;
-    }
     static bool is_up(const overhead_geometry& view, const glm::dvec2& beside) {
-        return view.has_near_light() || toward(view, beside).z > 0;
+        return view.has_near_light() || view.toward_light(beside).z > 0;
     }
     light light_at(const overhead_geometry& view, const glm::dvec2& beside) const {
-        const glm::dvec3 d = toward(view, beside);
-        if (view.has_near_light())
-            return {{shadow::point_light{static_cast<double>(view.rig().light_distance) * d}, reach_}, {}};
+        if (view.has_near_light()) return {{shadow::point_light{view.light_position(beside)}, reach_}, {}};
         if (beside == glm::dvec2(0)) return {{view.light(), reach_}, {}};
+        const glm::dvec3 d = view.toward_light(beside);
         const double level = numeric::square_root(d.x * d.x + d.y * d.y);
         return {{shadow::light_frame({numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)}), reach_}, {}};
     }

@@ -73,9 +73,18 @@ class overhead_geometry {
 
     const overhead& rig() const { return rig_; }
     const shadow::light_frame& light() const { return light_; }
+    /// From the datum below the camera to a point of the light, over the distance to its middle; `beside` that, across
+    /// and up, in the same measure.
+    glm::dvec3 toward_light(const glm::dvec2& beside) const {
+        const glm::dvec3& middle = light_.to_light();
+        const glm::dvec3 across(-light_.travel().y, light_.travel().x, 0), up = numeric::cross(middle, across);
+        return middle + beside.x * across + beside.y * up;
+    }
     bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
-    /// Where a light that isn't infinitely far stands.
-    glm::dvec3 light_position() const { return static_cast<double>(rig_.light_distance) * light_.to_light(); }
+    /// Where a point of a light that isn't infinitely far stands.
+    glm::dvec3 light_position(const glm::dvec2& beside = {0, 0}) const {
+        return static_cast<double>(rig_.light_distance) * toward_light(beside);
+    }
 
     /// From world to rig frame. Applied to an object's own map first, it takes large coordinates away exactly.
     affine rig_from(const affine& world_from_object) const {
