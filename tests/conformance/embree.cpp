@@ -17,7 +17,7 @@ class embree_scene {
   public:
     explicit embree_scene(const std::vector<scenes::triangle>& triangles)
         : triangles_(triangles), device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
         const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* const corners = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), 3 * triangles.size()));
@@ -44,8 +44,9 @@ class embree_scene {
 
     scenes::difference compare(const in::labels& labels, const glm::dvec3& to_light) const {
         const int pixels = labels.shadow.width();
-        RTCIntersectContext context;
+        away_from context;
         rtcInitIntersectContext(&context);
+        context.filter = &away_from::pass_over_own;
         scenes::difference d;
         for (int y = 0; y < pixels; ++y)
             for (int x = 0; x < pixels; ++x) {
@@ -53,16 +54,17 @@ class embree_scene {
                 RTCRayHit first{};
                 first.ray = ray({0, 0, 4}, along, 0);
                 first.hit.geomID = first.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+                context.own = RTC_INVALID_GEOMETRY_ID;
                 rtcIntersect1(scene_, &context, &first);
                 if (first.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
                 const scenes::triangle& t = triangles_[first.hit.primID];
                 const glm::dvec3 n = glm::cross(t.b - t.a, t.c - t.a);
                 bool lit = glm::dot(n, to_light) * -glm::dot(n, along) > 0;
                 if (lit) {
-                    // Where the ray meets the plane, and a hair up along the light.
                     const glm::dvec3 eye(0, 0, 4);
                     const glm::dvec3 p = eye + glm::dot(n, t.a - eye) / glm::dot(n, along) * along;
-                    RTCRay shadow = ray(p, to_light, 1e-4f);
+                    RTCRay shadow = ray(p, to_light, 1e-6f);
+                    context.own = first.hit.primID;
                     rtcOccluded1(scene_, &context, &shadow);
                     lit = shadow.tfar >= 0;
                 }
@@ -72,6 +74,17 @@ class embree_scene {
     }
 
   private:
+    /// A ray that starts on a triangle doesn't meet it, whatever rounding says.
+    struct away_from : RTCIntersectContext {
+        unsigned own = RTC_INVALID_GEOMETRY_ID;
+
+        static void pass_over_own(const RTCFilterFunctionNArguments* arguments) {
+            if (RTCHitN_primID(arguments->hit, arguments->N, 0) ==
+                static_cast<const away_from*>(arguments->context)->own)
+                arguments->valid[0] = 0;
+        }
+    };
+
     static RTCRay ray(const glm::dvec3& from, const glm::dvec3& along, float start) {
         RTCRay r{};
         r.org_x = static_cast<float>(from.x);
