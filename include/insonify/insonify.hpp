@@ -71,7 +71,6 @@
 #include <insonify/seabed/blocks.hpp>
 #include <insonify/seabed/cover.hpp>
 #include <insonify/seabed/edit.hpp>
-#include <insonify/seabed/extent.hpp>
 #include <insonify/seabed/flat.hpp>
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/seabed/lattice.hpp>

@@ -72,6 +72,27 @@ INSONIFY_INLINE bool any(const Mask& mask) {
     return all != 0;
 }
 
+/// Bit k is set where lane k of a mask is; for 1, 4 or 8 lanes of 32 bits.
+template <int N>
+INSONIFY_INLINE unsigned set_lanes(const lanes<std::int32_t, N>& mask) {
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (N == 4) {
+        return static_cast<unsigned>(__builtin_ia32_movmskps(lanes<float, 4>(mask)));
+    } else if constexpr (N == 8) {
+        const lanes<std::int32_t, 4> low = __builtin_shufflevector(mask, mask, 0, 1, 2, 3);
+        const lanes<std::int32_t, 4> high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
+        return set_lanes<4>(low) | set_lanes<4>(high) << 4;
+    } else
+#endif
+    {
+        std::int32_t values[static_cast<unsigned>(N)];
+        std::memcpy(values, &mask, sizeof values);
+        unsigned bits = 0;
+        for (int k = 0; k < N; ++k) bits |= values[k] != 0 ? 1u << k : 0u;
+        return bits;
+    }
+}
+
 /// One lane, to look at and to change.
 template <class Lanes>
 INSONIFY_INLINE auto lane(const Lanes& lanes, int i) {

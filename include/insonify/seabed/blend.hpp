@@ -48,6 +48,8 @@ class blend_sampler {
         });
     }
 
+    height_range range() const { return merge(first_.range(), second_.range()); }
+
   private:
     static patches patches_of(const basic_blend<First, Second>& b) {
         detail::require(b.coverage >= 0 && b.coverage <= 1, "blend.coverage", b.coverage, "0 to 1");

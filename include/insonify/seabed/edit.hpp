@@ -222,6 +222,36 @@ inline float worked(const heap& e, const glm::dvec2& p, float height) {
     return (std::max)(height, e.level - e.slope * (std::max)(beyond, 0.0f));
 }
 
+/// What an edit makes of heights in a range, wherever it works.
+inline height_range added(const height_range& ground, double least, double most) {
+    return {ground.lowest + (std::min)(1.00001 * least, 0.0), ground.highest + (std::max)(1.00001 * most, 0.0)};
+}
+inline height_range pulled(const height_range& ground, double to) {
+    return merge(ground, {to, to});
+}
+inline height_range worked_range(const raise& e, const height_range& ground) {
+    return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
+}
+inline height_range worked_range(const flatten& e, const height_range& ground) {
+    return pulled(ground, static_cast<double>(e.level));
+}
+/// A mean of what is there.
+inline height_range worked_range(const smooth&, const height_range& ground) {
+    return ground;
+}
+inline height_range worked_range(const ramp& e, const height_range& ground) {
+    return pulled(pulled(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height));
+}
+inline height_range worked_range(const stamp& e, const height_range& ground) {
+    return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
+}
+inline height_range worked_range(const scour& e, const height_range& ground) {
+    return added(ground, -static_cast<double>(e.depth), 0.4 * static_cast<double>(e.depth));
+}
+inline height_range worked_range(const heap& e, const height_range& ground) {
+    return {ground.lowest, (std::max)(ground.highest, static_cast<double>(e.level))};
+}
+
 /// Shares that the 16 places around a coordinate, four to a length, have in its smoothed value: a cubic B-spline, which
 /// leaves slopes as they are.
 inline std::array<float, 16> smooth_shares(float fraction) {

@@ -31,6 +31,8 @@ class flat_sampler {
         });
     }
 
+    height_range range() const { return {-surface_.most(), surface_.most()}; }
+
   private:
     power_law_noise surface_;
 };

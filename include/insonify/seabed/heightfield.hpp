@@ -114,6 +114,16 @@ class heightfield_sampler {
         for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
     }
 
+    /// Of all vertices, wherever they are.
+    height_range range() const {
+        height_range all;
+        for (const float height : field_->heights.pixels()) {
+            const auto h = static_cast<double>(height);
+            if (numeric::is_finite(height)) all = merge(all, {h, h});
+        }
+        return all;
+    }
+
   private:
     const heightfield* field_;
 };

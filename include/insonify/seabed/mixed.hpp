@@ -51,6 +51,12 @@ class mixed_sampler {
         });
     }
 
+    height_range range() const {
+        height_range all = base_.range();
+        for (const prepared_layer& l : layers_) all = merge(all, l.bottom.range());
+        return all;
+    }
+
   private:
     using bottom_sampler = decltype(seabed::prepare(std::declval<const simple&>()));
 

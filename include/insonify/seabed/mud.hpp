@@ -53,6 +53,11 @@ class mud_sampler {
         });
     }
 
+    height_range range() const {
+        return {marks_.lowest() + trawls_.lowest() - surface_.most(),
+                marks_.highest() + trawls_.highest() + surface_.most()};
+    }
+
   private:
     power_law_noise surface_;
     detail::round_marks marks_;

@@ -25,6 +25,9 @@ class gradient_noise {
     /// Brings the variance to 1: that of the sum over the corners is 8/3 (181/462) (535/18018) for gradients uniform in
     /// the square, by integrating the squared weights over the cell.
     static constexpr float gain = 5.6777169f;
+    /// What it never exceeds. Along each axis the corners weigh fade(t) and 1 - fade(t), and a gradient of 1 gives t or
+    /// 1 - t there: t + fade(t) (1 - 2 t) at most, which is 1/2 in the middle and less elsewhere; both axes make 1.
+    static constexpr double most = 1.00001 * static_cast<double>(gain);
     /// Mean square of the gradient, times the square of the cell: 324744/19367, by the same integral.
     static constexpr float mean_square_slope = 16.767904f;
 
@@ -190,10 +193,10 @@ class power_law_noise {
         if (!octaves_.empty()) detail::dispatch(kernel{*this, part, values.data()}, level);
     }
 
-    /// No height is farther from 0, metres. Of a cell's corners, weights times distances add up to 1 at most.
-    double reach() const {
+    /// What is added is never above this, nor below its negative, metres.
+    double most() const {
         double sum = 0;
-        for (const octave& o : octaves_) sum += static_cast<double>(gradient_noise::gain * o.amplitude);
+        for (const octave& o : octaves_) sum += static_cast<double>(o.amplitude) * gradient_noise::most;
         return sum;
     }
 

@@ -17,6 +17,7 @@ struct none {
         void row(const scanline&, std::span<float> heights) const {
             std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
         }
+        height_range range() const { return {}; }
     };
     sampler prepare() const { return {}; }
     float operator()(double, double) const { return std::numeric_limits<float>::quiet_NaN(); }

@@ -7,8 +7,10 @@
 #include <insonify/core/error.hpp>
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -82,6 +84,24 @@ concept recipe = requires(const R& r, double x, double y) {
        { r.type_at(0.0, 0.0) } -> std::convertible_to<type>;
    } && typed_sampler<decltype(std::declval<const R&>().prepare())>));
 
+/// Heights that a seabed never leaves, metres above the datum; nothing at all where lowest > highest. Library seabeds
+/// prove theirs, with a little room for rounding: what may throw a shadow is found by it.
+struct height_range {
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -std::numeric_limits<double>::infinity();
+
+    bool empty() const { return !(lowest <= highest); }
+};
+inline height_range merge(const height_range& a, const height_range& b) {
+    return {(std::min)(a.lowest, b.lowest), (std::max)(a.highest, b.highest)};
+}
+
+/// Samplers that know it.
+template <class S>
+concept bounded_sampler = requires(const S& s) {
+    { s.range() } -> std::same_as<height_range>;
+};
+
 namespace detail {
 
 using insonify::detail::refuse;
@@ -100,6 +120,7 @@ struct with_kind {
         heights_only.row(line, heights);
         std::fill(types.begin(), types.end(), kind);
     }
+    height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
 };
 
 }  // namespace detail
@@ -122,6 +143,9 @@ struct variant_sampler {
 
     void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
         std::visit([&](const auto& s) { s.row(line, heights, types); }, alternatives);
+    }
+    height_range range() const requires(bounded_sampler<Samplers>&&...) {
+        return std::visit([](const auto& s) { return s.range(); }, alternatives);
     }
 };
 

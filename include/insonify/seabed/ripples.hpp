@@ -56,6 +56,11 @@ class ripples_sampler {
     /// See ripple_train::psi: of the first system.
     detail::ripple_train::phasor psi(double x, double y) const { return first_.psi(x, y); }
 
+    height_range range() const {
+        const double most = first_.most() + second_.most() + surface_.most();
+        return {-most, most};
+    }
+
   private:
     detail::ripple_train first_, second_;
     power_law_noise surface_;

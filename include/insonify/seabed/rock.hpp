@@ -78,6 +78,14 @@ class rock_sampler {
         });
     }
 
+    height_range range() const {
+        double blocks = 0;
+        for (const detail::block_layer& layer : blocks_) blocks += layer.most();
+        // See add_relief: an outcrop's top, and the share of its blocks that stand out of it.
+        const double top = 1.00001 * (0.4 * static_cast<double>(relief_) + 0.8 * blocks);
+        return {-surface_.most(), surface_.most() + top};
+    }
+
   private:
     struct kernel {
         const rock_sampler& rock;

@@ -35,6 +35,8 @@ using sculpted = basic_sculpted<std::variant<flat, ripples, mud, rock, blend, mi
 /// Evaluates `basic_sculpted`.
 template <preparable Ground>
 class sculpt_sampler {
+    using ground_sampler = decltype(seabed::prepare(std::declval<const Ground&>()));
+
   public:
     explicit sculpt_sampler(const basic_sculpted<Ground>& s) : ground_(seabed::prepare(s.ground)) {
         for (const edit& e : s.edits)
@@ -43,6 +45,13 @@ class sculpt_sampler {
 
     void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
         fill(edits_.size(), line, heights, types);
+    }
+
+    height_range range() const requires(bounded_sampler<ground_sampler>) {
+        height_range all = ground_.range();
+        for (const bounded_edit& e : edits_)
+            all = std::visit([&](const auto& held) { return detail::worked_range(held, all); }, e.done);
+        return all;
     }
 
   private:
@@ -85,7 +94,7 @@ class sculpt_sampler {
         edit done;
         detail::box bounds;
     };
-    decltype(seabed::prepare(std::declval<const Ground&>())) ground_;
+    ground_sampler ground_;
     std::vector<bounded_edit> edits_;
 };
 

@@ -46,6 +46,10 @@ class round_marks {
         if (filled_ > 0) dispatch(kernel{*this, part, values.data()}, level);
     }
 
+    /// The largest dent and the largest bump, metres.
+    double lowest() const { return 1.00001 * static_cast<double>(pock_); }
+    double highest() const { return 1.00001 * static_cast<double>(mound_); }
+
   private:
     struct kernel {
         const round_marks& marks;

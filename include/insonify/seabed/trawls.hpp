@@ -58,6 +58,10 @@ class trawl_furrows {
         if (!families_.empty()) dispatch(kernel{*this, part, values.data()}, level);
     }
 
+    /// The deepest furrows cross where the highest berms do not, metres.
+    double lowest() const { return -1.00001 * static_cast<double>(families_.size()) * static_cast<double>(depth_); }
+    double highest() const { return -0.3 * lowest(); }
+
   private:
     /// Boats of one direction.
     struct family {

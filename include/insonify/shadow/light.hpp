@@ -21,6 +21,11 @@ struct directional_light {
     double elevation = numeric::to_radians(6);  ///< radians above the horizon, in (0, pi / 2]
 };
 
+/// Light from a point nearby.
+struct point_light {
+    glm::dvec3 position{0, 0, 1};  ///< metres
+};
+
 /// Frame of a directional light; coordinates are metres.
 class light_frame {
   public:

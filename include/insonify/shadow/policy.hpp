@@ -31,8 +31,32 @@ struct refined {
     int largest = 8192;
 };
 
+/// The edges of the casters themselves in every pixel: each is asked about every triangle that may stand in its light.
+/// No map, no resolution, no bias; the only shadows that light from nearby can cast.
+struct exact {};
+
+/// Soft edges: the same for several points of a round light that isn't small, of which a pixel gets its share. Each
+/// point costs as much as `exact`. Labels are those of the light's middle.
+struct penumbra {
+    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< of the light, in radians as the ground sees it
+    int samples = 16;                                               ///< points of it, the first in the middle
+};
+
+/// Radius of the light over its distance; of all but `penumbra` 0.
+inline double radius_of(const auto&) {
+    return 0;
+}
+inline double radius_of(const penumbra& p) {
+    return numeric::tan(0.5 * static_cast<double>(p.diameter));
+}
+
 /// @throws invalid_input for a value out of its range
 inline void validate(const none&) {}
+inline void validate(const exact&) {}
+inline void validate(const penumbra& p) {
+    detail::require(p.diameter >= 0 && p.diameter <= 1, "diameter", p.diameter, "0 to 1 radian");
+    detail::require(p.samples >= 1 && p.samples <= 1024, "samples", p.samples, "1 to 1024");
+}
 inline void validate(const map& m) {
     detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel), "texels_per_pixel",
                     m.texels_per_pixel, "above 0");
@@ -48,6 +72,11 @@ inline void validate(const refined& r) {
 }
 
 template <class P>
-concept policy = std::same_as<P, none> || std::same_as<P, map> || std::same_as<P, pcf> || std::same_as<P, refined>;
+concept policy = std::same_as<P, none> || std::same_as<P, map> || std::same_as<P, pcf> || std::same_as<P, refined> ||
+    std::same_as<P, exact> || std::same_as<P, penumbra>;
+
+/// Those that ask rays instead of a map.
+template <class P>
+concept ray_policy = std::same_as<P, exact> || std::same_as<P, penumbra>;
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow

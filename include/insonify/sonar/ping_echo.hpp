@@ -6,7 +6,7 @@
 // and belongs to whatever stands in front of it.
 #pragma once
 
-#include <insonify/seabed/extent.hpp>
+#include <insonify/seabed/any.hpp>
 #include <insonify/sonar/bottom_tiles.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/ping_fan.hpp>
@@ -31,7 +31,8 @@ template <class Rig, class Law, class Equation, bool Labelled>
 class ping_listener {
   public:
     ping_listener(const scene& s, std::span<const sliced_target> targets, const bottom_tiles& bottom, const Rig& rig,
-                  const Law& law, const Equation& equation, double cell, const seabed::extent& relief, double start)
+                  const Law& law, const Equation& equation, double cell, const seabed::height_range& relief,
+                  double start)
         : scene_(s),
           targets_(targets),
           tiles_(bottom),
@@ -71,7 +72,7 @@ class ping_listener {
 
     /// From where on they have to look: nothing nearer is heard in the first bin or later, nor hides what is.
     /// @param relief  of the bottom
-    static double start(const Rig& rig, double cell, const seabed::extent& relief, const ping_frame& p,
+    static double start(const Rig& rig, double cell, const seabed::height_range& relief, const ping_frame& p,
                         std::span<const sliced_target> targets) {
         const double altitude = p.position().z, first = static_cast<double>(rig.first_range);
         if (!looks_beyond(relief, first, altitude)) return 0;
@@ -89,8 +90,8 @@ class ping_listener {
     static constexpr bool counts_time = Rig::axis == across_track::slant_range;
 
     /// Whether pings look past a bottom that they are well above.
-    static bool looks_beyond(const seabed::extent& relief, double first_range, double altitude) {
-        return first_range > 0 && relief.lowest > -altitude && 2 * relief.highest < altitude;
+    static bool looks_beyond(const seabed::height_range& relief, double first_range, double altitude) {
+        return first_range > 0 && !relief.empty() && relief.lowest > -altitude && 2 * relief.highest < altitude;
     }
 
     struct bottom_point {
@@ -336,7 +337,7 @@ class ping_listener {
     const bottom_tiles& tiles_;
     Law law_;
     const Equation& equation_;
-    seabed::extent relief_;
+    seabed::height_range relief_;
     double range_, first_range_, bin_, step_, profile_step_, farthest_ = 0;
     std::size_t first_point_;
     float spacing_;

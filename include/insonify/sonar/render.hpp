@@ -5,6 +5,7 @@
 #include <insonify/raster/draw.hpp>
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/tessellate.hpp>
+#include <insonify/sonar/seabed_reach.hpp>
 #include <insonify/sonar/shading.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -17,6 +18,9 @@ struct render_options {
     Shadow shadow{};
     Law law{};
     int cells = 0;  ///< of the seabed, along the picture's longer side; 0: one for every two pixels
+    /// How far up the light the seabed may cast from, at most, in lengths of the picture; it is sampled no farther than
+    /// its heights can throw a shadow anyway. Light below 1 degree over rock comes from farther, and passes there.
+    float reach = 8;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
 };
@@ -47,6 +51,9 @@ class overhead_painter {
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y);
         validate(options.shadow);
+        if constexpr (!shadow::ray_policy<Shadow> && !std::is_same_v<Shadow, shadow::none>)
+            require(!view_.has_near_light(), "overhead.light_distance", rig.light_distance,
+                    "infinite, or shadow::exact or penumbra");
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y);
         for (const target& t : s.targets)
             targets_.emplace_back(t.shape, bounds(t.shape, ex), view_.rig_from(to_world(t.placement)), t.is_solid);
@@ -55,16 +62,20 @@ class overhead_painter {
 
     template <executor E>
     frame<Labels> paint(E& ex) {
-        if constexpr (std::is_same_v<Shadow, shadow::none>)
+        if constexpr (std::is_same_v<Shadow, shadow::none>) {
             draw_all(no_shadow_maps{}, ex);
-        else
-            draw_all(cast_shadows(ex), ex);
+        } else {
+            const placed_mesh bottom = bottom_in_rig();
+            draw_all(cast_shadows(has_bottom() ? &bottom : nullptr, ex), ex);
+        }
         if constexpr (labelled) describe_targets(out_.labels, scene_.targets);
         return std::move(out_);
     }
 
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
+    /// Which triangle a pixel shows decides whether it faces the light, too.
+    static constexpr int subpixel_bits = shadow::ray_policy<Shadow> ? 12 : 8;
 
     bool has_bottom() const { return !std::holds_alternative<seabed::none>(scene_.seabed); }
 
@@ -75,60 +86,41 @@ class overhead_painter {
         const int longer = (std::max)(rig.size.x, rig.size.y);
         const int cells = options_.cells > 0 ? options_.cells : (longer + 1) / 2;
         require(cells <= 32768, "cells", cells, "at most 32768");
+        require(options_.reach >= 0 && numeric::is_finite(options_.reach), "reach", options_.reach, "0 or more");
         const double spacing = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y) / cells;
 
-        // A coarse look, a picture's length up-light too, tells how high and deep the bottom goes; the margin makes up
-        // for what it misses.
-        const double whole_picture = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
-        const double farthest = std::is_same_v<Shadow, shadow::none> ? 0 : whole_picture;
-        const auto sample = [&](seabed::grid grid) {
-            bottom_origin_ = grid.origin;
-            grid.origin += rig.position;
-            return seabed::sample(scene_.seabed, grid, ex);
-        };
-        include_heights(sample(footprint(0, 0, farthest, 4 * spacing)), 0.25f);
-        const double reach = static_cast<double>(highest_ - lowest_) * view_.light().cot_elevation();
-        field_ = sample(footprint(static_cast<double>(lowest_), static_cast<double>(highest_),
-                                  (std::min)(reach, farthest), spacing));
-        include_heights(field_, 0);
+        seabed::height_range range = merge(seabed::prepare(scene_.seabed).range(), {0, 0});
+        const double longest = static_cast<double>(options_.reach) * spacing * cells;
+        ground_box ground = shown_ground(view_, range);
+        if constexpr (!std::is_same_v<Shadow, shadow::none>)
+            ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
+        seabed::grid grid = grid_under(shown_ground(view_, range), ground, spacing);
+        bottom_origin_ = grid.origin;
+        grid.origin += rig.position;
+        field_ = seabed::sample(scene_.seabed, grid, ex);
         bottom_ = seabed::tessellate(field_, ex);
-        out_.stats.seabed_columns = field_.heights.width();
-        out_.stats.seabed_rows = field_.heights.height();
-    }
-
-    /// A grid under the picture of a bottom between two heights, longer by `reach` metres towards the light; its origin
-    /// is relative to the rig's position, so that far from the world's origin no bit of it changes.
-    seabed::grid footprint(double low, double high, double reach, double spacing) const {
-        const glm::dmat3& turn = view_.rig_from({}).linear;
-        const glm::dvec2& travel = view_.light().travel();
-        const glm::dvec2 up_light = -reach * glm::dvec2(numeric::product(glm::transpose(turn), glm::dvec3(travel, 0)));
-        glm::dvec2 first(0), last(0);
-        for (int right : {-1, 1})
-            for (int up : {-1, 1})
-                for (double height : {low, high})
-                    for (const glm::dvec2& shift : {glm::dvec2(0), up_light}) {
-                        const glm::dvec2 p = view_.corner(height, right, up) + shift;
-                        first = {(std::min)(first.x, p.x), (std::min)(first.y, p.y)};
-                        last = {(std::max)(last.x, p.x), (std::max)(last.y, p.y)};
-                    }
-        const auto vertices = [&](double length) {
-            return (std::max)(2, static_cast<int>(numeric::floor_to_int(length / spacing + 1e-6)) + 1);
-        };
-        const int width = vertices(last.x - first.x), height = vertices(last.y - first.y);
-        const glm::dvec2 slack = last - first - spacing * glm::dvec2(width - 1, height - 1);
-        const bool covers = slack.x < 1e-3 * spacing && slack.y < 1e-3 * spacing;
-        return {first, spacing, covers ? width : width + 1, covers ? height : height + 1};
-    }
-
-    void include_heights(const seabed::heightfield& field, float margin) {
-        for (const float height : field.heights.pixels()) {
+        for (const float height : field_.heights.pixels()) {
             if (!numeric::is_finite(height)) continue;
             lowest_ = (std::min)(lowest_, height);
             highest_ = (std::max)(highest_, height);
         }
-        const float room = margin * (highest_ - lowest_);
-        lowest_ -= room;
-        highest_ += room;
+        out_.stats.seabed_columns = field_.heights.width();
+        out_.stats.seabed_rows = field_.heights.height();
+    }
+
+    /// A grid that starts at a corner of what is shown, whatever else it covers: what is shown has the same vertices
+    /// then. Its origin is relative to the rig's position, so that far from the world's origin no bit of it changes.
+    static seabed::grid grid_under(const ground_box& shown, const ground_box& all, double spacing) {
+        const auto cells = [&](double length) {
+            return -static_cast<int>(numeric::floor_to_int(1e-6 - length / spacing));
+        };
+        const glm::ivec2 before{cells(shown.first.x - all.first.x), cells(shown.first.y - all.first.y)};
+        const auto vertices = [&](int axis) {
+            const int count = before[axis] + cells(all.last[axis] - shown.first[axis]) + 1;
+            require(count <= 1 << 20, "vertices of the seabed along an axis", count, "at most 2^20: less `reach`");
+            return (std::max)(2, count);
+        };
+        return {shown.first - spacing * glm::dvec2(before), spacing, vertices(0), vertices(1)};
     }
 
     placed_mesh bottom_in_rig() const {
@@ -142,10 +134,13 @@ class overhead_painter {
     }
 
     template <executor E>
-    shadow_maps<Shadow> cast_shadows(E& ex) const {
-        const double texel = view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel);
-        const placed_mesh bottom = bottom_in_rig();
-        return {options_.shadow, view_.light(), has_bottom() ? &bottom : nullptr, targets_, receivers(), texel, ex};
+    auto cast_shadows(const placed_mesh* bottom, E& ex) const {
+        if constexpr (shadow::ray_policy<Shadow>) {
+            return exact_shadows(options_.shadow, view_, bottom, targets_, receivers(), ex);
+        } else {
+            const double texel = view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel);
+            return shadow_maps<Shadow>(options_.shadow, view_.light(), bottom, targets_, receivers(), texel, ex);
+        }
     }
 
     /// All rays of the light that reach something which the picture may show.
@@ -208,7 +203,11 @@ class overhead_painter {
         const surface_shader<Shadows, Labels, Law, Object> shader(view_, options_.law, shadows, object, out_.image,
                                                                   out_.labels);
         return draw_lanes(*shape.shape, place, shader, depth_,
-                          {.keep = keep_depth::larger, .load = load, .tile = options_.tile, .level = options_.level},
+                          {.keep = keep_depth::larger,
+                           .load = load,
+                           .subpixel_bits = subpixel_bits,
+                           .tile = options_.tile,
+                           .level = options_.level},
                           ex);
     }
 
@@ -220,7 +219,7 @@ class overhead_painter {
     seabed::heightfield field_;
     mesh bottom_;
     glm::dvec2 bottom_origin_{};      ///< of the field, from the rig's position
-    float lowest_ = 0, highest_ = 0;  ///< of the bottom
+    float lowest_ = 0, highest_ = 0;  ///< of the bottom's vertices, and the datum
     std::vector<placed_mesh> targets_;
 };
 

@@ -4,6 +4,8 @@
 #include <insonify/geometry/transform.hpp>
 #include <insonify/shadow/light.hpp>
 
+#include <limits>
+
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
@@ -24,9 +26,13 @@ struct overhead {
     glm::ivec2 size{2048, 2048};                           ///< pixels: width (across track), height (along track)
     float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
     float light_azimuth = 0;  ///< where the light travels, from image right towards image up, radians
-    float intensity = 4;      ///< of the light on a surface that faces it
-    float sky = 0.05f;        ///< light from everywhere, which no shadow stops; 0 for none
-    float ambient = 0;        ///< light that reaches every surface alike, whatever its slope; 0 for none
+    /// Of the light from the datum below the camera, to which grazing and azimuth belong, metres. Infinitely far, its
+    /// rays are parallel; from nearby they spread, and only `shadow::exact` and `penumbra` can say where they end. They
+    /// don't weaken on their way.
+    float light_distance = std::numeric_limits<float>::infinity();
+    float intensity = 4;  ///< of the light on a surface that faces it
+    float sky = 0.05f;    ///< light from everywhere, which no shadow stops; 0 for none
+    float ambient = 0;    ///< light that reaches every surface alike, whatever its slope; 0 for none
 };
 
 /// @throws invalid_input for a value that can't be right
@@ -43,6 +49,7 @@ inline void validate(const overhead& rig) {
     require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-6, "overhead.grazing",
             rig.grazing, "above 0 and at most pi / 2");
     require(numeric::is_finite(rig.light_azimuth), "overhead.light_azimuth", rig.light_azimuth, "a finite angle");
+    require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
     require(rig.intensity >= 0 && numeric::is_finite(rig.intensity), "overhead.intensity", rig.intensity, "0 or more");
     require(rig.sky >= 0 && numeric::is_finite(rig.sky), "overhead.sky", rig.sky, "0 or more");
     require(rig.ambient >= 0 && numeric::is_finite(rig.ambient), "overhead.ambient", rig.ambient, "0 or more");
@@ -66,6 +73,18 @@ class overhead_geometry {
 
     const overhead& rig() const { return rig_; }
     const shadow::light_frame& light() const { return light_; }
+    /// From the datum below the camera to a point of the light, over the distance to its middle; `beside` that, across
+    /// and up, in the same measure.
+    glm::dvec3 toward_light(const glm::dvec2& beside) const {
+        const glm::dvec3& middle = light_.to_light();
+        const glm::dvec3 across(-light_.travel().y, light_.travel().x, 0), up = numeric::cross(middle, across);
+        return middle + beside.x * across + beside.y * up;
+    }
+    bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
+    /// Where a point of a light that isn't infinitely far stands.
+    glm::dvec3 light_position(const glm::dvec2& beside = {0, 0}) const {
+        return static_cast<double>(rig_.light_distance) * toward_light(beside);
+    }
 
     /// From world to rig frame. Applied to an object's own map first, it takes large coordinates away exactly.
     affine rig_from(const affine& world_from_object) const {
@@ -92,6 +111,13 @@ class overhead_geometry {
     /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
     glm::vec4 clip(const glm::vec3& p) const {
         return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
+    }
+
+    glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
+    /// From the camera through a pixel's centre to 1 m below it.
+    glm::dvec3 ray(int x, int y) const {
+        const double step = 2 * tangent_ / rig_.size.x;
+        return {step * (x + 0.5 - 0.5 * rig_.size.x), step * (0.5 * rig_.size.y - y - 0.5), -1};
     }
 
     /// Where a point of the rig frame appears, in continuous pixels.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/raster/draw.hpp>
+#include <insonify/sonar/exact_light.hpp>
 #include <insonify/sonar/illumination.hpp>
 #include <insonify/sonar/rig.hpp>
 
@@ -58,7 +59,8 @@ class surface_shader {
     surface_shader(const overhead_geometry& view, const Law& law, const Shadows& shadows, const Object& object,
                    image<float>& picture, Labels& marks)
         : rig_(view.rig()),
-          to_light_(view.light().to_light()),
+          is_near_(view.has_near_light()),
+          to_light_(is_near_ ? view.light_position() : view.light().to_light()),
           law_(law),
           shadows_(shadows),
           object_(object),
@@ -77,14 +79,18 @@ class surface_shader {
         floats length;
         square_root<N>(length, square);
         const floats turned = side / length;
-        floats sine = turned * (normal[0] * to_light_.x + normal[1] * to_light_.y + normal[2] * to_light_.z);
+        floats to_light[3];
+        point_to_light<N>(to_light, f);
+        floats sine = turned * (normal[0] * to_light[0] + normal[1] * to_light[1] + normal[2] * to_light[2]);
         sine = sine < 1.0f ? sine : floats{} + 1.0f;
 
         light_shares<N> shares;
         if constexpr (!std::is_same_v<Shadows, no_shadow_maps>) {
             // A label wants to know who stands in the light even of what faces away.
             const ints useful = labelled ? f.visible : ints(f.visible & ints(sine > 0.0f));
-            if (any(useful)) {
+            if constexpr (std::is_same_v<Shadows, exact_shadows>) {
+                if (any(useful)) shadows_(shares, f, object_.instance, useful);
+            } else if (any(useful)) {
                 surface_points<N> at;
                 at.visible = f.visible;
                 at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
@@ -126,6 +132,24 @@ class surface_shader {
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
 
+    /// The unit vector to the light.
+    template <int N>
+    INSONIFY_INLINE void point_to_light(lanes<float, N> (&into)[3],
+                                        const fragment_lanes<N, surface_varyings>& f) const {
+        using floats = lanes<float, N>;
+        for (int i = 0; i < 3; ++i) into[i] = floats{} + to_light_[i];
+        if (!is_near_) return;
+        floats position, square = floats{}, length;
+        for (int i = 0; i < 3; ++i) {
+            f.interpolate(position, i);
+            into[i] = into[i] - position;
+            square = square + into[i] * into[i];
+        }
+        square_root<N>(length, square);
+        length = length > 0.0f ? length : floats{} + 1.0f;
+        for (int i = 0; i < 3; ++i) into[i] = into[i] / length;
+    }
+
     /// Normal of the triangle that a pixel shows, on the side that is seen; not unit.
     template <int N>
     INSONIFY_INLINE static void facet_normal(lanes<float, N> (&into)[3], const fragment_lanes<N, surface_varyings>& f,
@@ -161,7 +185,8 @@ class surface_shader {
     }
 
     overhead rig_;
-    glm::vec3 to_light_;
+    bool is_near_;
+    glm::vec3 to_light_;  ///< where it stands, if it is near
     Law law_;
     const Shadows& shadows_;
     Object object_;

@@ -110,7 +110,7 @@ class recorder {
     void hear(E& ex) {
         using listener = ping_listener<Rig, Law, Equation, labelled>;
         bottom_tiles bottom(scene_.seabed, out_.stats.cell);
-        const seabed::extent relief = seabed::extent_of(scene_.seabed);
+        const seabed::height_range relief = seabed::prepare(scene_.seabed).range();
         const double cell = out_.stats.cell;
         std::vector<float> over_range;
         if constexpr (Equation::has_ranges)

@@ -450,32 +450,6 @@ TEST_CASE("A window samples the bottom that can be heard in it or hide it; the r
             }
 }
 
-TEST_CASE("No seabed leaves the extent that its parameters promise, and none promises ten times too much") {
-    const auto check = [](const in::seabed::any& bottom, double slack) {
-        const in::seabed::extent e = in::seabed::extent_of(bottom);
-        const auto prepared = in::seabed::prepare(bottom);
-        std::vector<float> heights(4000);
-        std::vector<in::seabed::type> types(heights.size());
-        float lowest = 1e9f, highest = -1e9f;
-        for (int row = 0; row < 400; ++row) {
-            prepared.row({.y = row * 0.17, .origin = -90, .spacing = 0.05}, heights, types);
-            lowest = (std::min)(lowest, *std::min_element(heights.begin(), heights.end()));
-            highest = (std::max)(highest, *std::max_element(heights.begin(), heights.end()));
-        }
-        INFO("bottom " << bottom.index() << ": " << lowest << " to " << highest);
-        CHECK(e.lowest <= static_cast<double>(lowest));
-        CHECK(e.highest >= static_cast<double>(highest));
-        CHECK(e.highest - e.lowest <= slack * static_cast<double>(highest - lowest));
-    };
-    check(in::seabed::flat{}, 10);
-    check(in::seabed::flat{.surface = {.rms = 0}}, 1e9);
-    check(in::seabed::ripples{}, 3);
-    check(in::seabed::mud{}, 10);
-    check(in::seabed::rock{}, 10);
-    check(in::seabed::blend{.second = in::seabed::rock{}}, 10);
-    CHECK(in::seabed::extent_of(in::seabed::any(in::seabed::none{})).highest > 1e300);
-}
-
 TEST_CASE("A coarse picture hears what a fine one does") {
     in::scene s;
     s.seabed = in::seabed::ripples{.steepness = 0.05f};

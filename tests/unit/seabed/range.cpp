@@ -1,0 +1,62 @@
+// How high and how low a seabed can be, as its sampler promises: what may throw a shadow is found by it.
+#include <insonify/seabed/any.hpp>
+
+#include <algorithm>
+#include <vector>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+namespace sb = insonify::seabed;
+
+namespace {
+
+/// @param slack  how many times the range that is met the promised one may be
+void check(const sb::any& bottom, double slack) {
+    const auto prepared = sb::prepare(bottom);
+    const sb::height_range promised = prepared.range();
+    std::vector<float> heights(4000);
+    std::vector<sb::type> types(heights.size());
+    float lowest = 1e9f, highest = -1e9f;
+    for (int row = 0; row < 400; ++row) {
+        prepared.row({.y = row * 0.17, .origin = -90, .spacing = 0.05}, heights, types);
+        lowest = (std::min)(lowest, *std::min_element(heights.begin(), heights.end()));
+        highest = (std::max)(highest, *std::max_element(heights.begin(), heights.end()));
+    }
+    INFO("bottom " << bottom.index() << ": " << lowest << " to " << highest << ", promised " << promised.lowest
+                   << " to " << promised.highest);
+    CHECK(promised.lowest <= static_cast<double>(lowest));
+    CHECK(promised.highest >= static_cast<double>(highest));
+    CHECK(promised.highest - promised.lowest <= slack * static_cast<double>(highest - lowest));
+}
+
+}  // namespace
+
+TEST_CASE("No seabed leaves the range that it promises, and none promises ten times too much") {
+    check(sb::flat{}, 10);
+    check(sb::flat{.surface = {.rms = 0}}, 1e9);
+    check(sb::ripples{}, 3);
+    check(sb::ripples{.second = {.wavelength = 0.3f, .steepness = 0.1f}}, 3);
+    check(sb::mud{}, 10);
+    check(sb::mud{.density = 0, .trawls = {.density = 0.1f}}, 10);
+    check(sb::rock{}, 10);
+    check(sb::blend{.second = sb::rock{}}, 10);
+    check(sb::mixed{.base = sb::mud{}, .layers = {{.bottom = sb::rock{}}, {.bottom = sb::ripples{}}}}, 10);
+}
+
+TEST_CASE("Nothing has no range") {
+    CHECK(sb::prepare(sb::any(sb::none{})).range().empty());
+}
+
+TEST_CASE("What is sculpted keeps to the range of what was there and of what was done to it") {
+    const sb::flat sand{.surface = {.rms = 0.01f}};
+    for (const sb::edit& e : {sb::edit(sb::raise{.radius = 3, .height = 0.7f}), sb::edit(sb::raise{.height = -0.7f}),
+                              sb::edit(sb::flatten{.radius = 4, .level = -0.5f}), sb::edit(sb::smooth{.radius = 3}),
+                              sb::edit(sb::ramp{.from_height = -0.3f, .to_height = 0.6f}),
+                              sb::edit(sb::stamp{.path = {{-3, 1}, {5, 9}}, .height = -0.3f}),
+                              sb::edit(sb::scour{.depth = 0.4f}), sb::edit(sb::heap{.radius = 1, .level = 0.8f})}) {
+        INFO("edit " << e.index());
+        check(sb::sculpted{.ground = sand, .edits = {e}}, 10);
+        check(sb::sculpted{.ground = sand, .edits = {e, e}}, 10);
+    }
+}
