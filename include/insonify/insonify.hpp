@@ -89,7 +89,10 @@
 #include <insonify/seabed/strewn.hpp>
 #include <insonify/seabed/tessellate.hpp>
 #include <insonify/seabed/trawls.hpp>
+#include <insonify/shadow/box_tree.hpp>
+#include <insonify/shadow/exact.hpp>
 #include <insonify/shadow/light.hpp>
+#include <insonify/shadow/light_rays.hpp>
 #include <insonify/shadow/lookup.hpp>
 #include <insonify/shadow/map.hpp>
 #include <insonify/shadow/policy.hpp>
@@ -97,6 +100,7 @@
 #include <insonify/sonar/backscatter.hpp>
 #include <insonify/sonar/bottom_tiles.hpp>
 #include <insonify/sonar/display.hpp>
+#include <insonify/sonar/exact_light.hpp>
 #include <insonify/sonar/illumination.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/ping_echo.hpp>
@@ -105,6 +109,7 @@
 #include <insonify/sonar/render.hpp>
 #include <insonify/sonar/rig.hpp>
 #include <insonify/sonar/scene.hpp>
+#include <insonify/sonar/seabed_reach.hpp>
 #include <insonify/sonar/sediment.hpp>
 #include <insonify/sonar/shading.hpp>
 #include <insonify/sonar/side_scan.hpp>
