@@ -32,6 +32,11 @@ class block_layer {
     /// Calls `visit(i, height)` for each sample of the row: metres, 0 between the blocks.
     template <class Visit>
     void row(const scanline& line, std::size_t count, Visit&& visit) const {
+        const float kept = carried(2 / lattice_.frequency, line.grid_spacing);
+        if (kept == 0) {
+            for (std::size_t i = 0; i < count; ++i) visit(i, 0.0f);
+            return;
+        }
         const lattice_coordinate v(line.y * lattice_.frequency + lattice_.offset_y);
         const std::array rows{hash_[v.cell - 1], hash_[v.cell], hash_[v.cell + 1]};
 
@@ -51,7 +56,7 @@ class block_layer {
             [&](std::size_t i, float t) {
                 float highest = 0;
                 for (std::size_t b = 0; b < used; ++b) highest = (std::max)(highest, reaching[b].height_at(t));
-                visit(i, highest);
+                visit(i, kept * highest);
             });
     }
 

@@ -56,6 +56,8 @@ class mud_sampler {
   private:
     // A cell holds one feature or none, wholly inside it: no neighbour needs to be looked at.
     void add_features(const scanline& line, std::span<float> heights) const {
+        const float kept = carried(1 / lattice_.frequency, line.grid_spacing);  // the largest span half a cell
+        if (kept == 0) return;
         const detail::lattice_coordinate v(line.y * lattice_.frequency);
         const auto hash = hash_[v.cell];
         float height = 0, x = 0, y_square = 0, inverse_square = 0;
@@ -67,7 +69,7 @@ class mud_sampler {
                 const float radius = 0.175f + 0.075f * traits.a;  // in cells; a quarter at most
                 const float chance = 0.5f * traits.b + 0.5f;
                 const float scale = radius * 4;
-                height = chance < mounds_ ? mound_ * scale : chance < filled_ ? pock_ * scale : 0.0f;
+                height = kept * (chance < mounds_ ? mound_ * scale : chance < filled_ ? pock_ * scale : 0.0f);
                 x = 0.5f + 0.25f * centre.a;
                 const float y = v.fraction - (0.5f + 0.25f * centre.b);
                 y_square = y * y;

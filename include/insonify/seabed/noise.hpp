@@ -124,9 +124,17 @@ class gradient_noise {
     /// @param cell  metres, > 0
     gradient_noise(double cell, detail::cell_hash hash) : lattice_(detail::lattice::shifted(cell, hash)), hash_(hash) {}
 
+    /// The share of it that the row's grid carries; a cell is about half a wave.
+    float carried_by(const scanline& line) const { return carried(2 / lattice_.frequency, line.grid_spacing); }
+
     /// Calls `visit(i, value)` for each sample of the row.
     template <class Visit>
     void row(const scanline& line, std::size_t count, Visit&& visit) const {
+        const float scale = gain * carried_by(line);
+        if (scale == 0) {
+            for (std::size_t i = 0; i < count; ++i) visit(i, 0.0f);
+            return;
+        }
         const detail::lattice_coordinate v(line.y * lattice_.frequency + lattice_.offset_y);
         const auto below = hash_[v.cell], above = hash_[v.cell + 1];
         const float rise = detail::fade(v.fraction);
@@ -137,8 +145,8 @@ class gradient_noise {
         };
         const auto side_of = [&](std::int64_t column) {
             const detail::pair_of_bits low(below(column)), high(above(column));
-            return side{gain * detail::mix(low.a, high.a, rise),
-                        gain * detail::mix(low.b * v.fraction, high.b * (v.fraction - 1), rise)};
+            return side{scale * detail::mix(low.a, high.a, rise),
+                        scale * detail::mix(low.b * v.fraction, high.b * (v.fraction - 1), rise)};
         };
         side left{}, right{};
         std::int64_t column = 0;
@@ -208,6 +216,7 @@ class power_law_noise {
     /// Adds the relief along a row to `heights`, metres.
     void add_row(const scanline& line, std::span<float> heights) const {
         for (const octave& o : octaves_) {
+            if (o.noise.carried_by(line) == 0) break;  // nor the finer ones
             o.noise.row(line, heights.size(), [&](std::size_t i, float n) { heights[i] += o.amplitude * n; });
         }
     }

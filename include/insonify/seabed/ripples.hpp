@@ -77,7 +77,10 @@ class ripples_sampler {
     static constexpr float softening = 0.15f;
 
     explicit ripples_sampler(const ripples& r)
-        : surface_(r.surface, r.seed, detail::stream::ripples), half_height_(r.height / 2), sharpness_(r.sharpness) {
+        : surface_(r.surface, r.seed, detail::stream::ripples),
+          wavelength_(static_cast<double>(r.wavelength)),
+          half_height_(r.height / 2),
+          sharpness_(r.sharpness) {
         detail::require(r.wavelength > 0 && r.wavelength < 1e6f, "ripples.wavelength", r.wavelength, "metres above 0");
         detail::require(r.height >= 0 && r.height < 1e6f, "ripples.height", r.height, "metres, at least 0");
         detail::require(numeric::is_finite(r.direction), "ripples.direction", r.direction, "a finite angle");
@@ -113,13 +116,21 @@ class ripples_sampler {
     }
 
     void row(const scanline& line, std::span<float> heights) const {
+        // What sharpens crests has half their wavelength.
+        const float half_height = half_height_ * carried(wavelength_, line.grid_spacing);
+        const float sharpness = sharpness_ * carried(wavelength_ / 2, line.grid_spacing);
+        if (half_height == 0) {
+            std::fill(heights.begin(), heights.end(), 0.0f);
+            return surface_.add_row(line, heights);
+        }
         const detail::lattice steps{.frequency = 1 / step_};
         // Cut the row where its lattice points would outgrow the scratch space.
         const double per_sample = line.spacing * steps.frequency;
         const double fit = static_cast<double>(points - 8) / (std::max)(per_sample, 1e-9);
         const std::size_t part = fit < 1 ? 1 : static_cast<std::size_t>((std::min)(fit, 1e9));
         for (std::size_t i = 0; i < heights.size(); i += part) {
-            add_profile(steps, line.from(i), heights.subspan(i, (std::min)(part, heights.size() - i)));
+            add_profile(steps, line.from(i), heights.subspan(i, (std::min)(part, heights.size() - i)), half_height,
+                        sharpness);
         }
         surface_.add_row(line, heights);
     }
@@ -197,7 +208,8 @@ class ripples_sampler {
         float operator()(float t) const { return a + t * (b + t * (c + t * d)); }
     };
 
-    void add_profile(const detail::lattice& steps, const scanline& line, std::span<float> heights) const {
+    void add_profile(const detail::lattice& steps, const scanline& line, std::span<float> heights, float half_height,
+                     float sharpness) const {
         const std::int64_t from = numeric::floor_to_int(line.x(0) * steps.frequency) - 1;
         const std::int64_t to = numeric::floor_to_int(line.x(heights.size() - 1) * steps.frequency) + 2;
         detail::complex_array<points> psi;
@@ -221,7 +233,7 @@ class ripples_sampler {
                 const float magnitude = numeric::square_root(a * a + b * b + softening * softening);
                 // With c = cos arg psi, the profile is (c - s) / (1 - s c): -1 to 1 like c itself, the curvature of
                 // its crests (1 + s) / (1 - s) times a sinusoid's and that of its troughs the inverse.
-                heights[i] = half_height_ * (real - sharpness_ * magnitude) / (magnitude - sharpness_ * real);
+                heights[i] = half_height * (real - sharpness * magnitude) / (magnitude - sharpness * real);
             });
     }
 
@@ -230,6 +242,7 @@ class ripples_sampler {
     wave_vector carrier_{};
     double step_ = 1;
     power_law_noise surface_;
+    double wavelength_;
     float half_height_, sharpness_;
 };
 
