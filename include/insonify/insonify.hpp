@@ -54,12 +54,14 @@
 #include <insonify/raster/small.hpp>
 #include <insonify/raster/small_depth.hpp>
 #include <insonify/raster/tile.hpp>
+#include <insonify/seabed/adaptive.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/blend.hpp>
 #include <insonify/seabed/blocks.hpp>
 #include <insonify/seabed/flat.hpp>
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/seabed/mud.hpp>
+#include <insonify/seabed/needed_vertices.hpp>
 #include <insonify/seabed/noise.hpp>
 #include <insonify/seabed/none.hpp>
 #include <insonify/seabed/recipe.hpp>

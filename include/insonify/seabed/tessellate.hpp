@@ -24,6 +24,51 @@ struct cell_facets {
     std::size_t count() const { return std::size_t{lower} + std::size_t{upper}; }
 };
 
+/// How much a surface rises at the vertices of a row, by central differences: twice the rise of a cell. A neighbour
+/// that is missing or beyond the edge leaves the side that is there to count twice; at a vertex without data nothing
+/// rises.
+class row_rises {
+  public:
+    row_rises(const image<float>& heights, int j)
+        : here_(heights.row(j).data()),
+          back_(heights.row((std::max)(j - 1, 0)).data()),
+          ahead_(heights.row((std::min)(j + 1, heights.height() - 1)).data()),
+          width_(static_cast<std::size_t>(heights.width())),
+          inner_(j > 0 && j + 1 < heights.height()) {}
+
+    float x(std::size_t i) const {
+        const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width_ ? i + 1 : i;
+        return rise(here_[left], here_[i], here_[right], right - left == 2);
+    }
+    float y(std::size_t i) const { return rise(back_[i], here_[i], ahead_[i], inner_); }
+
+    /// Unit normal of the surface at a vertex.
+    glm::vec3 normal(std::size_t i, float spacing) const {
+        const float dx = x(i), dy = y(i), dz = 2 * spacing;
+        const float inverse = 1 / numeric::square_root(dx * dx + dy * dy + dz * dz);
+        return {-dx * inverse, -dy * inverse, dz * inverse};
+    }
+
+  private:
+    static float rise(float before, float at, float after, bool both) {
+        if (!numeric::is_finite(at)) return 0;
+        const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
+        if (has_before && has_after) return both ? after - before : 2 * (after - before);
+        return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
+    }
+
+    const float *here_, *back_, *ahead_;
+    std::size_t width_;
+    bool inner_;
+};
+
+/// A vertex of a heightfield as its mesh has it; one without data lies at z = 0.
+inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_t j) {
+    const float height = field.heights(static_cast<int>(i), static_cast<int>(j));
+    return {static_cast<float>(field.spacing * static_cast<double>(i)),
+            static_cast<float>(field.spacing * static_cast<double>(j)), numeric::is_finite(height) ? height : 0.0f};
+}
+
 }  // namespace detail
 
 /// The surface of a heightfield as a mesh: two triangles per cell, counter-clockwise from above, cut from vertex (i, j)
@@ -49,32 +94,14 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}) {
     std::vector<std::size_t> first_triangle(height, 0);
     const auto spacing = static_cast<float>(field.spacing);
     ex.bulk(height, [&](std::size_t j) {
-        const auto row_at = [&](std::size_t index) { return heights.row(static_cast<int>(index)).data(); };
-        const float* const here = row_at(j);
-        const float* const back = row_at(j > 0 ? j - 1 : j);
-        const float* const ahead = row_at(j + 1 < height ? j + 1 : j);
-        // Twice the rise per cell; a neighbour that is missing or beyond the edge (the vertex itself) leaves the side
-        // that is there to count twice.
-        const auto rise = [](float before, float at, float after, bool both) {
-            const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
-            if (has_before && has_after) return both ? after - before : 2 * (after - before);
-            return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
-        };
-        const bool inner = j > 0 && j + 1 < height;
+        const detail::row_rises rises(heights, static_cast<int>(j));
         for (std::size_t i = 0; i < width; ++i) {
-            const std::size_t vertex = j * width + i;
-            const bool known = numeric::is_finite(here[i]);
-            result.positions[vertex] = {static_cast<float>(field.spacing * static_cast<double>(i)),
-                                        static_cast<float>(field.spacing * static_cast<double>(j)),
-                                        known ? here[i] : 0.0f};
-            const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width ? i + 1 : i;
-            const float x = known ? rise(here[left], here[i], here[right], right - left == 2) : 0.0f;
-            const float y = known ? rise(back[i], here[i], ahead[i], inner) : 0.0f;
-            const float z = 2 * spacing;
-            const float inverse = 1 / numeric::square_root(x * x + y * y + z * z);
-            result.normals[vertex] = {-x * inverse, -y * inverse, z * inverse};
+            result.positions[j * width + i] = detail::position_at(field, i, j);
+            result.normals[j * width + i] = rises.normal(i, spacing);
         }
         if (j + 1 == height) return;
+        const float* const here = heights.row(static_cast<int>(j)).data();
+        const float* const ahead = heights.row(static_cast<int>(j + 1)).data();
         std::size_t count = 0;
         for (std::size_t i = 0; i + 1 < width; ++i) count += detail::cell_facets(here + i, ahead + i).count();
         first_triangle[j + 1] = count;
