@@ -25,7 +25,7 @@ struct leeway {
     /// shows what is off by h as displaced by h r / altitude, so lean = altitude x the displacement on the ground it
     /// forgives.
     double lean = (std::numeric_limits<double>::infinity)();
-    glm::dvec2 nadir{0.0, 0.0};  ///< below the camera, in the heightfield's world
+    glm::dvec2 nadir{0.0, 0.0};  ///< below the camera, metres from the heightfield's vertex (0, 0)
 };
 
 namespace detail {
@@ -154,7 +154,7 @@ class needed_vertices {
     double height_allowed(const point& low, const point& high) const {
         if (!(allowed_.lean < (std::numeric_limits<double>::infinity)())) return allowed_.height;
         const auto farthest = [](double a, double b) { return (std::max)(a * a, b * b); };
-        const glm::dvec2 to_nadir = (allowed_.nadir - field_.origin) / field_.spacing;
+        const glm::dvec2 to_nadir = allowed_.nadir / field_.spacing;
         const double square =
             farthest(low.x - to_nadir.x, high.x - to_nadir.x) + farthest(low.y - to_nadir.y, high.y - to_nadir.y);
         const double distance = field_.spacing * numeric::square_root(square);
@@ -163,95 +163,123 @@ class needed_vertices {
 
     /// Whether the triangle (a, b, tip), its longest side from a to b, may stand for all that lies below it.
     bool fits(const point& a, const point& b, const point& tip, double height) const {
-        // Most of those that don't fit are off in the middle of the longest side.
-        const auto& h = field_.heights;
-        const point middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
-        if (!within(0.5f * (h(a.x, a.y) + h(b.x, b.y)) - h(middle.x, middle.y), height)) return false;
-        if (!fits_plane(h, a, b, tip, height) || !fits_diagonals(a, b, tip, height)) return false;
-        if (!field_.types.empty() && !has_one_type(a, b, tip)) return false;
         const double slope = allowed_.slope * field_.spacing;
-        return slope_x_.empty() || (fits_plane(slope_x_, a, b, tip, slope) && fits_plane(slope_y_, a, b, tip, slope));
+        const bool check_slopes = !slope_x_.empty();
+        // Most of those that don't fit are off in the middle of a side, and the smallest have no other vertices.
+        const auto middles_fit = [&](const image<float>& values, double allowed) {
+            return fits_middle(values, a, b, allowed) && fits_middle(values, b, tip, allowed) &&
+                   fits_middle(values, tip, a, allowed);
+        };
+        if (!middles_fit(field_.heights, height)) return false;
+        if (check_slopes && !(middles_fit(slope_x_, slope) && middles_fit(slope_y_, slope))) return false;
+        if (!fits_falling(a, b, height) || !fits_falling(b, tip, height) || !fits_falling(tip, a, height)) return false;
+        const bool has_more = (std::max)(a.x > b.x ? a.x - b.x : b.x - a.x, a.y > b.y ? a.y - b.y : b.y - a.y) > 2;
+        if (has_more) {
+            const plane planes[] = {
+                {field_.heights, height, a, b, tip}, {slope_x_, slope, a, b, tip}, {slope_y_, slope, a, b, tip}};
+            const int count = check_slopes ? 3 : 1;
+            const bool all = each_row(a, b, tip, [&](int y, int first, int last) {
+                for (int i = 0; i < count; ++i)
+                    if (!planes[i].fits_row(y, first, last)) return false;
+                return true;
+            });
+            if (!all) return false;
+        }
+        return field_.types.empty() || has_one_type(a, b, tip);
+    }
+
+    static bool fits_middle(const image<float>& values, const point& p, const point& q, double allowed) {
+        const int x = p.x + q.x, y = p.y + q.y;
+        return ((x | y) & 1) != 0 ||
+               within(0.5f * (values(p.x, p.y) + values(q.x, q.y)) - values(x / 2, y / 2), allowed);
     }
 
     /// Calls `visit(y, first, last)` for each row of a triangle's vertices until it returns false.
     template <class Visit>
     static bool each_row(const point& a, const point& b, const point& c, const Visit& visit) {
+        struct side {
+            point low;
+            int top, lean;  // to the right, for each row up
+            side(const point& p, const point& q) : low(p.y < q.y ? p : q), top((std::max)(p.y, q.y)) {
+                const int across = (p.y < q.y ? q.x : p.x) - low.x;
+                lean = across > 0 ? 1 : across < 0 ? -1 : 0;  // sides are level, upright or diagonal
+            }
+        };
+        const side sides[] = {{a, b}, {b, c}, {c, a}};
         const int y0 = (std::min)((std::min)(a.y, b.y), c.y), y1 = (std::max)((std::max)(a.y, b.y), c.y);
         for (int y = y0; y <= y1; ++y) {
             int first = (std::numeric_limits<int>::max)(), last = -1;
-            const auto meet = [&](const point& p, const point& q) {
-                if (p.y == q.y || y < (std::min)(p.y, q.y) || y > (std::max)(p.y, q.y)) return;
-                const int x = p.x + (q.x - p.x) / (q.y - p.y) * (y - p.y);  // sides are upright or diagonal
+            for (const side& s : sides) {
+                if (s.low.y == s.top || y < s.low.y || y > s.top) continue;
+                const int x = s.low.x + s.lean * (y - s.low.y);
                 first = (std::min)(first, x);
                 last = (std::max)(last, x);
-            };
-            meet(a, b), meet(b, c), meet(c, a);
+            }
             if (!visit(y, first, last)) return false;
         }
         return true;
     }
 
-    /// The plane through the values at three vertices: at + dx (x - a.x) + dy (y - a.y).
-    struct plane {
-        float at, dx, dy;
-        plane(const image<float>& values, const point& a, const point& b, const point& c) {
+    /// The plane through the values at three vertices, and how far others may be from it.
+    class plane {
+      public:
+        plane(const image<float>& values, double allowed, const point& a, const point& b, const point& c)
+            : values_(values), from_(a), most_(static_cast<float>(allowed)) {
+            if (values.empty()) return;
             const auto abx = static_cast<float>(b.x - a.x), aby = static_cast<float>(b.y - a.y);
             const auto acx = static_cast<float>(c.x - a.x), acy = static_cast<float>(c.y - a.y);
-            const float ab = values(b.x, b.y) - values(a.x, a.y), ac = values(c.x, c.y) - values(a.x, a.y);
+            at_ = values(a.x, a.y);
+            const float ab = values(b.x, b.y) - at_, ac = values(c.x, c.y) - at_;
             const float inverse = 1 / (abx * acy - acx * aby);
-            dx = (ab * acy - ac * aby) * inverse;
-            dy = (ac * abx - ab * acx) * inverse;
-            at = values(a.x, a.y);
+            dx_ = (ab * acy - ac * aby) * inverse;
+            dy_ = (ac * abx - ab * acx) * inverse;
         }
-    };
 
-    static bool fits_plane(const image<float>& values, const point& a, const point& b, const point& c, double allowed) {
-        using namespace insonify::detail;
-        constexpr int N = INSONIFY_SIMD ? 4 : 1;
-        using floats = lanes<float, N>;
-        using ints = lanes<std::int32_t, N>;
-        const plane p(values, a, b, c);
-        const auto most = static_cast<float>(allowed);
-        floats across;
-        count_up<float, N>(across);
-        across = across * p.dx;
-        return each_row(a, b, c, [&](int y, int first, int last) {
-            const float* const row = values.row(y).data();
-            const float start = p.at + p.dy * static_cast<float>(y - a.y);
+        bool fits_row(int y, int first, int last) const {
+            using namespace insonify::detail;
+            constexpr int N = INSONIFY_SIMD ? 4 : 1;
+            using floats = lanes<float, N>;
+            using ints = lanes<std::int32_t, N>;
+            const float* const row = values_.row(y).data();
+            const float start = at_ + dy_ * static_cast<float>(y - from_.y);
+            floats across;
+            count_up<float, N>(across);
             int x = first;
             for (; x + N <= last + 1; x += N) {
                 floats value;
                 load(value, row + x);
-                const floats off = value - (across + (start + p.dx * static_cast<float>(x - a.x)));
-                const ints fit = ints(off <= most) & ints(-off <= most);
+                const floats off = value - (start + dx_ * (across + static_cast<float>(x - from_.x)));
+                const ints fit = ints(off <= most_) & ints(-off <= most_);
                 if (any(ints(fit == 0))) return false;
             }
             for (; x <= last; ++x) {
-                const float off = row[x] - (start + p.dx * static_cast<float>(x - a.x));
-                if (!(off <= most && -off <= most)) return false;
+                const float off = row[x] - (start + dx_ * static_cast<float>(x - from_.x));
+                if (!(off <= most_ && -off <= most_)) return false;
             }
             return true;
-        });
-    }
+        }
 
-    /// The triangle's falling sides cut cells in the middle, where the heightfield has its own, rising diagonals.
-    bool fits_diagonals(const point& a, const point& b, const point& tip, double allowed) const {
+      private:
+        const image<float>& values_;
+        point from_;
+        float most_, at_ = 0, dx_ = 0, dy_ = 0;
+    };
+
+    /// A falling side cuts cells in the middle, where the heightfield has its own, rising diagonals.
+    bool fits_falling(const point& p, const point& q, double allowed) const {
+        const int length = q.x - p.x;
+        if (length != p.y - q.y || length == 0) return true;
         const auto& h = field_.heights;
-        const auto side = [&](const point& p, const point& q) {
-            const int length = q.x - p.x;
-            if (length != p.y - q.y || length == 0) return true;
-            const point &left = length > 0 ? p : q, &right = length > 0 ? q : p;
-            const int cells = right.x - left.x;
-            const float start = h(left.x, left.y);
-            const float rise = (h(right.x, right.y) - start) / static_cast<float>(cells);
-            for (int i = 0; i < cells; ++i) {
-                const int x = left.x + i, y = left.y - i;  // the cell's upper left corner
-                const float here = 0.5f * (h(x, y - 1) + h(x + 1, y));
-                if (!within(here - (start + rise * (static_cast<float>(i) + 0.5f)), allowed)) return false;
-            }
-            return true;
-        };
-        return side(a, b) && side(b, tip) && side(tip, a);
+        const point &left = length > 0 ? p : q, &right = length > 0 ? q : p;
+        const int cells = right.x - left.x;
+        const float start = h(left.x, left.y);
+        const float rise = (h(right.x, right.y) - start) / static_cast<float>(cells);
+        for (int i = 0; i < cells; ++i) {
+            const int x = left.x + i, y = left.y - i;  // the cell's upper left corner
+            const float here = 0.5f * (h(x, y - 1) + h(x + 1, y));
+            if (!within(here - (start + rise * (static_cast<float>(i) + 0.5f)), allowed)) return false;
+        }
+        return true;
     }
 
     bool has_one_type(const point& a, const point& b, const point& tip) const {

@@ -3,8 +3,8 @@
 
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/raster/draw.hpp>
+#include <insonify/seabed/adaptive.hpp>
 #include <insonify/seabed/sample.hpp>
-#include <insonify/seabed/tessellate.hpp>
 #include <insonify/sonar/shading.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -17,14 +17,19 @@ struct render_options {
     Shadow shadow{};
     Law law{};
     int cells = 0;  ///< of the seabed, along the picture's longer side; 0: one for every two pixels
-    int tile = 64;  ///< see draw_options
+    /// Pixels: by how much the seabed's mesh may displace what is seen, and on level ground the edge of a shadow. 0
+    /// draws every cell; more draws fewer triangles the smoother the bottom, and costs the time to find out.
+    float edge_error = 0;
+    float slope_error = 0.02f;  ///< by how much its slopes may then be off, metres per metre
+    int tile = 64;              ///< see draw_options
     isa level = best_isa();
 };
 
 /// What became of the triangles, and how large the intermediate things were.
 struct render_stats {
     draw_stats seabed, targets;
-    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled
+    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled, of which the mesh may leave some out
+    std::uint64_t seabed_samples = 0;         ///< points at which the seabed was evaluated, for its bounds too
 };
 
 /// A picture with all that is known about it.
@@ -47,6 +52,8 @@ class overhead_painter {
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y);
         validate(options.shadow);
+        require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
+        require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y);
         for (const target& t : s.targets)
             targets_.emplace_back(t.shape, bounds(t.shape, ex), view_.rig_from(to_world(t.placement)), t.is_solid);
@@ -84,16 +91,44 @@ class overhead_painter {
         const auto sample = [&](seabed::grid grid) {
             bottom_origin_ = grid.origin;
             grid.origin += rig.position;
+            out_.stats.seabed_samples +=
+                static_cast<std::uint64_t>(grid.width) * static_cast<std::uint64_t>(grid.height);
             return seabed::sample(scene_.seabed, grid, ex);
         };
         include_heights(sample(footprint(0, 0, farthest, 4 * spacing)), 0.25f);
         const double reach = static_cast<double>(highest_ - lowest_) * view_.light().cot_elevation();
-        field_ = sample(footprint(static_cast<double>(lowest_), static_cast<double>(highest_),
-                                  (std::min)(reach, farthest), spacing));
+        seabed::grid grid = footprint(static_cast<double>(lowest_), static_cast<double>(highest_),
+                                      (std::min)(reach, farthest), spacing);
+        grid.band_limited = true;
+        field_ = sample(grid);
         include_heights(field_, 0);
-        bottom_ = seabed::tessellate(field_, ex);
+        model_seabed(ex);
         out_.stats.seabed_columns = field_.heights.width();
         out_.stats.seabed_rows = field_.heights.height();
+    }
+
+    /// The bottom's mesh, and the type of each of its vertices where there are several.
+    template <executor E>
+    void model_seabed(E& ex) {
+        const auto every = field_.types.pixels();
+        if (options_.edge_error == 0) {
+            bottom_ = seabed::tessellate(field_, ex);
+            bottom_types_.assign(every.begin(), every.end());
+            return;
+        }
+        // What is off by h throws a shadow that is off by h cot(elevation), whatever the view.
+        const double forgiven = static_cast<double>(options_.edge_error) * view_.ground_sampling();
+        const double cot = std::is_same_v<Shadow, shadow::none> ? 0 : view_.light().cot_elevation();
+        auto [shape, vertices] = seabed::tessellate(field_,
+                                                    {.height = forgiven / cot,
+                                                     .slope = static_cast<double>(options_.slope_error),
+                                                     .lean = forgiven * static_cast<double>(view_.rig().altitude),
+                                                     .nadir = -bottom_origin_},
+                                                    ex);
+        bottom_ = std::move(shape);
+        if (every.empty()) return;
+        bottom_types_.resize(vertices.size());
+        std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
     }
 
     /// A grid under the picture of a bottom between two heights, longer by `reach` metres towards the light; its origin
@@ -185,7 +220,8 @@ class overhead_painter {
                                                           static_cast<std::uint8_t>(field_.fallback)},
                                              ex);
             else
-                out_.stats.seabed = draw_one(bottom, load, shadows, typed_bottom{bottom_, field_, scene_.bottom}, ex);
+                out_.stats.seabed =
+                    draw_one(bottom, load, shadows, typed_bottom{bottom_, bottom_types_, scene_.bottom}, ex);
             load = depth_load::keep;
         }
         for (std::size_t i = 0; i < targets_.size(); ++i) {
@@ -219,8 +255,9 @@ class overhead_painter {
     frame<Labels> out_;
     seabed::heightfield field_;
     mesh bottom_;
-    glm::dvec2 bottom_origin_{};      ///< of the field, from the rig's position
-    float lowest_ = 0, highest_ = 0;  ///< of the bottom
+    std::vector<seabed::type> bottom_types_;  ///< by vertex, or none where there is one type alone
+    glm::dvec2 bottom_origin_{};              ///< of the field, from the rig's position
+    float lowest_ = 0, highest_ = 0;          ///< of the bottom
     std::vector<placed_mesh> targets_;
 };
 

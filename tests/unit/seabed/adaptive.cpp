@@ -208,7 +208,7 @@ TEST_CASE("Below the camera more may be left out than at the picture's edge, as 
     const sb::heightfield field = field_of(sb::mud{}, 129, 129);
     const glm::dvec2 middle = field.origin + 64 * field.spacing;
     const double lean = 0.004;
-    const auto coarse = sb::tessellate(field, {.height = 0.02, .lean = lean, .nadir = middle});
+    const auto coarse = sb::tessellate(field, {.height = 0.02, .lean = lean, .nadir = middle - field.origin});
     int inner = 0, outer = 0;
     each_point(field, coarse.shape, [&](double x, double y, double z, const glm::uvec3&) {
         const glm::dvec2 at(field.origin.x + x, field.origin.y + y);
