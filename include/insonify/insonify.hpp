@@ -1,6 +1,7 @@
 // All of insonify but io/png.hpp, which needs stb_image_write, and core/thread_pool.hpp, which needs <thread>.
 #pragma once
 
+#include <insonify/accuracy/budget.hpp>
 #include <insonify/accuracy/metrics.hpp>
 #include <insonify/config.hpp>
 #include <insonify/core/dispatch.hpp>

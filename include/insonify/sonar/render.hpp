@@ -21,6 +21,7 @@ struct render_options {
     /// draws every cell; more draws fewer triangles the smoother the bottom, and costs the time to find out.
     float edge_error = 0;
     float slope_error = 0.02f;  ///< by how much its slopes may then be off, metres per metre
+    int subpixel_bits = 8;      ///< see draw_options
     int tile = 64;              ///< see draw_options
     isa level = best_isa();
 };
@@ -244,7 +245,11 @@ class overhead_painter {
         const surface_shader<Shadows, Labels, Law, Object> shader(view_, options_.law, shadows, object, out_.image,
                                                                   out_.labels);
         return draw_lanes(*shape.shape, place, shader, depth_,
-                          {.keep = keep_depth::larger, .load = load, .tile = options_.tile, .level = options_.level},
+                          {.keep = keep_depth::larger,
+                           .load = load,
+                           .subpixel_bits = options_.subpixel_bits,
+                           .tile = options_.tile,
+                           .level = options_.level},
                           ex);
     }
 
