@@ -3,6 +3,7 @@
 
 #include <insonify/accuracy/budget.hpp>
 #include <insonify/accuracy/metrics.hpp>
+#include <insonify/accuracy/seabed_probe.hpp>
 #include <insonify/config.hpp>
 #include <insonify/core/dispatch.hpp>
 #include <insonify/core/double_double.hpp>

@@ -60,7 +60,7 @@ in::image<std::uint8_t> dark_pixels(const in::seabed::any& bottom, const in::ove
             }
             const glm::dvec2 p = at(z);
             const auto facet = field.facet_at(p.x, p.y);
-            if (field.spacing * tangent - (facet.rise_x * travel.x + facet.rise_y * travel.y) <= 0) {
+            if (field.spacing * tangent + facet.rise_x * travel.x + facet.rise_y * travel.y <= 0) {
                 dark(i, j) = 1;
                 continue;
             }
