@@ -100,7 +100,7 @@ struct settings {
 namespace insonify::inline INSONIFY_ABI::accuracy {
 
 /// The cheapest settings with which pictures of a seabed keep to a budget, as far as a probe can tell; where none does,
-/// the finest, and `expected` says how far off they are.
+/// those that are the least beyond it, and `expected` says how far off they are.
 ///
 /// Settings are found for a shadow policy: `settings_for<shadow::map>(...)`. One that has texels is given as few as
 /// will do.
@@ -146,25 +146,34 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     const budget usable{how.spare * tolerated.shadow_edge, tolerated.silhouette, how.spare * tolerated.height,
                         how.spare * tolerated.intensity};
 
-    // From the coarsest grid on, each of half the cells of the next; first with more texels than can matter.
+    // From the coarsest grid on, each of half the cells of the next; first with more texels than can matter. If none
+    // keeps to the budget, the one that is the least beyond it is taken.
     constexpr double many_texels = 8;
-    double cells_per_pixel = 1.0 / 16;
-    while (cells_per_pixel < how.finest && !keeps_to(errors_of(cells_per_pixel, many_texels), usable))
-        cells_per_pixel *= 2;
-    const double fewer = cells_per_pixel * 0.70710678118654752;
-    if (keeps_to(errors_of(fewer, many_texels), usable)) cells_per_pixel = fewer;
+    double chosen = how.finest, least_excess = std::numeric_limits<double>::infinity();
+    bool keeps = false;
+    for (double cells = 1.0 / 16; cells <= how.finest && !keeps; cells *= 2) {
+        const errors all = errors_of(cells, many_texels);
+        keeps = keeps_to(all, usable);
+        const double excess = (std::max)((std::max)(all.shadow_edge / usable.shadow_edge, all.height / usable.height),
+                                         all.intensity / usable.intensity);
+        if (!keeps && excess >= least_excess) continue;
+        least_excess = excess;
+        chosen = cells;
+    }
+    const double fewer = chosen * 0.70710678118654752;
+    if (keeps && keeps_to(errors_of(fewer, many_texels), usable)) chosen = fewer;
 
-    double texels = 0.5;
-    found.expected = errors_of(cells_per_pixel, texels);
+    double texels = keeps ? 0.5 : many_texels;
+    found.expected = errors_of(chosen, texels);
     if constexpr (requires { found.shadow.texels_per_pixel; }) {
         while (texels < many_texels && !keeps_to(found.expected, usable)) {
             texels *= 2;
-            found.expected = errors_of(cells_per_pixel, texels);
+            found.expected = errors_of(chosen, texels);
         }
         found.shadow.texels_per_pixel = static_cast<float>(texels);
     }
     const int longer = (std::max)(rig.size.x, rig.size.y);
-    const double cells = (std::min)(32768.0, (std::max)(1.0, longer * cells_per_pixel));
+    const double cells = (std::min)(32768.0, (std::max)(1.0, longer * chosen));
     found.cells = static_cast<int>(numeric::floor_to_int(cells + 0.5));
     return found;
 }
@@ -180,14 +189,14 @@ inline settings<> fast(const overhead& rig) {
             .rig = rig};
 }
 inline settings<> balanced(const overhead& rig) {
-    return {.shadow = {.texels_per_pixel = 1},
+    return {.shadow = {.texels_per_pixel = 2},
             .cells = ((std::max)(rig.size.x, rig.size.y) + 1) / 2,
             .side_error = 0.25,
             .shadow_error = 0.25,
             .rig = rig};
 }
 inline settings<> exact(const overhead& rig) {
-    return {.shadow = {.texels_per_pixel = 2},
+    return {.shadow = {.texels_per_pixel = 8},
             .cells = (std::min)(2 * (std::max)(rig.size.x, rig.size.y), 32768),
             .subpixel_bits = 16,
             .side_error = 0.02,

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "../../catch.hpp"
-#include "marching.hpp"
+#include "../../marching.hpp"
 
 namespace in = insonify;
 namespace sb = insonify::seabed;
