@@ -1,7 +1,9 @@
 // All of insonify but io/png.hpp, which needs stb_image_write, and core/thread_pool.hpp, which needs <thread>.
 #pragma once
 
+#include <insonify/accuracy/budget.hpp>
 #include <insonify/accuracy/metrics.hpp>
+#include <insonify/accuracy/seabed_probe.hpp>
 #include <insonify/config.hpp>
 #include <insonify/core/correlation.hpp>
 #include <insonify/core/dispatch.hpp>
@@ -65,6 +67,7 @@
 #include <insonify/raster/small_fill.hpp>
 #include <insonify/raster/tile.hpp>
 #include <insonify/raster/tile_buffer.hpp>
+#include <insonify/seabed/adaptive.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/area.hpp>
 #include <insonify/seabed/blend.hpp>
@@ -76,6 +79,7 @@
 #include <insonify/seabed/lattice.hpp>
 #include <insonify/seabed/mixed.hpp>
 #include <insonify/seabed/mud.hpp>
+#include <insonify/seabed/needed_vertices.hpp>
 #include <insonify/seabed/noise.hpp>
 #include <insonify/seabed/none.hpp>
 #include <insonify/seabed/normals.hpp>

@@ -3,6 +3,7 @@
 
 #include <insonify/geometry/revolution.hpp>
 
+#include <algorithm>
 #include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -41,6 +42,13 @@ inline mesh to_mesh(const cone& shape) {
                                           {top, height / 2, outwards, upwards}};
     if (top > 0) outline.insert(outline.end(), {{top, height / 2, 0, 1}, {0, height / 2, 0, 1}});
     return revolve(outline, shape.segments);
+}
+
+/// Fewest segments with which the wider rim is nowhere farther than `deviation` from its circle; the side then isn't
+/// either. See `segments_for(radius, chord_error)`.
+/// @throws invalid_input as that does
+inline int segments_for(const cone& shape, float deviation) {
+    return segments_for((std::max)(shape.radius, shape.top_radius), deviation);
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

@@ -59,6 +59,16 @@ inline mesh to_mesh(const capsule& shape) {
     return revolve(outline, shape.segments, axis::x);
 }
 
+/// Fewest segments with which no point of the shape is farther than `deviation` from the mesh's surface, whatever the
+/// shape's own `segments`; see `segments_for(radius, chord_error)`.
+/// @throws invalid_input as that does, and for a capsule that would need more than 8192
+inline int segments_for(const cylinder& shape, float deviation) {
+    return segments_for(shape.radius, deviation);
+}
+inline int segments_for(const capsule& shape, float deviation) {
+    return detail::round_segments_for(shape.radius, deviation, [](int segments) { return 2 * ((segments + 3) / 4); });
+}
+
 }  // namespace insonify::inline INSONIFY_ABI
 
 INSONIFY_ARITHMETIC_END

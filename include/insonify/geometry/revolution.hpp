@@ -62,6 +62,27 @@ inline void require_round_segments(const char* name, int segments) {
     require(segments >= 3 && segments <= 8192, name, segments, "3 to 8192");
 }
 
+/// Distance from the centre of a unit ball of `segments` by `rings` to the nearest of its faces. That is one at the
+/// equator; faces are plane there, as trapezia all are.
+inline double nearest_face(int segments, int rings) {
+    const double across = numeric::sin_cos_turns(0.5 / segments).cosine;  // of half a segment
+    const double along = numeric::sin_cos_turns(0.25 / rings).cosine;     // of half a ring
+    if (rings % 2 != 0) return across * along;  // the equator runs through the middle of a ring
+    return across * along / numeric::square_root(along * along + across * across * (1 - along * along));
+}
+
+/// Fewest segments with which the faces of a ball stay within `deviation` of it.
+/// @param rings_of  from segments to the rings from pole to pole
+template <class RingsOf>
+int round_segments_for(float radius, float deviation, const RingsOf& rings_of) {
+    // A face deviates more than an edge of the circle does, and up to twice as much.
+    int segments = segments_for(radius, deviation);
+    const double nearest = 1 - static_cast<double>(deviation) / static_cast<double>(radius);
+    while (segments <= 8192 && nearest_face(segments, rings_of(segments)) < nearest) ++segments;
+    require(segments <= 8192, "deviation", deviation, "reachable with 8192 segments");
+    return segments;
+}
+
 }  // namespace detail
 
 /// The outline turned about an axis. Two points in the same place with different normals make a sharp edge.

@@ -4,6 +4,7 @@
 #include <insonify/geometry/revolution.hpp>
 #include <insonify/geometry/transform.hpp>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,20 @@ inline mesh to_mesh(const hemisphere& shape) {
     std::vector<outline_point> outline = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
     detail::append_arc(outline, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
     return detail::stretched_round(outline, shape.aspect, shape.segments);
+}
+
+/// Fewest segments with which no point of the shape is farther than `deviation` from the mesh's surface, whatever the
+/// shape's own `segments`; of a stretched one, as if it were as large everywhere as along its longest axis.
+/// @throws invalid_input as `segments_for(radius, chord_error)`, and for shapes that would need more than 8192
+inline int segments_for(const sphere& shape, float deviation) {
+    const float longest = (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
+    return detail::round_segments_for(shape.radius * longest, deviation,
+                                      [](int segments) { return (segments + 1) / 2; });
+}
+inline int segments_for(const hemisphere& shape, float deviation) {
+    const float longest = (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
+    return detail::round_segments_for(shape.radius * longest, deviation,
+                                      [](int segments) { return 2 * ((segments + 3) / 4); });
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

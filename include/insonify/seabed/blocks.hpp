@@ -32,6 +32,9 @@ class block_layer {
           height_(height),
           wall_(steepness * static_cast<float>(cell)) {}
 
+    /// The share of their height that the grid of a stretch carries.
+    float carried_by(const stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
+
     /// Raises the values along a stretch, metres, to those of the blocks: 0 stays 0 between them.
     template <int N>
     INSONIFY_INLINE void raise(const stretch& part, float* values) const {

@@ -131,10 +131,12 @@ struct stretch {
     static constexpr std::size_t padded = chunk;  // which is a multiple of every lane count
 
     double y, spacing;
+    double grid_spacing;                       ///< see scanline
     std::size_t count;                         ///< at least 1
     alignas(32) std::array<double, padded> x;  ///< rising
 
-    stretch(const scanline& line, std::size_t samples) : y(line.y), spacing(line.spacing), count(samples) {
+    stretch(const scanline& line, std::size_t samples)
+        : y(line.y), spacing(line.spacing), grid_spacing(line.grid_spacing), count(samples) {
         // As line.x(i) has it; counted by fours, so that no sum waits for the one before.
         auto number = static_cast<double>(line.first);
         for (std::size_t i = 0; i < whole(); i += 4, number += 4) {

@@ -34,6 +34,9 @@ class gradient_noise {
     /// @param cell  metres, > 0
     gradient_noise(double cell, detail::cell_hash hash) : lattice_(detail::lattice::shifted(cell, hash)), hash_(hash) {}
 
+    /// The share of it that the grid of a stretch carries; a cell is about half a wave.
+    float carried_by(const detail::stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
+
     /// Adds `amplitude` times the noise along a stretch to its values.
     template <int N>
     INSONIFY_INLINE void add(const detail::stretch& part, float amplitude, float* values) const {
@@ -215,7 +218,11 @@ class power_law_noise {
 
         template <int N>
         INSONIFY_INLINE void run() const {
-            for (const octave& o : noise.octaves_) o.noise.template add<N>(part, o.amplitude, values);
+            for (const octave& o : noise.octaves_) {
+                const float kept = o.noise.carried_by(part);
+                if (kept == 0) break;  // nor the finer ones
+                o.noise.template add<N>(part, kept * o.amplitude, values);
+            }
         }
     };
     std::vector<octave> octaves_;

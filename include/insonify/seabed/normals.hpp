@@ -23,6 +23,44 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 namespace detail {
 
+/// How much a surface rises at the vertices of a row, by central differences: twice the rise of a cell. A neighbour
+/// that is missing or beyond the edge leaves the side that is there to count twice; at a vertex without data nothing
+/// rises.
+class row_rises {
+  public:
+    row_rises(const image<float>& heights, int j)
+        : here_(heights.row(j).data()),
+          back_(heights.row((std::max)(j - 1, 0)).data()),
+          ahead_(heights.row((std::min)(j + 1, heights.height() - 1)).data()),
+          width_(static_cast<std::size_t>(heights.width())),
+          inner_(j > 0 && j + 1 < heights.height()) {}
+
+    float x(std::size_t i) const {
+        const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width_ ? i + 1 : i;
+        return rise(here_[left], here_[i], here_[right], right - left == 2);
+    }
+    float y(std::size_t i) const { return rise(back_[i], here_[i], ahead_[i], inner_); }
+
+    /// Unit normal of the surface at a vertex.
+    glm::vec3 normal(std::size_t i, float spacing) const {
+        const float dx = x(i), dy = y(i), dz = 2 * spacing;
+        const float inverse = 1 / numeric::square_root(dx * dx + dy * dy + dz * dz);
+        return {(0.0f - dx) * inverse, (0.0f - dy) * inverse, dz * inverse};
+    }
+
+  private:
+    static float rise(float before, float at, float after, bool both) {
+        if (!numeric::is_finite(at)) return 0;
+        const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
+        if (has_before && has_after) return both ? after - before : 2 * (after - before);
+        return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
+    }
+
+    const float *here_, *back_, *ahead_;
+    std::size_t width_;
+    bool inner_;
+};
+
 /// The normals of one row of vertices.
 class row_normals {
   public:
@@ -34,6 +72,7 @@ class row_normals {
           ahead_(field.heights.row(row + 1 < field.heights.height() ? row + 1 : row).data()),
           inner_(row > 0 && row + 1 < field.heights.height()),
           z_(2 * static_cast<float>(field.spacing)),
+          rises_(field.heights, row),
           out_(out) {}
 
     void compute(isa level = best_isa()) const { insonify::detail::dispatch(*this, level); }
@@ -75,26 +114,13 @@ class row_normals {
     }
 
   private:
-    /// Twice the rise per cell; a neighbour that is missing or beyond the edge (the vertex itself) leaves the side that
-    /// is there to count twice.
-    static float rise(float before, float at, float after, bool both) {
-        const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
-        if (has_before && has_after) return both ? after - before : 2 * (after - before);
-        return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
-    }
-    void one(std::size_t i) const {
-        const bool known = numeric::is_finite(here_[i]);
-        const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width_ ? i + 1 : i;
-        const float x = known ? rise(here_[left], here_[i], here_[right], right - left == 2) : 0.0f;
-        const float y = known ? rise(back_[i], here_[i], ahead_[i], inner_) : 0.0f;
-        const float inverse = 1 / numeric::square_root(x * x + y * y + z_ * z_);
-        out_[i] = {(0.0f - x) * inverse, (0.0f - y) * inverse, z_ * inverse};
-    }
+    void one(std::size_t i) const { out_[i] = rises_.normal(i, 0.5f * z_); }
 
     std::size_t width_;
     const float *here_, *back_, *ahead_;
     bool inner_;
     float z_;  // twice the spacing
+    row_rises rises_;
     glm::vec3* out_;
 };
 

@@ -49,10 +49,23 @@ struct scanline {
     double origin = 0;      ///< x of sample 0 of the whole row
     double spacing = 1;     ///< >= 0
     std::size_t first = 0;  ///< which sample of the whole row is sample 0 here
+    /// Metres between the vertices of the grid that the row is part of: relief that it can't carry fades out (see
+    /// `carried`). 0: nothing does.
+    double grid_spacing = 0;
 
     double x(std::size_t i) const { return origin + spacing * static_cast<double>(first + i); }
-    scanline from(std::size_t i) const { return {y, origin, spacing, first + i}; }
+    scanline from(std::size_t i) const { return {y, origin, spacing, first + i, grid_spacing}; }
 };
+
+/// The share in [0, 1] of a wave's amplitude that a grid keeps: nothing of two samples a wave or fewer, which would
+/// show up as another wave, and all from four on. Both in the same unit; a spacing of 0 keeps everything.
+///
+/// Alan Norton, Alyn P. Rockwood, Philip T. Skolmoski. Clamping: A Method of Antialiasing Textured Surfaces by
+/// Bandwidth Limiting in Object Space. SIGGRAPH, 1982.
+constexpr float carried(double wavelength, double spacing) {
+    if (wavelength >= 4 * spacing) return 1;
+    return wavelength <= 2 * spacing ? 0.0f : static_cast<float>(2 - 4 * spacing / wavelength);
+}
 
 /// Writes the heights of a row, in metres above the datum z = 0. Heights depend on seed and position alone; positions
 /// are good to 1e9 m from the origin. Its type is either one, `kind`, or one per sample (see `typed_sampler`).

@@ -98,7 +98,7 @@ class ripple_train {
 
     /// @param name  of the system, for errors
     ripple_train(const ripple_system& r, std::uint64_t seed, stream purpose, const std::string& name)
-        : half_height_(r.height() / 2), sharpness_(r.sharpness) {
+        : wavelength_(static_cast<double>(r.wavelength)), half_height_(r.height() / 2), sharpness_(r.sharpness) {
         require(r.wavelength > 0 && r.wavelength < 1e6f, name + ".wavelength", r.wavelength, "metres above 0");
         require(r.steepness >= 0 && r.steepness <= 0.5f, name + ".steepness", r.steepness, "0 to 0.5");
         require(numeric::is_finite(r.direction), name + ".direction", r.direction, "a finite angle");
@@ -110,7 +110,8 @@ class ripple_train {
 
     /// Adds the relief along a stretch to its values, metres.
     void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
-        if (half_height_ > 0) dispatch(kernel{*this, part, values.data()}, level);
+        if (half_height_ > 0 && carried(wavelength_, part.grid_spacing) > 0)
+            dispatch(kernel{*this, part, values.data()}, level);
     }
 
     /// What is added is never above this, nor below its negative, metres: the profile is within [-1, 1] of half the
@@ -246,6 +247,9 @@ class ripple_train {
     INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
         using insonify::detail::lane;
         const double frequency = 1 / step_, across_rows = carrier_y_ * part.y;
+        // What sharpens crests has half their wavelength.
+        const float half_height = half_height_ * carried(wavelength_, part.grid_spacing);
+        const float sharpness = sharpness_ * carried(wavelength_ / 2, part.grid_spacing);
         const std::int64_t first = numeric::floor_to_int(part.x[0] * frequency) - 1;
         const std::int64_t last = numeric::floor_to_int(part.x[part.whole() - 1] * frequency) + 2;
         const bool dense = last - first < static_cast<std::int64_t>(points);
@@ -289,7 +293,7 @@ class ripple_train {
             // crests (1 + s) / (1 - s) times a sinusoid's and that of its troughs the inverse. A trochoid's curvatures
             // have the same ratio; it would take Kepler's equation.
             insonify::detail::load(sum, values + i);
-            sum = sum + half_height_ * (real - sharpness_ * magnitude) / (magnitude - sharpness_ * real);
+            sum = sum + half_height * (real - sharpness * magnitude) / (magnitude - sharpness * real);
             insonify::detail::store(values + i, sum);
         }
     }
@@ -297,7 +301,7 @@ class ripple_train {
     alignas(32) std::array<double, waves> wave_x_{}, wave_y_{}, phase_{};  // turns per metre about the carrier; turns
     alignas(32) std::array<std::array<float, block>, waves> turn_re_{}, turn_im_{};
     double carrier_x_ = 0, carrier_y_ = 0;
-    double step_ = 1;
+    double step_ = 1, wavelength_;
     float half_height_, sharpness_;
 };
 

@@ -107,7 +107,7 @@ class rock_sampler {
         detail::stretch_values weights{}, tops;
         float amplitude = 1;
         for (const gradient_noise& octave : outcrops_) {
-            octave.template add<N>(part, amplitude, weights.data());
+            octave.template add<N>(part, amplitude * octave.carried_by(part), weights.data());
             amplitude *= 0.5f;
         }
         for (std::size_t i = 0; i < part.whole(); i += N) {
@@ -124,6 +124,8 @@ class rock_sampler {
             store(&weights[i], step);
         }
         for (const detail::block_layer& layer : blocks_) {
+            const float kept = layer.carried_by(part);
+            if (kept == 0) break;  // nor the smaller ones
             tops.fill(0);
             layer.template raise<N>(part, tops.data());
             for (std::size_t i = 0; i < part.whole(); i += N) {
@@ -131,7 +133,7 @@ class rock_sampler {
                 load(top, &tops[i]);
                 load(weight, &weights[i]);
                 load(height, heights + i);
-                height = height + weight * top;
+                height = height + kept * (weight * top);
                 store(heights + i, height);
             }
         }

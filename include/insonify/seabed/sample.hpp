@@ -13,6 +13,8 @@ struct grid {
     glm::dvec2 origin{0.0, 0.0};
     double spacing = 0.02;
     int width = 2, height = 2;  ///< vertices, at least 2
+    bool band_limited =
+        false;  ///< relief that the spacing can't carry fades out, instead of turning up as other relief
 };
 
 /// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
@@ -53,8 +55,10 @@ heightfield sample(const Recipe& source, const grid& where, Executor&& ex = seri
     const auto prepared = prepare(source);
     ex.bulk(static_cast<std::size_t>(where.height), [&](std::size_t row) {
         const int j = static_cast<int>(row);
-        const scanline line{
-            .y = where.origin.y + where.spacing * j, .origin = where.origin.x, .spacing = where.spacing};
+        const scanline line{.y = where.origin.y + where.spacing * j,
+                            .origin = where.origin.x,
+                            .spacing = where.spacing,
+                            .grid_spacing = where.band_limited ? where.spacing : 0};
         prepared.row(line, result.heights.row(j), result.types.empty() ? std::span<type>{} : result.types.row(j));
     });
     return result;

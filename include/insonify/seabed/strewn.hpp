@@ -59,16 +59,18 @@ class round_marks {
         template <int N>
         INSONIFY_INLINE void run() const {
             const lattice& l = marks.lattice_;
+            const float kept = carried(1 / l.frequency, part.grid_spacing);  // the largest span half a cell
+            if (kept == 0) return;
             const lattice_coordinate v(l.v(part.y));
             const cell_hash::row hash = marks.hash_[v.cell];
             visit_columns(l, part, 0, [&](std::int64_t first, std::int64_t count) INSONIFY_INLINE_LAMBDA {
                 for (std::int64_t column = first; column < first + count; ++column)
-                    draw<N>(v.fraction, column, hash(column));
+                    draw<N>(kept, v.fraction, column, hash(column));
             });
         }
 
         template <int N>
-        INSONIFY_INLINE void draw(float up, std::int64_t column, std::uint64_t bits) const {
+        INSONIFY_INLINE void draw(float kept, float up, std::int64_t column, std::uint64_t bits) const {
             const lattice& l = marks.lattice_;
             const pair_of_bits centre(bits), traits(scramble(bits));
             const float chance = 0.5f * traits.b + 0.5f;
@@ -77,7 +79,7 @@ class round_marks {
             const float y = up - (0.5f + 0.25f * centre.b);
             const float y_square = y * y, inverse_square = 1 / (radius * radius);
             if (y_square >= radius * radius) return;
-            const float height = (chance < marks.high_ ? marks.mound_ : marks.pock_) * (radius * 4);
+            const float height = kept * ((chance < marks.high_ ? marks.mound_ : marks.pock_) * (radius * 4));
 
             const double middle = 0.5 + 0.25 * static_cast<double>(centre.a), reach = static_cast<double>(radius);
             const double left = static_cast<double>(column) + middle;

@@ -25,6 +25,13 @@ struct cell_facets {
     std::size_t count() const { return std::size_t{lower} + std::size_t{upper}; }
 };
 
+/// A vertex of a heightfield as its mesh has it; one without data lies at z = 0.
+inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_t j) {
+    const float height = field.heights(static_cast<int>(i), static_cast<int>(j));
+    return {static_cast<float>(field.spacing * static_cast<double>(i)),
+            static_cast<float>(field.spacing * static_cast<double>(j)), numeric::is_finite(height) ? height : 0.0f};
+}
+
 }  // namespace detail
 
 /// The surface of a heightfield as a mesh: two triangles per cell, counter-clockwise from above, cut from vertex (i, j)
@@ -49,16 +56,11 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}) {
     // Write the vertices, and count the triangles of each row of cells on the way.
     std::vector<std::size_t> first_triangle(height, 0);
     ex.bulk(height, [&](std::size_t j) {
-        const auto row_at = [&](std::size_t index) { return heights.row(static_cast<int>(index)).data(); };
-        const float* const here = row_at(j);
-        const float* const ahead = row_at(j + 1 < height ? j + 1 : j);
         detail::row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
-        const auto y = static_cast<float>(field.spacing * static_cast<double>(j));
-        for (std::size_t i = 0; i < width; ++i) {
-            result.positions[j * width + i] = {static_cast<float>(field.spacing * static_cast<double>(i)), y,
-                                               numeric::is_finite(here[i]) ? here[i] : 0.0f};
-        }
+        for (std::size_t i = 0; i < width; ++i) result.positions[j * width + i] = detail::position_at(field, i, j);
         if (j + 1 == height) return;
+        const float* const here = heights.row(static_cast<int>(j)).data();
+        const float* const ahead = heights.row(static_cast<int>(j + 1)).data();
         std::size_t count = 0;
         for (std::size_t i = 0; i + 1 < width; ++i) count += detail::cell_facets(here + i, ahead + i).count();
         first_triangle[j + 1] = count;

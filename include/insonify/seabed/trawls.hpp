@@ -34,7 +34,8 @@ namespace detail {
 /// Evaluates `trawl_marks`.
 class trawl_furrows {
   public:
-    trawl_furrows(const trawl_marks& t, std::uint64_t seed) : depth_(t.depth), hash_(seed, stream::trawls) {
+    trawl_furrows(const trawl_marks& t, std::uint64_t seed)
+        : depth_(t.depth), width_(static_cast<double>(t.width)), hash_(seed, stream::trawls) {
         require(t.width > 0 && t.width < 1e6f, "trawl_marks.width", t.width, "metres above 0");
         require(t.density >= 0 && 4 * t.density * t.width <= 1, "trawl_marks.density", t.density,
                 "0 to 1 / (4 width) per metre");
@@ -74,14 +75,16 @@ class trawl_furrows {
 
         template <int N>
         INSONIFY_INLINE void run() const {
+            const float kept = carried(2 * furrows.width_, part.grid_spacing);  // a furrow between its berms
+            if (kept == 0) return;
             for (std::size_t n = 0; n < furrows.families_.size(); ++n)
                 for (std::size_t i = 0; i < part.whole(); i += N)
-                    furrows.add_family<N>(furrows.families_[n], n, part, i, values + i);
+                    furrows.add_family<N>(furrows.families_[n], n, kept, part, i, values + i);
         }
     };
 
     template <int N>
-    INSONIFY_INLINE void add_family(const family& f, std::size_t n, const stretch& part, std::size_t i,
+    INSONIFY_INLINE void add_family(const family& f, std::size_t n, float kept, const stretch& part, std::size_t i,
                                     float* values) const {
         using insonify::detail::lane;
         using words = lanes<std::uint32_t, N>;
@@ -107,8 +110,8 @@ class trawl_furrows {
         if (!insonify::detail::any(ints(off < 2.0f))) return;
         for (int k = 0; k < N; ++k) {
             if (lane(off, k) >= 2) continue;
-            values[k] += depth_at(f, n, lane(bits, k), lane(off, k),
-                                  part.x[i + static_cast<std::size_t>(k)] * f.cosine + part.y * f.sine);
+            values[k] += kept * depth_at(f, n, lane(bits, k), lane(off, k),
+                                         part.x[i + static_cast<std::size_t>(k)] * f.cosine + part.y * f.sine);
         }
     }
 
@@ -127,7 +130,8 @@ class trawl_furrows {
     }
 
     std::vector<family> families_;
-    float depth_, half_width_ = 0;
+    float depth_, half_width_ = 0;  // the latter in lanes
+    double width_;
     cell_hash hash_;
 };
 

@@ -140,8 +140,9 @@ class bottom_tiles {
             const auto vertex = [&](std::int64_t tile, std::size_t i) {
                 return static_cast<double>(tile * cells + static_cast<std::int64_t>(i) - 1) * spacing_;
             };
-            prepared_.row({.y = vertex(run.y, j), .origin = vertex(run.x, 0), .spacing = spacing_},
-                          std::span(heights).subspan(j * width, width), std::span(types).subspan(j * width, width));
+            prepared_.row(
+                {.y = vertex(run.y, j), .origin = vertex(run.x, 0), .spacing = spacing_, .grid_spacing = spacing_},
+                std::span(heights).subspan(j * width, width), std::span(types).subspan(j * width, width));
         }
         const auto scale = static_cast<float>(0.5 * scale_);
         const auto slope = [&](float before, float after) {

@@ -3,8 +3,8 @@
 
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/raster/draw.hpp>
+#include <insonify/seabed/adaptive.hpp>
 #include <insonify/seabed/sample.hpp>
-#include <insonify/seabed/tessellate.hpp>
 #include <insonify/sonar/seabed_reach.hpp>
 #include <insonify/sonar/shading.hpp>
 
@@ -21,6 +21,12 @@ struct render_options {
     /// How far up the light the seabed may cast from, at most, in lengths of the picture; it is sampled no farther than
     /// its heights can throw a shadow anyway. Light below 1 degree over rock comes from farther, and passes there.
     float reach = 8;
+    /// Pixels: by how much the seabed's mesh may displace what is seen, and on level ground the edge of a shadow. 0
+    /// draws every cell; more draws fewer triangles the smoother the bottom, and costs the time to find out.
+    float edge_error = 0;
+    float slope_error = 0.02f;  ///< by how much its slopes may then be off, metres per metre
+    /// See draw_options. Which triangle a pixel shows decides whether it faces the light, too.
+    int subpixel_bits = shadow::ray_policy<Shadow> ? 12 : 8;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
 };
@@ -28,7 +34,8 @@ struct render_options {
 /// What became of the triangles, and how large the intermediate things were.
 struct render_stats {
     draw_stats seabed, targets;
-    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled
+    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled, of which the mesh may leave some out
+    std::uint64_t seabed_samples = 0;         ///< points at which the seabed was evaluated
 };
 
 /// A picture with all that is known about it.
@@ -54,6 +61,8 @@ class overhead_painter {
         if constexpr (!shadow::ray_policy<Shadow> && !std::is_same_v<Shadow, shadow::none>)
             require(!view_.has_near_light(), "overhead.light_distance", rig.light_distance,
                     "infinite, or shadow::exact or penumbra");
+        require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
+        require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y);
         for (const target& t : s.targets)
             targets_.emplace_back(t.shape, bounds(t.shape, ex), view_.rig_from(to_world(t.placement)), t.is_solid);
@@ -74,8 +83,6 @@ class overhead_painter {
 
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
-    /// Which triangle a pixel shows decides whether it faces the light, too.
-    static constexpr int subpixel_bits = shadow::ray_policy<Shadow> ? 12 : 8;
 
     bool has_bottom() const { return !std::holds_alternative<seabed::none>(scene_.seabed); }
 
@@ -97,8 +104,10 @@ class overhead_painter {
         seabed::grid grid = grid_under(shown_ground(view_, range), ground, spacing);
         bottom_origin_ = grid.origin;
         grid.origin += rig.position;
+        grid.band_limited = true;
         field_ = seabed::sample(scene_.seabed, grid, ex);
-        bottom_ = seabed::tessellate(field_, ex);
+        out_.stats.seabed_samples = field_.heights.size();
+        model_seabed(ex);
         for (const float height : field_.heights.pixels()) {
             if (!numeric::is_finite(height)) continue;
             lowest_ = (std::min)(lowest_, height);
@@ -106,6 +115,30 @@ class overhead_painter {
         }
         out_.stats.seabed_columns = field_.heights.width();
         out_.stats.seabed_rows = field_.heights.height();
+    }
+
+    /// The bottom's mesh, and the type of each of its vertices where there are several.
+    template <executor E>
+    void model_seabed(E& ex) {
+        const auto every = field_.types.pixels();
+        if (options_.edge_error == 0) {
+            bottom_ = seabed::tessellate(field_, ex);
+            bottom_types_.assign(every.begin(), every.end());
+            return;
+        }
+        // What is off by h throws a shadow that is off by h cot(elevation), whatever the view.
+        const double forgiven = static_cast<double>(options_.edge_error) * view_.ground_sampling();
+        const double cot = std::is_same_v<Shadow, shadow::none> ? 0 : view_.light().cot_elevation();
+        auto [shape, vertices] = seabed::tessellate(field_,
+                                                    {.height = forgiven / cot,
+                                                     .slope = static_cast<double>(options_.slope_error),
+                                                     .lean = forgiven * static_cast<double>(view_.rig().altitude),
+                                                     .nadir = -bottom_origin_},
+                                                    ex);
+        bottom_ = std::move(shape);
+        if (every.empty()) return;
+        bottom_types_.resize(vertices.size());
+        std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
     }
 
     /// A grid that starts at a corner of what is shown, whatever else it covers: what is shown has the same vertices
@@ -180,7 +213,8 @@ class overhead_painter {
                                                           static_cast<std::uint8_t>(field_.fallback)},
                                              ex);
             else
-                out_.stats.seabed = draw_one(bottom, load, shadows, typed_bottom{bottom_, field_, scene_.bottom}, ex);
+                out_.stats.seabed =
+                    draw_one(bottom, load, shadows, typed_bottom{bottom_, bottom_types_, scene_.bottom}, ex);
             load = depth_load::keep;
         }
         for (std::size_t i = 0; i < targets_.size(); ++i) {
@@ -205,7 +239,7 @@ class overhead_painter {
         return draw_lanes(*shape.shape, place, shader, depth_,
                           {.keep = keep_depth::larger,
                            .load = load,
-                           .subpixel_bits = subpixel_bits,
+                           .subpixel_bits = options_.subpixel_bits,
                            .tile = options_.tile,
                            .level = options_.level},
                           ex);
@@ -218,8 +252,9 @@ class overhead_painter {
     frame<Labels> out_;
     seabed::heightfield field_;
     mesh bottom_;
-    glm::dvec2 bottom_origin_{};      ///< of the field, from the rig's position
-    float lowest_ = 0, highest_ = 0;  ///< of the bottom's vertices, and the datum
+    std::vector<seabed::type> bottom_types_;  ///< by vertex, or none where there is one type alone
+    glm::dvec2 bottom_origin_{};              ///< of the field, from the rig's position
+    float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum
     std::vector<placed_mesh> targets_;
 };
 

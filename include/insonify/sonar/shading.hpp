@@ -38,7 +38,7 @@ struct whole_object {
 /// The seabed: a material for each of its types, which a pixel takes from the vertex that weighs most.
 struct typed_bottom {
     const mesh& surface;
-    const seabed::heightfield& field;
+    const std::vector<seabed::type>& types;  ///< by vertex
     const std::array<material, seabed::type_count>& materials;
     static constexpr std::uint16_t instance = labels::no_instance;
     static constexpr bool uniform = false;
@@ -48,7 +48,7 @@ struct typed_bottom {
         const glm::uvec3& t = surface.triangles[f.triangles[k]];
         const float a = lane(f.weights[0], k), b = lane(f.weights[1], k), c = lane(f.weights[2], k);
         const std::uint32_t vertex = a >= b ? (a >= c ? t.x : t.z) : (b >= c ? t.y : t.z);
-        return static_cast<std::uint8_t>(field.types.pixels()[vertex]);
+        return static_cast<std::uint8_t>(types[vertex]);
     }
 };
 

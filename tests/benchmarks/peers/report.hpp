@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "../svg.hpp"
+
 namespace report {
 
 /// How far a picture is from the exact one.
@@ -31,11 +33,7 @@ inline const row* find(const std::vector<row>& rows, char size, const std::strin
     return nullptr;
 }
 
-inline std::string number(double value, int digits) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
-}
+using svg::number;
 
 inline void print_table(const std::vector<row>& rows) {
     std::printf("%-5s %-22s %10s %10s %12s %9s %11s\n", "size", "renderer", "median ms", "fastest", "to insonify",
@@ -70,8 +68,8 @@ inline std::string to_svg(const std::vector<row>& rows) {
         const row& r = rows[i];
         if (i == 0 || rows[i - 1].size != r.size) {
             y += 18;
-            bars += "<text x='16' y='" + std::to_string(y) + "' font-weight='bold'>W in size " +
-                    std::string(1, r.size) + ", ms per frame</text>\n";
+            bars += svg::text("16", std::to_string(y), "W in size " + std::string(1, r.size) + ", ms per frame",
+                              " font-weight='bold'");
             y += 10;
         }
         double slowest = 0;
@@ -81,17 +79,14 @@ inline std::string to_svg(const std::vector<row>& rows) {
         const double length = longest * r.ms_median / slowest;
         std::string label = number(r.ms_median, r.ms_median < 100 ? 1 : 0);
         if (own != nullptr && own != &r) label += "  (" + number(r.ms_median / own->ms_median, 1) + " x)";
-        bars += "<text x='" + std::to_string(left - 8) + "' y='" + std::to_string(y + 16) + "' text-anchor='end'>" +
-                r.renderer + "</text>\n<rect x='" + std::to_string(left) + "' y='" + std::to_string(y + 3) +
-                "' width='" + number(length, 1) + "' height='" + std::to_string(line - 6) + "' fill='" +
-                (r.renderer == "insonify" ? "#b5651d" : "#8a9ba8") + "'/>\n<text x='" + number(left + length + 6, 1) +
-                "' y='" + std::to_string(y + 16) + "'>" + label + "</text>\n";
+        const std::string base = std::to_string(y + 16);
+        bars += svg::text(std::to_string(left - 8), base, r.renderer, " text-anchor='end'") +
+                svg::rectangle(std::to_string(left), std::to_string(y + 3), number(length, 1), std::to_string(line - 6),
+                               r.renderer == "insonify" ? "#b5651d" : "#8a9ba8") +
+                svg::text(number(left + length + 6, 1), base, label);
         y += line;
     }
-    const std::string height = std::to_string(y + 16), right = std::to_string(width);
-    return "<svg xmlns='http://www.w3.org/2000/svg' width='" + right + "' height='" + height + "' viewBox='0 0 " +
-           right + " " + height + "' font-family='sans-serif' font-size='13'>\n<rect width='100%' height='100%' " +
-           "fill='white'/>\n" + bars + "</svg>\n";
+    return svg::page(width, y + 16, bars);
 }
 
 }  // namespace report

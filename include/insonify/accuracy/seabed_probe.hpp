@@ -1,0 +1,195 @@
+// How far pictures of a seabed are from the truth, by a few small ones.
+#pragma once
+
+#include <insonify/accuracy/metrics.hpp>
+#include <insonify/sonar/render.hpp>
+
+#include <array>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::accuracy {
+
+/// Errors of a picture, measured as `metrics.hpp` does; as a budget, what is tolerated.
+struct errors {
+    double shadow_edge = 1;   ///< pixels by which edges of shadows are displaced, on average along them
+    double silhouette = 1;    ///< pixels by which outlines of targets are displaced, at most
+    double height = 1;        ///< of the seabed, root mean square, in pixels on the ground
+    double intensity = 0.05;  ///< root mean square error of the linear picture
+};
+/// How `settings_for` looks at a seabed.
+struct probe {
+    int chips = 4;       ///< small pictures, spread over the large one
+    int pixels = 128;    ///< along their sides
+    double finest = 4;   ///< cells per pixel of what counts as the truth
+    double spare = 0.7;  ///< share of a budget that may be used where others have not been looked at
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::accuracy
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// Small pictures of a seabed, as fine as makes sense, to compare coarser ones with.
+class seabed_probe {
+  public:
+    template <executor E>
+    seabed_probe(const seabed::any& bottom, const overhead& rig, const accuracy::probe& how, E& ex) : how_(how) {
+        scene_.seabed = bottom;
+        const overhead_geometry view(rig);
+        pixels_ = (std::min)(how.pixels, (std::min)(rig.size.x, rig.size.y));
+        spacing_ = view.ground_sampling() / how.finest;
+        // Places of a sequence that fills a square evenly however many are taken.
+        // Martin Roberts. The Unreasonable Effectiveness of Quasirandom Sequences. 2018.
+        for (int i = 0; i < how.chips; ++i) {
+            const auto place = [&](double step, int size) {
+                const double turn = 0.5 + step * i;
+                const double share = turn - static_cast<double>(numeric::floor_to_int(turn));
+                return (share - 0.5) * (1 - static_cast<double>(pixels_) / size);
+            };
+            const glm::dvec2 in_picture(place(0.7548776662466927, rig.size.x) * 2 * view.half_extent(0).x,
+                                        place(0.5698402909980532, rig.size.y) * 2 * view.half_extent(0).y);
+            overhead chip = rig;
+            const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
+            chip.position +=
+                glm::dvec2(in_picture.x * cosine - in_picture.y * sine, in_picture.x * sine + in_picture.y * cosine);
+            chip.size = {pixels_, pixels_};
+            const double half = view.half_extent(0).x * pixels_ / rig.size.x;
+            chip.field_of_view = static_cast<float>(2 * numeric::atan2(half, static_cast<double>(rig.altitude)));
+            chips_.push_back(chip);
+            picture truth = draw(chip, how.finest, shadow::refined{.texels_per_pixel = 8}, ex);
+            truth.dark = march(chip, ex);
+            truths_.push_back(std::move(truth));
+        }
+    }
+
+    /// How far pictures of so many cells per pixel are from the truth, over all chips.
+    template <class Shadow, executor E>
+    accuracy::errors errors_of(double cells_per_pixel, const Shadow& shadow, E& ex) const {
+        accuracy::mask_difference edges;
+        double squares = 0, pixels = 0, heights = 0;
+        for (std::size_t i = 0; i < chips_.size(); ++i) {
+            const auto result = draw(chips_[i], cells_per_pixel, shadow, ex);
+            const auto found = accuracy::compare_masks(result.dark, truths_[i].dark);
+            edges.false_pixels += found.false_pixels;
+            edges.missed_pixels += found.missed_pixels;
+            edges.boundary_pixels += found.boundary_pixels;
+            const auto off = accuracy::compare_images(result.values, truths_[i].values);
+            squares += off.mean_square * static_cast<double>(off.pixels);
+            pixels += static_cast<double>(off.pixels);
+            heights += mean_square_height_error(chips_[i], cells_per_pixel) / static_cast<double>(chips_.size());
+        }
+        accuracy::errors all{.shadow_edge = 0, .silhouette = 0};
+        // Without an edge there is nothing to be displaced, but by the few wrong pixels.
+        const auto wrong = static_cast<double>(edges.wrong_pixels());
+        const auto few = static_cast<double>(pixels_) / 16;
+        all.shadow_edge = wrong / (std::max)(static_cast<double>(edges.boundary_pixels), few);
+        all.intensity = numeric::square_root(squares / pixels);
+        all.height = numeric::square_root(heights);
+        return all;
+    }
+
+  private:
+    struct picture {
+        image<float> values;
+        image<std::uint8_t> dark;
+    };
+
+    template <class Shadow, executor E>
+    picture draw(const overhead& chip, double cells_per_pixel, const Shadow& shadow, E& ex) const {
+        render_options<Shadow> options{.shadow = shadow};
+        options.cells = (std::max)(1, static_cast<int>(numeric::floor_to_int(pixels_ * cells_per_pixel + 0.5)));
+        auto drawn = render(scene_, chip, options, ex);
+        return {std::move(drawn.image), map_pixels(drawn.labels.shadow, [](std::uint16_t by) {
+                    return static_cast<std::uint8_t>(by != labels::is_lit);
+                })};
+    }
+
+    /// The chip's dark pixels, by a ray from each towards the light over the finest grid, in steps of a cell.
+    template <executor E>
+    image<std::uint8_t> march(const overhead& chip, E& ex) const {
+        const overhead_geometry view(chip);
+        const double half = view.half_extent(0).x, tangent = numeric::tan(static_cast<double>(chip.grazing));
+        const glm::dmat3& turn = view.rig_from({}).linear;
+        const glm::dvec2 travel(numeric::product(glm::transpose(turn), glm::dvec3(view.light().travel(), 0)));
+
+        // As far up-light as the picture is long: more is not drawn either.
+        const glm::dvec2 low = chip.position - 4 * half;
+        seabed::grid grid = seabed::grid_over(low, low + 8 * half, spacing_);
+        grid.band_limited = true;
+        const seabed::heightfield field = seabed::sample(scene_.seabed, grid, ex);
+        double top = -std::numeric_limits<double>::infinity();
+        for (const float h : field.heights.pixels())
+            if (numeric::is_finite(h)) top = (std::max)(top, static_cast<double>(h));
+
+        image<std::uint8_t> dark(chip.size.x, chip.size.y);
+        ex.bulk(static_cast<std::size_t>(chip.size.y), [&](std::size_t row) {
+            const int j = static_cast<int>(row);
+            for (int i = 0; i < chip.size.x; ++i) {
+                const glm::dvec3 in_rig((2.0 * i + 1 - chip.size.x) / chip.size.x * half,
+                                        (chip.size.y - 2.0 * j - 1) / chip.size.x * half, 0);
+                const glm::dvec2 datum(numeric::product(glm::transpose(turn), in_rig));
+                glm::dvec2 at = chip.position + datum;
+                // What is seen there leans towards the middle; chips are narrow, so a few steps find it.
+                for (int k = 0; k < 6; ++k) {
+                    const double height = field.facet_at(at.x, at.y).height;
+                    at = chip.position + datum * (1 - height / static_cast<double>(chip.altitude));
+                }
+                dark(i, j) = is_dark(field, at, travel, tangent, top) ? 1 : 0;
+            }
+        });
+        return dark;
+    }
+
+    static bool is_dark(const seabed::heightfield& field, const glm::dvec2& at, const glm::dvec2& travel,
+                        double tangent, double top) {
+        const auto facet = field.facet_at(at.x, at.y);
+        if (field.spacing * tangent + facet.rise_x * travel.x + facet.rise_y * travel.y <= 0) return true;
+        for (double away = 0.01 * field.spacing;; away += field.spacing) {
+            const double ray = facet.height + away * tangent;
+            if (!(ray <= top)) return false;
+            const glm::dvec2 below = at - away * travel;
+            if (field.facet_at(below.x, below.y).height > ray + 1e-7) return true;
+        }
+    }
+
+    /// Of a grid against the finest one, over a net of points; in square metres.
+    double mean_square_height_error(const overhead& chip, double cells_per_pixel) const {
+        constexpr int net = 24;
+        const double side = 2 * overhead_geometry(chip).half_extent(0).x;
+        const glm::dvec2 low = chip.position - 0.5 * side;
+        const double spacing = spacing_ * how_.finest / cells_per_pixel;
+        seabed::grid coarse = seabed::grid_over(low, low + side, spacing);
+        coarse.band_limited = true;
+        const seabed::heightfield field = seabed::sample(scene_.seabed, coarse);
+        const auto prepared = seabed::prepare(scene_.seabed);
+        double sum = 0;
+        int known = 0;
+        for (int j = 0; j < net; ++j) {
+            std::array<float, net> heights;
+            const seabed::scanline line{.y = low.y + side * (j + 0.5) / net,
+                                        .origin = low.x + side * 0.5 / net,
+                                        .spacing = side / net,
+                                        .grid_spacing = spacing_};
+            prepared.row(line, heights, {});
+            for (std::size_t i = 0; i < heights.size(); ++i) {
+                const double off =
+                    static_cast<double>(heights[i]) - static_cast<double>(field.height_at(line.x(i), line.y));
+                if (!numeric::is_finite(off)) continue;
+                sum += off * off;
+                ++known;
+            }
+        }
+        return known > 0 ? sum / known : 0;
+    }
+
+    accuracy::probe how_;
+    scene scene_;
+    int pixels_ = 0;
+    double spacing_ = 1;  ///< of the finest grid, metres
+    std::vector<overhead> chips_;
+    std::vector<picture> truths_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,136 @@
+// The surface of a heightfield by as few triangles as somebody can tell from all of them.
+#pragma once
+
+#include <insonify/seabed/needed_vertices.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// A mesh of some vertices of a heightfield.
+struct adaptive_mesh {
+    mesh shape;                           ///< as `tessellate` makes it
+    std::vector<std::uint32_t> vertices;  ///< which vertex of the heightfield each is: j width + i
+};
+
+namespace detail {
+
+/// Calls `emit(corner, corner, corner)`, counter-clockwise and each a glm::ivec2, for every triangle that a vertex
+/// brings: those whose right angle it is.
+template <class Emit>
+void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit) {
+    if (!needed(x, y)) return;
+    const int s = needed_vertices::step_of(x, y);
+    const bool centre = (x & s) != 0 && (y & s) != 0;
+    // The corners of its diamond, counter-clockwise.
+    static constexpr int square[5][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}, {1, 1}};
+    static constexpr int upright[5][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}};
+    const glm::ivec2 here(x, y);
+    const auto corner = [&](int k) {
+        const auto& to = centre ? square[k] : upright[k];
+        return glm::ivec2(x + s * to[0], y + s * to[1]);
+    };
+    for (int k = 0; k < 4; ++k) {
+        const glm::ivec2 a = corner(k), b = corner(k + 1);
+        if (!needed.inside(a.x, a.y) || !needed.inside(b.x, b.y)) continue;
+        if (centre || s > 1) {
+            const glm::ivec2 middle = (a + b) / 2;
+            if (!needed(middle.x, middle.y)) emit(here, a, b);
+            continue;
+        }
+        // Half a cell. If the other half is as large, the cell is cut as the heightfield is.
+        const glm::ivec2 opposite = a + b - here;
+        const bool rising = (b.x - a.x) == (b.y - a.y);
+        if (!rising && needed(opposite.x, opposite.y))
+            emit(here, a, opposite);
+        else
+            emit(here, a, b);
+    }
+}
+
+}  // namespace detail
+
+/// The surface of a heightfield as a mesh of the triangles that it takes, given what it may be off by: at no point of a
+/// triangle is the drawn surface (`height_at`) farther above or below it than `allowed` at the triangle's corners; at
+/// no vertex below it are the slopes, and the vertices below it are all of one type. Where nothing may be left out, the
+/// triangles are those of `tessellate`; on a plane there are two, four times as many beside an edge whose length is no
+/// power of two cells.
+///
+/// No two triangles that share a longest side could be replaced by the one that they are halves of.
+/// @throws invalid_input as `tessellate`, and for a negative or NaN leeway
+template <executor_argument Executor = serial_executor>
+adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Executor&& ex = serial_executor{}) {
+    validate(field);
+    detail::require(allowed.height >= 0, "leeway.height", allowed.height, "metres, at least 0");
+    detail::require(allowed.slope >= 0, "leeway.slope", allowed.slope, "a slope, at least 0");
+    detail::require(allowed.lean >= 0, "leeway.lean", allowed.lean, "square metres, at least 0");
+    const image<float>& heights = field.heights;
+    detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
+                    "below 2^32");
+    const detail::needed_vertices needed(field, allowed, ex);
+
+    const int size = needed.size();
+    const auto rows = static_cast<std::size_t>(heights.height()), columns = static_cast<std::size_t>(heights.width());
+    // The hierarchy's own corners, which are nobody's middle.
+    const auto is_corner = [=](std::size_t x, std::size_t y) {
+        const auto end = static_cast<std::size_t>(size);
+        return (x == 0 || x == end) && (y == 0 || y == end);
+    };
+    // The whole square's two halves, where not even its centre is needed.
+    const bool whole = needed.inside(size, size) && (size == 1 || !needed(size / 2, size / 2));
+    const auto each_triangle = [&](std::size_t j, const auto& emit) {
+        const auto known = [&](const glm::ivec2& p) { return numeric::is_finite(heights(p.x, p.y)); };
+        const auto emit_known = [&](const glm::ivec2& a, const glm::ivec2& b, const glm::ivec2& c) {
+            if (known(a) && known(b) && known(c)) emit(a, b, c);
+        };
+        if (whole && j == 0) {
+            emit_known({0, 0}, {size, 0}, {size, size});
+            emit_known({0, 0}, {size, size}, {0, size});
+        }
+        for (int x = 0; x < heights.width(); ++x) detail::triangles_at(needed, x, static_cast<int>(j), emit_known);
+    };
+
+    // Number the vertices and count the triangles of each row, then write them.
+    image<std::uint32_t> number(heights.width(), heights.height());
+    std::vector<std::size_t> first_triangle(rows + 1, 0), first_vertex(rows + 1, 0);
+    ex.bulk(rows, [&](std::size_t j) {
+        const auto numbers = number.row(static_cast<int>(j));
+        std::uint32_t next = 0;
+        for (std::size_t i = 0; i < columns; ++i)
+            if (is_corner(i, j) || needed(static_cast<int>(i), static_cast<int>(j))) numbers[i] = next++;
+        first_vertex[j + 1] = next;
+        each_triangle(j, [&](auto&&...) { ++first_triangle[j + 1]; });
+    });
+    for (std::size_t j = 0; j < rows; ++j) {
+        first_triangle[j + 1] += first_triangle[j];
+        first_vertex[j + 1] += first_vertex[j];
+    }
+
+    adaptive_mesh result;
+    result.shape.positions.resize(first_vertex.back());
+    result.shape.normals.resize(first_vertex.back());
+    result.shape.triangles.resize(first_triangle.back());
+    result.vertices.resize(first_vertex.back());
+    ex.bulk(rows, [&](std::size_t j) {
+        const detail::row_rises rises(heights, static_cast<int>(j));
+        std::size_t vertex = first_vertex[j];
+        for (std::size_t i = 0; i < columns; ++i) {
+            if (!is_corner(i, j) && !needed(static_cast<int>(i), static_cast<int>(j))) continue;
+            result.shape.positions[vertex] = detail::position_at(field, i, j);
+            result.shape.normals[vertex] = rises.normal(i, static_cast<float>(field.spacing));
+            result.vertices[vertex++] = static_cast<std::uint32_t>(j * columns + i);
+        }
+        const auto index = [&](const glm::ivec2& p) {
+            return static_cast<std::uint32_t>(first_vertex[static_cast<std::size_t>(p.y)]) + number(p.x, p.y);
+        };
+        glm::uvec3* next = result.shape.triangles.data() + first_triangle[j];
+        each_triangle(j, [&](const glm::ivec2& a, const glm::ivec2& b, const glm::ivec2& c) {
+            *next++ = {index(a), index(b), index(c)};
+        });
+    });
+    return result;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,367 @@
+// Every knob of the trade of speed for accuracy, measured in one run. See --help and docs/tradeoff.md.
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/insonify.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <new>
+
+#include "../../marching.hpp"
+#include "measure.hpp"
+#include "report.hpp"
+#include <CLI/CLI.hpp>
+#include <malloc.h>
+
+// All memory goes through here, to be counted.
+void* operator new(std::size_t size) {
+    void* const memory = std::malloc(size);
+    if (memory == nullptr) throw std::bad_alloc();
+    cost::allocated += malloc_usable_size(memory);
+    cost::peak = std::max(cost::peak, cost::allocated);
+    return memory;
+}
+void operator delete(void* memory) noexcept {
+    if (memory != nullptr) cost::allocated -= malloc_usable_size(memory);
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    operator delete(memory);
+}
+
+namespace {
+
+namespace in = insonify;
+using namespace in::literals;
+
+struct options {
+    int pixels = 384, runs = 5;
+    std::string out = "docs";
+};
+
+options parse(int argc, char** argv) {
+    options o;
+    CLI::App app("Measures every knob of the trade of speed for accuracy and writes tradeoff.md and its charts.",
+                 "tradeoff");
+    app.add_option("--pixels", o.pixels, "Along the sides of the pictures (384)")->check(CLI::Range(64, 2048));
+    app.add_option("--runs", o.runs, "Of everything, in turn; the least time counts (5)")->check(CLI::Range(1, 1000));
+    app.add_option("--out", o.out, "Folder (docs)");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        std::exit(app.exit(error) == 0 ? 0 : 2);
+    }
+    return o;
+}
+
+const std::vector<std::pair<std::string, in::seabed::any>> seabeds{
+    {"ripples", in::seabed::ripples{.wavelength = 0.6f, .height = 0.07f, .direction = 0.5f, .seed = 7}},
+    {"mud", in::seabed::mud{.mound_height = 0.06f, .pock_depth = 0.06f, .seed = 7}},
+    {"rock", in::seabed::rock{.relief = 0.3f, .outcrop = 3, .block = 0.8f, .seed = 7}}};
+
+in::overhead rig_of(const options& o) {
+    return {.altitude = 1.5f, .yaw = 0.3f, .size = {o.pixels, o.pixels}, .grazing = 6_deg, .light_azimuth = 0.2f};
+}
+
+/// Calls visit(name, policy) with each of the library's shadow policies.
+template <class Visit>
+void for_each_policy(const Visit& visit) {
+    visit("none", in::shadow::none{});
+    visit("map", in::shadow::map{});
+    visit("pcf", in::shadow::pcf{});
+    visit("refined", in::shadow::refined{});
+}
+
+in::image<std::uint8_t> dark_of(const in::labels& l) {
+    return in::map_pixels(l.shadow,
+                          [](std::uint16_t by) { return static_cast<std::uint8_t>(by != in::labels::is_lit); });
+}
+in::image<std::uint8_t> target_of(const in::labels& l) {
+    return in::map_pixels(l.instance, [](std::uint16_t i) { return static_cast<std::uint8_t>(i != 0); });
+}
+
+/// A way to draw, to be run several times.
+struct candidate {
+    report::way way;
+    std::function<in::frame<>()> draw;
+    cost::figures cost{};
+};
+
+template <class Shadow>
+candidate make_candidate(const in::scene& scene, const in::overhead& rig, const std::string& seabed,
+                         const std::string& policy, const in::render_options<Shadow>& options) {
+    candidate c{.way = {.seabed = seabed, .policy = policy, .cells = static_cast<double>(options.cells) / rig.size.x},
+                .draw = [&scene, rig, options] { return in::render(scene, rig, options); }};
+    if constexpr (requires { options.shadow.texels_per_pixel; })
+        c.way.texels = static_cast<double>(options.shadow.texels_per_pixel);
+    return c;
+}
+
+void measure_pictures(const options& o, report::contents& into) {
+    const in::overhead rig = rig_of(o);
+    in::thread_pool pool(2);
+    for (const auto& [name, bottom] : seabeds) {
+        std::fprintf(stderr, "%s\n", name.c_str());
+        in::scene scene;
+        scene.seabed = bottom;
+        const auto dark = marching::dark_pixels(bottom, rig, 4, pool);
+        const auto truth = in::render(
+            scene, rig, in::render_options<>{.shadow = {.texels_per_pixel = 8}, .cells = 4 * o.pixels}, pool);
+        std::vector<candidate> candidates;
+        for (const double cells : {0.0625, 0.125, 0.25, 0.5, 1.0, 2.0})
+            for_each_policy([&](const char* policy, auto shadow) {
+                const auto add = [&] {
+                    in::render_options<decltype(shadow)> how{.shadow = shadow};
+                    how.cells = static_cast<int>(cells * o.pixels);
+                    candidates.push_back(make_candidate(scene, rig, name, policy, how));
+                };
+                if constexpr (requires { shadow.texels_per_pixel; }) {
+                    for (const float texels : {0.5f, 1.0f, 2.0f, 4.0f, 8.0f}) {
+                        shadow.texels_per_pixel = texels;
+                        add();
+                    }
+                } else {
+                    add();
+                }
+            });
+        for (const auto& [title, how] : {std::pair{"fast", in::accuracy::fast(rig)},
+                                         {"balanced", in::accuracy::balanced(rig)},
+                                         {"exact", in::accuracy::exact(rig)}}) {
+            candidates.push_back(make_candidate(scene, rig, name, "refined", how.options()));
+            candidates.back().way.name = title;
+        }
+        for (int run = 0; run < o.runs; ++run)
+            for (candidate& c : candidates) {
+                in::frame<> drawn;
+                c.cost.run([&] { drawn = c.draw(); });
+                if (run > 0) continue;
+                c.way.edge = in::accuracy::compare_masks(dark_of(drawn.labels), dark).mean_boundary_displacement();
+                c.way.intensity = in::accuracy::compare_images(drawn.image, truth.image).rmse();
+            }
+        for (candidate& c : candidates) {
+            c.way.ms = c.cost.ms;
+            c.way.mebibytes = c.cost.mebibytes;
+            into.ways.push_back(c.way);
+        }
+        into.seabeds.push_back(name);
+    }
+    report::mark_front(into.ways);
+}
+
+/// Measures some knob's positions in turn. `error(result)` says how far a position's result is off.
+template <class Make, class Error>
+void measure_knob(const options& o, report::contents& into, report::knob k, const std::vector<std::string>& settings,
+                  const Make& make, const Error& error) {
+    std::vector<cost::figures> costs(settings.size());
+    std::vector<std::string> errors(settings.size());
+    for (int run = 0; run < o.runs; ++run)
+        for (std::size_t i = 0; i < settings.size(); ++i) {
+            auto result = make(i);
+            costs[i].run([&] { result = make(i); });
+            if (run == 0) errors[i] = error(i, result);
+        }
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        k.setting = settings[i];
+        k.ms = costs[i].ms;
+        k.mebibytes = costs[i].mebibytes;
+        k.error = errors[i];
+        into.knobs.push_back(k);
+    }
+}
+
+/// A bottom without relief, with a lying cylinder and a ball.
+template <class Model>
+in::scene targets(const Model& modelled) {
+    in::scene scene;
+    scene.seabed = in::seabed::flat{.surface = {.rms = 0}};
+    const in::pose lying{.position = {-0.6, 0.3, 0.15}, .yaw = 1.2f}, resting{.position = {0.5, -0.4, 0.2}};
+    scene.add(modelled(in::cylinder{.radius = 0.15f, .length = 0.9f}, lying), lying, "cylinder");
+    scene.add(modelled(in::sphere{.radius = 0.2f}, resting), resting, "ball");
+    return scene;
+}
+
+std::string off_by(const in::image<std::uint8_t>& result, const in::image<std::uint8_t>& truth) {
+    return svg::number(in::accuracy::compare_masks(result, truth).mean_boundary_displacement(), 3) + " px";
+}
+
+void measure_targets(const options& o, report::contents& into) {
+    const in::overhead rig = rig_of(o);
+    const in::scene fine = targets([](auto shape, const in::pose&) {
+        shape.segments = 1024;
+        return shape;
+    });
+    in::render_options<> best{.shadow = {.texels_per_pixel = 4}, .cells = o.pixels / 8};
+    best.subpixel_bits = 16;
+    const auto truth = in::render(fine, rig, best);
+    const auto both = [&](const in::frame<>& f) {
+        return "outline " + off_by(target_of(f.labels), target_of(truth.labels)) + ", shadow " +
+               off_by(dark_of(f.labels), dark_of(truth.labels));
+    };
+
+    std::vector<in::scene> scenes;
+    std::vector<std::string> names;
+    for (const double error : {4.0, 1.0, 0.25, 0.05}) {
+        in::accuracy::settings<> how{.side_error = error, .shadow_error = error, .rig = rig};
+        scenes.push_back(targets([&](const auto& shape, const in::pose& at) { return how.modelled(shape, at); }));
+        std::size_t triangles = 0;
+        for (const in::target& t : scenes.back().targets) triangles += t.shape.triangles.size();
+        names.push_back("facets off by " + svg::number(error, 2) + " px: " + std::to_string(triangles) + " triangles");
+    }
+    measure_knob(
+        o, into, {.name = "curved primitives", .oracle = "1024 segments"}, names,
+        [&](std::size_t i) { return in::render(scenes[i], rig, best); },
+        [&](std::size_t, const in::frame<>& f) { return both(f); });
+
+    const std::vector<int> bits{4, 6, 8, 12, 16};
+    std::vector<std::string> bit_names;
+    for (const int b : bits) bit_names.push_back("1/" + std::to_string(1 << b) + " pixel");
+    measure_knob(
+        o, into, {.name = "coverage: vertices rounded to", .oracle = "1/65536 pixel"}, bit_names,
+        [&](std::size_t i) {
+            auto how = best;
+            how.subpixel_bits = bits[i];
+            return in::render(fine, rig, how);
+        },
+        [&](std::size_t, const in::frame<>& f) { return both(f); });
+}
+
+void measure_mesh(const options& o, report::contents& into) {
+    const in::overhead rig = rig_of(o);
+    for (const auto& [name, bottom] : seabeds) {
+        in::scene scene;
+        scene.seabed = bottom;
+        in::render_options<> every{.shadow = {.texels_per_pixel = 4}, .cells = o.pixels};
+        const auto truth = in::render(scene, rig, every);
+        const std::vector<float> errors{0, 0.05f, 0.25f, 1, 4};
+        std::vector<std::string> names;
+        for (const float e : errors)
+            names.push_back(name + ", " +
+                            (e == 0 ? "every cell" : "off by up to " + svg::number(static_cast<double>(e), 2) + " px"));
+        measure_knob(
+            o, into, {.name = "seabed mesh", .oracle = "every cell"}, names,
+            [&](std::size_t i) {
+                auto how = every;
+                how.edge_error = errors[i];
+                how.slope_error = 0.1f;
+                return in::render(scene, rig, how);
+            },
+            [&](std::size_t, const in::frame<>& f) {
+                return std::to_string(f.stats.seabed.triangles) + " triangles, shadows " +
+                       off_by(dark_of(f.labels), dark_of(truth.labels));
+            });
+    }
+}
+
+void measure_geometry(const options& o, report::contents& into) {
+    in::scene scene;
+    scene.seabed = seabeds[0].second;
+    const auto bins = o.pixels;
+    const auto rig = rig_of(o);
+    const float length = static_cast<float>(2 * in::overhead_geometry(rig).half_extent(0).x);
+    measure_knob(
+        o, into, {.name = "geometry", .oracle = "each is right for its kind of sonar picture"},
+        {"parallel light, camera overhead", "ground range", "slant range, layover"},
+        [&](std::size_t i) {
+            if (i == 0) return in::render(scene, rig).image;
+            const auto track = [&](auto sonar) {
+                sonar.altitude = rig.altitude;
+                sonar.ping_spacing = length / static_cast<float>(bins);
+                sonar.pings = bins;
+                sonar.range = length;
+                sonar.bins = bins;
+                return in::render(scene, sonar).image;
+            };
+            return i == 1 ? track(in::ground_range{}) : track(in::side_scan{});
+        },
+        [](std::size_t, const in::image<float>&) { return std::string(""); });
+}
+
+double variance_of(const in::image<float>& picture) {
+    double mean = 0, square = 0;
+    const auto n = static_cast<double>(picture.size());
+    for (const float p : picture.pixels()) mean += static_cast<double>(p) / n;
+    for (const float p : picture.pixels())
+        square += (static_cast<double>(p) - mean) * (static_cast<double>(p) - mean) / n;
+    return square / (mean * mean);
+}
+
+void measure_filters(const options& o, report::contents& into) {
+    const in::image<float> level(o.pixels, o.pixels, 0.25f);
+    const in::image<std::uint8_t> sand(o.pixels, o.pixels, std::uint8_t{0});
+    const auto law = in::seabed_speckle{}.bottom[0];
+    const double looks = law.looks, shape = static_cast<double>(law.texture);
+    measure_knob(
+        o, into, {.name = "speckle", .oracle = "variance over squared mean, closed form"},
+        {"white, of variance 0.1", "K-distributed, its texture correlated"},
+        [&](std::size_t i) {
+            if (i == 0) return level | in::speckle{.variance = 0.1f, .seed = 3};
+            return in::with_speckle(level, sand, in::seabed_speckle{.seed = 3}, in::ping_numbers{});
+        },
+        [&](std::size_t i, const in::image<float>& noisy) {
+            const double expected = i == 0 ? 0.1 : (1 + 1 / shape) * (1 + 1 / looks) - 1;
+            return svg::number(100 * (variance_of(noisy) / expected - 1), 2) + " %";
+        });
+
+    in::scene scene;
+    scene.seabed = seabeds[0].second;
+    const auto rig = rig_of(o);
+    const auto picture = in::render(scene, rig).image;
+    scene.seabed = seabeds[2].second;
+    const auto reference = in::render(scene, rig).image;
+    const auto exact = picture | in::match_histogram(reference);
+    measure_knob(
+        o, into, {.name = "histogram match", .oracle = "exact ranks"}, {"64 bins", "1024 bins", "exact ranks"},
+        [&](std::size_t i) {
+            if (i == 2) return picture | in::match_histogram(reference);
+            return picture | in::match_binned(reference, i == 0 ? 64 : 1024);
+        },
+        [&](std::size_t, const in::image<float>& matched) {
+            return svg::number(in::accuracy::compare_images(matched, exact).rmse(), 5) + " rms";
+        });
+}
+
+void measure_depth(const options& o, report::contents& into) {
+    const in::seabed::grid grid{.spacing = 0.01, .width = o.pixels, .height = o.pixels};
+    const in::mesh bottom = in::seabed::tessellate(in::seabed::sample(seabeds[2].second, grid));
+    const float scale = 2 / (0.01f * static_cast<float>(o.pixels));
+    const auto place = [=](const in::vertex& v) {
+        return glm::vec4(v.position.x * scale - 1, v.position.y * scale - 1, 0.5f + 0.5f * v.position.z, 1.0f);
+    };
+    const auto draw = [&](bool quick) {
+        in::image<float> depth(o.pixels, o.pixels, 0.0f);
+        const in::draw_options how{.keep = in::keep_depth::larger};
+        if (quick)
+            in::draw(bottom, place, in::quick_depth_target{depth}, how);
+        else
+            in::draw(bottom, place, in::depth_target{depth}, how);
+        return depth;
+    };
+    const auto exact = draw(false);
+    measure_knob(
+        o, into, {.name = "interpolation of depth", .oracle = "correctly rounded (128-bit integers)"},
+        {"float", "correctly rounded"}, [&](std::size_t i) { return draw(i == 0); },
+        [&](std::size_t, const in::image<float>& depth) {
+            return svg::number(in::accuracy::compare_images(depth, exact).largest / 0x1p-24, 1) + " ulp at most";
+        });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const options o = parse(argc, argv);
+    report::contents found{.pixels = o.pixels, .grazing_degrees = 6};
+    measure_pictures(o, found);
+    measure_targets(o, found);
+    measure_mesh(o, found);
+    measure_geometry(o, found);
+    measure_filters(o, found);
+    measure_depth(o, found);
+    in::write_file(o.out + "/tradeoff.md", report::page(found));
+    in::write_file(o.out + "/tradeoff.svg", report::trade_chart(found));
+    in::write_file(o.out + "/tradeoff_saved.svg", report::savings_chart(found));
+    for (const report::way& w : found.ways)
+        if (w.on_front || !w.name.empty()) std::fputs(report::row_of(w).c_str(), stdout);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "tradeoff: %s\n", error.what());
+    return 1;
+}

@@ -1,0 +1,220 @@
+// The trade as a page with tables, and as charts.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "../svg.hpp"
+
+namespace report {
+
+/// A way to draw a picture of a seabed.
+struct way {
+    std::string seabed, policy;
+    double cells = 0;   ///< per pixel
+    double texels = 0;  ///< per pixel, 0 where there are none
+    double ms = 0, mebibytes = 0;
+    double edge = 0;        ///< pixels by which edges of shadows are displaced, on average
+    double intensity = 0;   ///< root mean square error of the linear picture
+    std::string name{};     ///< of named settings
+    bool on_front = false;  ///< nothing is both faster and closer
+};
+
+/// Another knob in one of its positions.
+struct knob {
+    std::string name, oracle, setting{}, error{};
+    double ms = 0, mebibytes = 0;
+};
+
+/// What the report is about.
+struct contents {
+    int pixels = 0;
+    double grazing_degrees = 0;
+    std::vector<std::string> seabeds{};
+    std::vector<way> ways{};
+    std::vector<knob> knobs{};
+};
+
+inline constexpr std::array tolerances{0.25, 0.5, 1.0, 2.0, 4.0};
+
+inline void mark_front(std::vector<way>& ways) {
+    for (way& w : ways) {
+        w.on_front = true;
+        for (const way& other : ways)
+            if (other.seabed == w.seabed && other.ms <= w.ms && other.edge <= w.edge &&
+                (other.ms < w.ms || other.edge < w.edge))
+                w.on_front = false;
+    }
+}
+
+/// The fastest way that is no farther off than `edge`, or none.
+inline const way* cheapest(const contents& c, const std::string& seabed, double edge) {
+    const way* best = nullptr;
+    for (const way& w : c.ways)
+        if (w.seabed == seabed && w.edge <= edge && (best == nullptr || w.ms < best->ms)) best = &w;
+    return best;
+}
+
+inline std::string color_of(const std::string& policy) {
+    static const std::map<std::string, std::string> colors{
+        {"none", "#7a7a7a"}, {"map", "#3b75af"}, {"pcf", "#5aa469"}, {"refined", "#b5651d"}, {"exact", "#8e44ad"}};
+    const auto found = colors.find(policy);
+    return found == colors.end() ? "#000000" : found->second;
+}
+
+/// Error against time, a panel for each seabed: every way as a dot, the front as a line, and the named settings.
+inline std::string trade_chart(const contents& c) {
+    constexpr double width = 330, height = 300, left = 60, top = 64, gap = 30;
+    double least = 1e30, most = 0;
+    for (const way& w : c.ways) least = std::min(least, w.ms), most = std::max(most, w.ms);
+    const double low_ms = std::log10(least) - 0.05, high_ms = std::log10(most) + 0.05;
+    constexpr double low_edge = -1.5, high_edge = 1.2;  // powers of ten of pixels
+    std::string body = svg::text(left, 24, "Time against the error of shadow edges: down is faster, left is closer",
+                                 " font-size='16' font-weight='bold'");
+    double x0 = left;
+    for (const std::string& seabed : c.seabeds) {
+        const auto x = [&](double edge) {
+            const double at = std::log10(std::max(edge, 1e-9));
+            return x0 + width * (std::min(std::max(at, low_edge), high_edge) - low_edge) / (high_edge - low_edge);
+        };
+        const auto y = [&](double ms) { return top + height * (high_ms - std::log10(ms)) / (high_ms - low_ms); };
+        body += svg::text(x0 + width / 2, top - 12, seabed, " text-anchor='middle' font-weight='bold'");
+        for (const double edge : {0.05, 0.25, 1.0, 4.0}) {
+            body += svg::line(x(edge), top, x(edge), top + height, edge == 1.0 ? "#999999" : "#e2e2e2");
+            body += svg::text(x(edge), top + height + 18, svg::number(edge, edge < 1 ? 2 : 0) + " px",
+                              " text-anchor='middle'");
+        }
+        for (double ms : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0}) {
+            if (std::log10(ms) < low_ms || std::log10(ms) > high_ms) continue;
+            body += svg::line(x0, y(ms), x0 + width, y(ms), "#e2e2e2");
+            if (x0 == left) body += svg::text(x0 - 6, y(ms) + 4, svg::number(ms, 0) + " ms", " text-anchor='end'");
+        }
+        std::vector<const way*> front;
+        for (const way& w : c.ways) {
+            if (w.seabed != seabed) continue;
+            if (w.on_front) front.push_back(&w);
+            if (w.name.empty())
+                body += svg::circle(x(w.edge), y(w.ms), w.on_front ? 4.5 : 2.8, color_of(w.policy),
+                                    w.on_front ? "" : " opacity='0.45'");
+        }
+        std::sort(front.begin(), front.end(), [](const way* a, const way* b) { return a->ms < b->ms; });
+        for (std::size_t i = 1; i < front.size(); ++i)
+            body += svg::line(x(front[i - 1]->edge), y(front[i - 1]->ms), x(front[i]->edge), y(front[i]->ms), "#333333",
+                              " stroke-width='1.5'");
+        for (const way& w : c.ways)
+            if (w.seabed == seabed && !w.name.empty())
+                body += svg::circle(x(w.edge), y(w.ms), 7, "none", " stroke='#c0392b' stroke-width='2'") +
+                        svg::text(x(w.edge) + 10, y(w.ms) - 8, w.name, " fill='#c0392b' font-weight='bold'");
+        x0 += width + gap;
+    }
+    double key = left;
+    for (const std::string policy : {"refined", "map", "pcf", "none"}) {
+        body += svg::circle(key, top + height + 42, 5, color_of(policy)) +
+                svg::text(key + 10, top + height + 46, policy == "none" ? "no shadows" : policy);
+        key += 110;
+    }
+    body += svg::line(key, top + height + 42, key + 26, top + height + 42, "#333333", " stroke-width='1.5'") +
+            svg::text(key + 34, top + height + 46, "nothing is both faster and closer") +
+            svg::circle(key + 270, top + height + 42, 7, "none", " stroke='#c0392b' stroke-width='2'") +
+            svg::text(key + 284, top + height + 46, "settings with names");
+    return svg::page(static_cast<int>(left + 3 * width + 2 * gap + 30), static_cast<int>(top + height + 64), body);
+}
+
+/// What the fastest way costs that keeps to a tolerance, as bars.
+inline std::string savings_chart(const contents& c) {
+    constexpr double left = 130, longest = 210, line = 26, gap = 90;
+    std::string body =
+        svg::text(20, 26, "What tolerating an error of shadow edges saves", " font-size='16' font-weight='bold'");
+    double x0 = left, bottom = 0;
+    for (const std::string& seabed : c.seabeds) {
+        double slowest = 0, y = 74;
+        const way* reference = nullptr;
+        for (const double edge : tolerances)
+            if (const way* w = cheapest(c, seabed, edge)) {
+                slowest = std::max(slowest, w->ms);
+                if (reference == nullptr) reference = w;
+            }
+        body += svg::text(x0, 58, seabed, " font-weight='bold'");
+        for (const double edge : tolerances) {
+            if (x0 == left)
+                body += svg::text(x0 - 10, y + 17, "up to " + svg::number(edge, edge < 1 ? 2 : 0) + " px",
+                                  " text-anchor='end'");
+            const way* const w = cheapest(c, seabed, edge);
+            if (w == nullptr) {
+                body += svg::text(x0 + 4, y + 17, "out of reach", " fill='#7a7a7a'");
+            } else {
+                const double length = longest * w->ms / slowest;
+                const double saved = 100 * (1 - w->ms / reference->ms);
+                body += svg::rectangle(svg::number(x0, 1), svg::number(y + 3, 1), svg::number(length, 1),
+                                       svg::number(line - 6, 1), edge == 1.0 ? "#b5651d" : "#8a9ba8") +
+                        svg::text(x0 + length + 6, y + 17,
+                                  svg::number(w->ms, w->ms < 10 ? 1 : 0) + " ms" +
+                                      (w == reference ? "" : ", " + svg::number(saved, 0) + " % less"));
+            }
+            y += line;
+        }
+        bottom = y;
+        x0 += longest + gap + 40;
+    }
+    return svg::page(static_cast<int>(x0), static_cast<int>(bottom + 16), body);
+}
+
+inline std::string per_pixel(double value) {
+    return value == 0 ? "" : value >= 1 ? svg::number(value, 0) : "1/" + svg::number(1 / value, 0);
+}
+
+inline std::string row_of(const way& w) {
+    return "| " + w.seabed + " | " + w.policy + (w.name.empty() ? "" : " (**" + w.name + "**)") + " | " +
+           per_pixel(w.cells) + " | " + per_pixel(w.texels) + " | " + svg::number(w.ms, 1) + " | " +
+           svg::number(w.mebibytes, 1) + " | " + svg::number(w.edge, 3) + " | " + svg::number(w.intensity, 4) + " |\n";
+}
+
+inline std::string page(const contents& c) {
+    const std::string pixels = std::to_string(c.pixels);
+    std::string text =
+        "# What an error saves\n\n"
+        "Written by `./tools/tradeoff`, which measures every knob of the trade of speed for accuracy in one run. "
+        "Pictures\n"
+        "are " +
+        pixels + " x " + pixels + " pixels under light of " + svg::number(c.grazing_degrees, 0) +
+        " degrees. Times are those that one thread keeps a processor busy for a whole frame, everything made anew, "
+        "the\n"
+        "least of all runs; memory is what a frame allocates at its peak. Compare figures of one run alone.\n\n"
+        "![Time against the error of shadow edges, on three seabeds](tradeoff.svg)\n\n"
+        "An edge of a shadow is off by so many pixels: the wrong pixels of the shadow's mask over the pixels along "
+        "its\n"
+        "border (`accuracy::mean_boundary_displacement`). The oracle is a ray for each pixel and one from there to the "
+        "light,\n"
+        "marched in double over the seabed at four vertices a pixel (`tests/marching.hpp`).\n\n"
+        "![What tolerating an error saves](tradeoff_saved.svg)\n\n"
+        "`accuracy::settings_for` finds the settings for a budget of one's own; `accuracy::fast`, `balanced` and "
+        "`exact` have\n"
+        "names.\n\n"
+        "## Fastest ways to draw a picture\n\n"
+        "Those for which nothing is both faster and closer, and the named settings.\n\n"
+        "| seabed | shadow | cells per pixel | texels per pixel | ms | MiB | edges off by, px | RMSE |\n"
+        "|---|---|---:|---:|---:|---:|---:|---:|\n";
+    std::vector<way> sorted = c.ways;
+    std::stable_sort(sorted.begin(), sorted.end(), [](const way& a, const way& b) { return a.ms < b.ms; });
+    for (const std::string& seabed : c.seabeds)
+        for (const way& w : sorted)
+            if (w.seabed == seabed && (w.on_front || !w.name.empty())) text += row_of(w);
+    text +=
+        "\n## One knob at a time\n\n"
+        "| knob | setting | ms | MiB | error | against |\n|---|---|---:|---:|---|---|\n";
+    for (const knob& k : c.knobs)
+        text += "| " + k.name + " | " + k.setting + " | " + svg::number(k.ms, k.ms < 10 ? 2 : 1) + " | " +
+                svg::number(k.mebibytes, 1) + " | " + k.error + " | " + k.oracle + " |\n";
+    text +=
+        "\n## Every way measured\n\n"
+        "| seabed | shadow | cells per pixel | texels per pixel | ms | MiB | edges off by, px | RMSE |\n"
+        "|---|---|---:|---:|---:|---:|---:|---:|\n";
+    for (const way& w : c.ways) text += row_of(w);
+    return text;
+}
+
+}  // namespace report
