@@ -30,7 +30,7 @@ inline std::string ring_as_obj(int segments) {
 }
 
 inline in::seabed::any seabed(int kind) {
-    if (kind == 0) return in::seabed::ripples{.wavelength = 0.8f, .height = 0.09f, .direction = 0.3f};
+    if (kind == 0) return in::seabed::ripples{.wavelength = 0.8f, .steepness = 0.11f, .direction = 0.3f};
     if (kind == 1) return in::seabed::mud{};
     return in::seabed::rock{};
 }

@@ -55,7 +55,7 @@ options parse(int argc, char** argv) {
 }
 
 const std::vector<std::pair<std::string, in::seabed::any>> seabeds{
-    {"ripples", in::seabed::ripples{.wavelength = 0.6f, .height = 0.07f, .direction = 0.5f, .seed = 7}},
+    {"ripples", in::seabed::ripples{.wavelength = 0.6f, .steepness = 0.12f, .direction = 0.5f, .seed = 7}},
     {"mud", in::seabed::mud{.mound_height = 0.06f, .pock_depth = 0.06f, .seed = 7}},
     {"rock", in::seabed::rock{.relief = 0.3f, .outcrop = 3, .block = 0.8f, .seed = 7}}};
 

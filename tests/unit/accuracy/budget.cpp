@@ -32,7 +32,7 @@ trial random_trial(std::uint64_t seed, int pixels) {
     if (kind == 0) {
         const float wavelength = between(0.3, 1.5);
         t.bottom = sb::ripples{.wavelength = wavelength,
-                               .height = wavelength * between(0.06, 0.16),
+                               .steepness = between(0.06, 0.16),
                                .direction = between(0, 6.28),
                                .sharpness = between(0, 0.5),
                                .seed = own_seed};

@@ -63,7 +63,7 @@ TEST_CASE("a grid keeps waves of four samples and drops those of two") {
 }
 
 TEST_CASE("ripples on a grid coarser than they are vanish; without the limit they turn up as longer ones") {
-    const sb::ripples ripples{.wavelength = 0.5f, .height = 0.06f, .surface = smooth};
+    const sb::ripples ripples{.wavelength = 0.5f, .steepness = 0.12f, .surface = smooth};
     // Each spacing folds the ripples to waves of several samples: what an eye takes for a real swell.
     for (const double spacing : {0.25, 0.4, 0.45, 0.55, 0.9, 1.05, 40.0}) {
         CAPTURE(spacing);
@@ -105,7 +105,7 @@ TEST_CASE("roughness keeps the octaves that a grid carries, and their heights") 
 
 TEST_CASE("means over the ground are those of a fine grid, however coarse the samples") {
     const sb::any seabeds[] = {sb::flat{.surface = {.rms = 0.02f, .longest = 3}}, sb::ripples{},
-                               sb::ripples{.wavelength = 0.5f, .height = 0.06f, .direction = 0.3f}, sb::mud{}};
+                               sb::ripples{.wavelength = 0.5f, .steepness = 0.12f, .direction = 0.3f}, sb::mud{}};
     for (const sb::any& seabed : seabeds) {
         double limited = 0, unlimited = 0;
         for (const double spacing : {0.05, 0.2, 0.45, 0.6, 0.85, 1.3}) {

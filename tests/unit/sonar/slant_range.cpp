@@ -412,9 +412,9 @@ in::recording<in::labels> window_of(const in::seabed::any& bottom, const in::sid
 
 TEST_CASE("A window samples the bottom that can be heard in it or hide it; the rest would change no bit") {
     const in::seabed::any bottoms[] = {
-        in::seabed::flat{}, in::seabed::ripples{.wavelength = 0.6f, .height = 0.07f}, in::seabed::mud{},
+        in::seabed::flat{}, in::seabed::ripples{.wavelength = 0.6f, .steepness = 0.12f}, in::seabed::mud{},
         in::seabed::rock{.relief = 0.2f},
-        in::seabed::blend{.first = in::seabed::ripples{.height = 0.05f}, .second = in::seabed::mud{}, .patch = 4}};
+        in::seabed::blend{.first = in::seabed::ripples{.steepness = 0.06f}, .second = in::seabed::mud{}, .patch = 4}};
     const auto check = [](const in::seabed::any& bottom, const auto& rig) {
         const auto part = window_of(bottom, rig, false), whole = window_of(bottom, rig, true);
         REQUIRE(part.stats.seabed_vertices < whole.stats.seabed_vertices);
