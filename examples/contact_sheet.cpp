@@ -5,20 +5,15 @@
 #include <insonify/io/file.hpp>
 #include <insonify/io/png.hpp>
 
-#include "common/pictures.hpp"
-
-#if __has_include(<stb_easy_font.h>)
-#include <stb_easy_font.h>
-#else
-#include <stb/stb_easy_font.h>
-#endif
-
 #include <algorithm>
 #include <cstdio>
 #include <map>
 #include <sstream>
 #include <tuple>
 #include <vector>
+
+#include "common/pictures.hpp"
+#include "common/text.hpp"
 
 namespace in = insonify;
 
@@ -82,22 +77,6 @@ in::image<float> shrink(const in::image<float>& picture) {
     return small_one;
 }
 
-void write_text(in::image<float>& sheet, int x, int y, std::string text) {
-    struct corner {
-        float x, y, z;
-        unsigned char color[4];
-    };
-    std::vector<corner> corners(4096);
-    const int quads = stb_easy_font_print(0, 0, text.data(), nullptr, corners.data(),
-                                          static_cast<int>(corners.size() * sizeof(corner)));
-    for (std::size_t q = 0; q < static_cast<std::size_t>(quads); ++q) {
-        const corner &from = corners[4 * q], &to = corners[4 * q + 2];
-        for (int v = static_cast<int>(from.y); v < static_cast<int>(to.y); ++v)
-            for (int u = static_cast<int>(from.x); u < static_cast<int>(to.x); ++u)
-                if (x + u < sheet.width() && y + v < sheet.height()) sheet(x + u, y + v) = 1;
-    }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -121,8 +100,9 @@ int main(int argc, char** argv) try {
             const in::image<float> small_one = shrink(examples::read_gray(folder + "/" + entries[i].file));
             for (int y = 0; y < tile; ++y)
                 std::copy_n(small_one.row(y).begin(), tile, sheet.row(top + y).begin() + left);
-            write_text(sheet, left + 2, top + tile + 5,
-                       name + ", " + entries[i].seabed + (entries[i].referenced ? ", look of a reference" : ""));
+            examples::write_text(
+                sheet, left + 2, top + tile + 5,
+                name + ", " + entries[i].seabed + (entries[i].referenced ? ", look of a reference" : ""), 1.0f);
         }
         top += tile + gap + caption;
     }
