@@ -102,7 +102,7 @@ int main(int argc, char** argv) try {
                 std::copy_n(small_one.row(y).begin(), tile, sheet.row(top + y).begin() + left);
             examples::write_text(
                 sheet, left + 2, top + tile + 5,
-                name + ", " + entries[i].seabed + (entries[i].referenced ? ", look of a reference" : ""));
+                name + ", " + entries[i].seabed + (entries[i].referenced ? ", look of a reference" : ""), 1.0f);
         }
         top += tile + gap + caption;
     }

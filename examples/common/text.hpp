@@ -1,4 +1,4 @@
-// Captions on pictures, by stb_easy_font.
+// Captions on pictures.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -14,8 +14,9 @@
 
 namespace examples {
 
-/// White letters, their upper left corner at (x, y); what doesn't fit is cut.
-inline void write_text(insonify::image<float>& sheet, int x, int y, std::string text) {
+/// Writes a line of some 10 pixels in height, its upper left corner at (x, y); what lies outside is cut off.
+template <class Pixel>
+void write_text(insonify::image<Pixel>& sheet, int x, int y, std::string text, const Pixel& color) {
     struct corner {
         float x, y, z;
         unsigned char color[4];
@@ -27,7 +28,7 @@ inline void write_text(insonify::image<float>& sheet, int x, int y, std::string 
         const corner &from = corners[4 * q], &to = corners[4 * q + 2];
         for (int v = static_cast<int>(from.y); v < static_cast<int>(to.y); ++v)
             for (int u = static_cast<int>(from.x); u < static_cast<int>(to.x); ++u)
-                if (x + u < sheet.width() && y + v < sheet.height()) sheet(x + u, y + v) = 1;
+                if (x + u < sheet.width() && y + v < sheet.height()) sheet(x + u, y + v) = color;
     }
 }
 

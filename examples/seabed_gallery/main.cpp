@@ -115,7 +115,7 @@ int main(int argc, char** argv) try {
             paste(sheet, left, top, tile, 0, 0);
             const std::string view = std::to_string(degrees) + " deg";
             describe(e.name, view.c_str(), tile);
-            examples::write_text(sheet, left + 2, top + tile_height + 3, std::string(e.name) + ", " + view);
+            examples::write_text(sheet, left + 2, top + tile_height + 3, std::string(e.name) + ", " + view, 1.0f);
             left += tile_width + gap;
         }
         const std::string path = folder + "/" + (e.real != nullptr ? e.real : "");
@@ -127,7 +127,7 @@ int main(int argc, char** argv) try {
                 std::copy_n(real.row(e.top + y).begin() + e.left, tile_width, cut.row(y).begin());
             paste(sheet, left, top, cut, 0, 0);
             describe(e.real, "real", cut);
-            examples::write_text(sheet, left + 2, top + tile_height + 3, "real: SASSED, NSWC Panama City");
+            examples::write_text(sheet, left + 2, top + tile_height + 3, "real: SASSED, NSWC Panama City", 1.0f);
         }
         top += tile_height + gap + caption;
     }

@@ -5,6 +5,7 @@
 #include <insonify/core/quantize.hpp>
 #include <insonify/filter/concept.hpp>
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <type_traits>
@@ -43,6 +44,20 @@ constexpr color_table tabulate_colors(Fn color) {
     return table;
 }
 
+namespace detail {
+
+/// Straight lines between five colours, that are those of levels 0, 63.75, 127.5, 191.25 and 255; ties up.
+constexpr rgb8 between_colors(int level, const std::array<rgb8, 5>& colors) {
+    const int quarter = (std::min)(4 * level / 255, 3), share = 4 * level - 255 * quarter;  // of 255
+    const rgb8 &a = colors[static_cast<std::size_t>(quarter)], &b = colors[static_cast<std::size_t>(quarter) + 1];
+    const auto mix = [share](int from, int to) {
+        return static_cast<std::uint8_t>((2 * ((255 - share) * from + share * to) + 255) / 510);
+    };
+    return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
+}
+
+}  // namespace detail
+
 namespace colormap {
 
 /// MATLAB's copper(256): red min(1, 1.25 t), green 0.7812 t, blue 0.4975 t at t = level / 255, each to the nearest of
@@ -57,6 +72,32 @@ inline constexpr color_table copper = tabulate_colors([](int level) {
 /// Gray as colour, for files that want three channels.
 inline constexpr color_table gray = tabulate_colors([](int level) {
     const auto value = static_cast<std::uint8_t>(level);
+    return rgb8{value, value, value};
+});
+
+/// Black to white by way of red and yellow: MATLAB's hot(256), whose red is full at 3/8, green at 6/8 of the way.
+inline constexpr color_table hot = tabulate_colors([](int level) {
+    const auto share = [](int i, int of) {
+        return static_cast<std::uint8_t>(i <= 0 ? 0 : i < of ? (510 * i + of) / (2 * of) : 255);
+    };
+    return rgb8{share(level + 1, 96), share(level + 1 - 96, 96), share(level + 1 - 192, 64)};
+});
+
+/// What side-scan displays and their printed records are in: black, brown, amber and a pale yellow. Straight lines
+/// between five colours a quarter apart.
+inline constexpr color_table amber = tabulate_colors([](int level) {
+    return detail::between_colors(level, {{{0, 0, 0}, {74, 40, 8}, {158, 92, 16}, {230, 164, 48}, {255, 244, 200}}});
+});
+
+/// The other look of waterfall displays: black, blue-green, and white. Straight lines between five colours a quarter
+/// apart.
+inline constexpr color_table sea = tabulate_colors([](int level) {
+    return detail::between_colors(level, {{{0, 0, 0}, {0, 40, 72}, {0, 104, 136}, {88, 184, 192}, {255, 255, 255}}});
+});
+
+/// What is bright becomes dark, as on the paper of old recorders.
+inline constexpr color_table inverse_gray = tabulate_colors([](int level) {
+    const auto value = static_cast<std::uint8_t>(255 - level);
     return rgb8{value, value, value};
 });
 

@@ -3,6 +3,7 @@
 
 #include <insonify/core/image.hpp>
 #include <insonify/core/numeric.hpp>
+#include <insonify/core/quantize.hpp>
 
 #include <concepts>
 #include <type_traits>
@@ -18,12 +19,16 @@ struct gray_weights {
 
 /// MATLAB's rgb2gray: the luma row of the inverse of its YIQ matrix.
 inline constexpr gray_weights matlab_weights{0.298936021293775, 0.587043074451121, 0.114020904255103};
+/// Octave's rgb2gray, the same to six digits.
+inline constexpr gray_weights octave_weights{0.298936, 0.587043, 0.114021};
+/// The same to four digits, as papers quote them; they add up to 0.9999.
+inline constexpr gray_weights paper_weights{0.2989, 0.5870, 0.1140};
 /// ITU-R BT.601, three digits: OpenCV's weights.
 inline constexpr gray_weights rec601_weights{0.299, 0.587, 0.114};
 /// ITU-R BT.709 as scikit-image rounds it; not a drop-in for the others.
 inline constexpr gray_weights rec709_weights{0.2125, 0.7154, 0.0721};
 
-/// rgb8 -> uint8 to the nearest, ties up; rgb<float> -> float.
+/// rgb8 -> uint8 and rgb<uint16_t> -> uint16 to the nearest, ties up; rgb<float> -> float.
 struct to_gray {
     gray_weights weights = matlab_weights;
 
@@ -31,7 +36,7 @@ struct to_gray {
 
     struct weighted_sum {
         gray_weights weights;
-        template <std::same_as<std::uint8_t> Channel>
+        template <pixel_code Channel>
         Channel operator()(const rgb<Channel>& color) const {
             return static_cast<Channel>(weights.r * color.r + weights.g * color.g + weights.b * color.b + 0.5);
         }

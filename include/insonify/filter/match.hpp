@@ -173,8 +173,8 @@ class rank_pass {
 ///
 /// A constant image becomes the reference's largest value, as in scikit-image: all its pixels have the highest rank.
 ///
-/// Floats are sorted, which takes its time. `image | to_uint16 | match | to_float` counts instead, and moves a pixel by
-/// no more than the pixels within 1/131070 of it are apart in the reference.
+/// Floats are sorted, which takes its time; `image | to_uint16 | match | to_float` counts instead, and what is closer
+/// than 1 / 65535 then has one rank.
 class match_histogram {
   public:
     using is_filter = std::true_type;

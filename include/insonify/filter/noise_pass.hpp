@@ -35,7 +35,8 @@ enum class noise_stream : std::uint32_t {
     gamma_speckle,
     k_speckle,
     rician,
-    texture
+    texture,
+    quick_poisson
 };
 
 /// What the draws of one filter hang on, besides the pixel.

@@ -19,28 +19,34 @@ namespace insonify::inline INSONIFY_ABI {
 
 namespace detail {
 
-/// ln k! for whole k >= 0: a table, then Stirling's series to below 1e-11.
+/// ln k! - k ln m + m for whole k >= 0 and m > 0, less half of ln(k + 1): what is left of a Poisson probability,
+/// without the large terms that cancel. A table below 10, then Stirling's series to below 1e-11.
 template <int N>
-INSONIFY_INLINE void log_factorial_lanes(lanes<double, N>& into, const lanes<double, N>& k) {
-    constexpr std::array<double, 10> table = {0.0,
-                                              0.0,
-                                              0.69314718055994531,
-                                              1.7917594692280550,
-                                              3.1780538303479458,
-                                              4.7874917427820458,
-                                              6.5792512120101012,
-                                              8.5251613610654147,
-                                              10.604602902745251,
-                                              12.801827480081469};
+INSONIFY_INLINE void poisson_deficit(lanes<double, N>& into, const lanes<double, N>& k, const lanes<double, N>& m) {
+    constexpr std::array<double, 10> log_factorial = {0.0,
+                                                      0.0,
+                                                      0.69314718055994531,
+                                                      1.7917594692280550,
+                                                      3.1780538303479458,
+                                                      4.7874917427820458,
+                                                      6.5792512120101012,
+                                                      8.5251613610654147,
+                                                      10.604602902745251,
+                                                      12.801827480081469};
     using doubles = lanes<double, N>;
     constexpr double half_log_two_pi = 0.91893853320467274;
-    const doubles n = k + 1.0, square = n * n;
-    const doubles tail = (1.0 / 12 - (1.0 / 360 - (1.0 / 1260 - 1.0 / 1680 / square) / square) / square) / n;
-    log_lanes<N>(into, n);
-    into = (n - 0.5) * into - n + half_log_two_pi + tail;
+    const doubles n = k + 1.0, r = 1.0 / n, s = r * r;
+    const doubles tail = (1.0 / 12 - (1.0 / 360 - (1.0 / 1260 - s * (1.0 / 1680)) * s) * s) * r;
+    doubles log_ratio;
+    log_lanes<N>(log_ratio, m * r);
+    into = (m - n) - k * log_ratio + (half_log_two_pi + tail);
     for (int i = 0; i < N; ++i) {
         const double count = lane(k, i);
-        if (count >= 0 && count < 10) set_lane(into, i, table[static_cast<std::size_t>(count)]);
+        if (count < 10) {
+            set_lane(into, i,
+                     log_factorial[static_cast<std::size_t>(count)] - count * numeric::log(lane(m, i)) + lane(m, i) -
+                         0.5 * numeric::log(count + 1));
+        }
     }
 }
 
@@ -65,7 +71,7 @@ struct poisson_proposal {
         a = -0.059 + 0.02483 * b;
         edge = 0.5 - (u < 0.0 ? 0.0 - u : u);
         floor_lanes<N>(count, (2.0 * a / edge + b) * u + mean + 0.43);
-        squeezed = flags(edge >= 0.07) & flags(v <= 0.9277 - 3.6224 / (b - 2.0));
+        squeezed = flags(edge >= 0.07) & flags((0.9277 - v) * (b - 2.0) >= 3.6224);
     }
 };
 
@@ -81,13 +87,16 @@ struct poisson_rejection {
         using flags = lanes<std::int64_t, N>;
         const poisson_proposal<N> p(word[2 * (trial & 1)], word[2 * (trial & 1) + 1], mean);
         count = p.count;
-        const doubles inverse_alpha = 1.1239 + 1.1328 / (p.b - 3.4);
-        doubles height, log_mean, log_factorial;
-        log_lanes<N>(height, p.v * inverse_alpha / (p.a / (p.edge * p.edge) + p.b));
-        log_lanes<N>(log_mean, mean);
-        log_factorial_lanes<N>(log_factorial, count > 0.0 ? count : doubles{});
+        // Hormann's ln(v / (alpha (a / edge^2 + b))) <= k ln m - m - ln k!, in fewer logarithms and quotients.
+        const doubles square = p.edge * p.edge;
+        const doubles height =
+            p.v * (1.1239 * p.b - (1.1239 * 3.4 - 1.1328)) * square / ((p.b - 3.4) * (p.a + p.b * square));
+        const doubles whole = count > 0.0 ? count : doubles{};
+        doubles log_height, deficit;
+        log_lanes<N>(log_height, height * height * (whole + 1.0));
+        poisson_deficit<N>(deficit, whole, mean);
         settled = p.squeezed | (flags(count >= 0.0) & (flags(p.edge >= 0.013) | flags(p.v <= p.edge)) &
-                                flags(height <= count * log_mean - mean - log_factorial));
+                                flags(0.5 * log_height + deficit <= 0.0));
     }
 };
 
@@ -118,21 +127,24 @@ struct poisson_squeeze_kernel {
         const words y = words{} + std::uint64_t{static_cast<std::uint32_t>(own.at.y)},
                     channel = words{} + std::uint64_t{own.at.channel << 24},
                     frame = words{} + std::uint64_t{own.noise.frame};
+        int few = 0, many = 0;
         for (int x = 0; x < own.at.count; x += 2 * N) {
             const words first = step + std::uint64_t{static_cast<std::uint32_t>(own.at.x + x)};
             words block[2][4] = {{first, y, channel, frame}, {first + std::uint64_t{N}, y, channel, frame}};
             philox_rounds<N, 2>(block, own.noise.key[0], own.noise.key[1]);
             unroll<2>([&](int half) INSONIFY_INLINE_LAMBDA {
                 const std::uint64_t low = 0xFFFFFFFFu;
-                own.at_once<N>(x + half * N, block[half][0] & low, block[half][1] & low);
+                own.at_once<N>(x + half * N, block[half][0] & low, block[half][1] & low, few, many);
             });
         }
+        own.pixels->few.count = few;
+        own.pixels->many.count = many;
     }
 
   private:
     template <int N>
-    INSONIFY_INLINE void at_once(int i, const lanes<std::uint64_t, N>& first,
-                                 const lanes<std::uint64_t, N>& second) const {
+    INSONIFY_INLINE void at_once(int i, const lanes<std::uint64_t, N>& first, const lanes<std::uint64_t, N>& second,
+                                 int& few, int& many) const {
         using doubles = lanes<double, N>;
         using flags = lanes<std::int64_t, N>;
         lanes<float, N> pixel;
@@ -146,11 +158,9 @@ struct poisson_squeeze_kernel {
         const poisson_proposal<N> p(first, second, large ? mean : doubles{} + 10.0);
         store(pixels->count + i, large ? p.count : doubles{});
         const flags is_open = flags(large) & ~p.squeezed, is_few = flags(mean > 0.0) & flags(mean < 10.0);
-        if (any(is_open)) {
-            for (int k = 0; k < N; ++k) pixels->many.add_if((lane(is_open, k) & 1) != 0, i + k);
-        }
+        for (int k = 0; k < N; ++k) add_if((lane(is_open, k) & 1) != 0, i + k, pixels->many.places, many);
         if (any(is_few)) {
-            for (int k = 0; k < N; ++k) pixels->few.add_if((lane(is_few, k) & 1) != 0, i + k);
+            for (int k = 0; k < N; ++k) add_if((lane(is_few, k) & 1) != 0, i + k, pixels->few.places, few);
         }
     }
 };

@@ -16,13 +16,13 @@ namespace insonify::inline INSONIFY_ABI::detail {
 struct pixel_list {
     int count = 0;
     std::uint16_t places[run_length + 8];
-
-    /// Without a jump, because what comes next is anyone's guess.
-    void add_if(bool wanted, int place) {
-        places[count] = static_cast<std::uint16_t>(place);
-        count += wanted ? 1 : 0;
-    }
 };
+
+/// Adds a place to those of a list without a jump, because what comes next is anyone's guess.
+INSONIFY_INLINE void add_if(bool wanted, int place, std::uint16_t* places, int& count) {
+    places[count] = static_cast<std::uint16_t>(place);
+    count += wanted ? 1 : 0;
+}
 
 /// Draws a number for each pixel of a list.
 ///
@@ -42,13 +42,14 @@ struct rejection_kernel {
         constexpr int N = Width > 1 ? Width / 2 : 1;
         using words = lanes<std::uint64_t, N>;
         using doubles = lanes<double, N>;
-        for (std::uint32_t trial = 0; list->count > 0; ++trial) {
-            const int count = list->count;
-            list->count = 0;
+        std::uint16_t* const places = list->places;
+        int count = list->count;
+        for (std::uint32_t trial = 0; count > 0; ++trial) {
+            int left = 0;
             for (int first = 0; first < count; first += N) {
                 // Lanes behind the last pixel do it again.
                 int place[static_cast<unsigned>(N)];
-                for (int k = 0; k < N; ++k) place[k] = list->places[first + k < count ? first + k : count - 1];
+                for (int k = 0; k < N; ++k) place[k] = places[first + k < count ? first + k : count - 1];
                 words block[4];
                 gather<N>(block[0], [&](int k) {
                     return std::uint64_t{static_cast<std::uint32_t>(at.x) + static_cast<std::uint32_t>(place[k])};
@@ -63,9 +64,10 @@ struct rejection_kernel {
                 method.template attempt<N>(made, settled, block, given, trial);
                 for (int k = 0; k < N && first + k < count; ++k) {
                     result[place[k]] = lane(made, k);
-                    list->add_if(lane(settled, k) == 0, place[k]);
+                    add_if(lane(settled, k) == 0, place[k], places, left);
                 }
             }
+            count = left;
         }
     }
 };

@@ -3,6 +3,7 @@
 #include <insonify/filter/noise.hpp>
 #include <insonify/filter/pipe.hpp>
 #include <insonify/filter/poisson.hpp>
+#include <insonify/filter/quick_poisson.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -113,10 +114,11 @@ TEST_CASE("noise follows its law") {
                       [](double v) { return 1 - std::exp(-(v / 0.125) * (v / 0.125) * in::numeric::pi / 4); }) < limit);
 }
 
-TEST_CASE("poisson counts follow the Poisson law on both sides of the change of method") {
-    const float mean = GENERATE(0.05f, 1.0f, 9.99f, 10.0f, 30.0f, 400.0f);
+TEMPLATE_TEST_CASE("poisson counts follow the Poisson law on both sides of the change of method", "", in::poisson,
+                   in::quick_poisson) {
+    const float mean = GENERATE(0.05f, 1.0f, 9.99f, 10.01f, 30.0f, 400.0f);
     const float photons = 4096;
-    const auto image = flat(mean / photons) | in::poisson{.photons = photons, .seed = 31};
+    const auto image = flat(mean / photons) | TestType{.photons = photons, .seed = 31};
     const auto exact_mean = static_cast<double>(mean / photons * photons);
     std::vector<double> observed(1024);
     for (const float v : image.pixels()) observed[static_cast<std::size_t>(std::lround(v * photons))] += 1;
@@ -151,14 +153,16 @@ TEST_CASE("poisson noise is right at the extremes of its scale") {
     const double expected = static_cast<double>(rare.size()) * (1 - std::exp(-0.01));
     CHECK(std::abs(hits - expected) < 4 * std::sqrt(expected));
     for (const double k : {0.0, 1.0, 2.0, 9.0, 10.0, 11.0, 100.0, 1e6, 1e9}) {
-        double log_factorial;
-        in::detail::log_factorial_lanes<1>(log_factorial, k);
-        CHECK(log_factorial == Approx(std::lgamma(k + 1)).epsilon(1e-14).margin(1e-10));
+        const double mean = k + 3 * std::sqrt(k + 10);
+        double deficit;
+        in::detail::poisson_deficit<1>(deficit, k, mean);
+        const double exact = std::lgamma(k + 1) - k * std::log(mean) + mean - 0.5 * std::log(k + 1);
+        CHECK(deficit == Approx(exact).epsilon(1e-9).margin(k * 1e-14));
     }
 }
 
 TEMPLATE_TEST_CASE("pixels of noise are independent of their neighbours, of other frames and of other seeds", "",
-                   in::gaussian, in::speckle, in::gaussian_speckle, in::rayleigh, in::poisson) {
+                   in::gaussian, in::speckle, in::gaussian_speckle, in::rayleigh, in::poisson, in::quick_poisson) {
     const auto base = flat(0.25f) | TestType{.seed = 1};
     const double limit = 4.5 / side;
     CHECK(std::abs(correlation(base, base, 1, 0)) < limit);
@@ -223,4 +227,50 @@ TEST_CASE("parameters that can't be are refused before a pixel changes") {
     CHECK_THROWS_AS((source | in::poisson{.photons = 0}), in::invalid_input);
     CHECK_THROWS_WITH((source | in::speckle{.variance = -1}),
                       ContainsSubstring("speckle.variance is -1") && ContainsSubstring("at least 0"));
+}
+
+TEST_CASE("quick poisson counts are as far from the law as they say", "[.slow]") {
+    // Counted over 2^26 pixels: the sum of |share - probability| / 2, above what chance makes of it.
+    const float mean = GENERATE(10.01f, 20.0f, 50.0f);
+    const auto exact_mean = static_cast<double>(mean / 256 * 256);
+    std::vector<double> observed(257);
+    for (std::uint32_t frame = 0; frame < 64; ++frame) {
+        const auto image = flat(mean / 256) | in::quick_poisson{.photons = 256, .frame = frame};
+        for (const float v : image.pixels()) observed[static_cast<std::size_t>(std::lround(v * 256))] += 1;
+    }
+    const double n = 64.0 * side * side;
+    double distance = 0, chance = 0, variance = 0;
+    for (std::size_t k = 0; k < observed.size(); ++k) {
+        const auto count = static_cast<double>(k);
+        const double p = std::exp(count * std::log(exact_mean) - exact_mean - std::lgamma(count + 1));
+        distance += 0.5 * std::abs(observed[k] / n - p);
+        chance += 0.5 * std::sqrt(p / n);
+        variance += observed[k] / n * (count - exact_mean) * (count - exact_mean);
+    }
+    CHECK(distance < 6e-4 * 10 / exact_mean + 1.5 * chance);
+    CHECK(variance / exact_mean == Approx(1).margin(3e-5 + 4 * std::sqrt(2 / n)));
+}
+
+TEST_CASE("noise on ten million pixels: moments after clipping, tails to 5 sigma, the law itself", "[.slow]") {
+    const in::image<float> half(4096, 2560, 0.5f);
+    const auto n = static_cast<double>(half.size());
+    for (const std::uint64_t seed : {1u, 2u}) {
+        check_moments(half | in::gaussian{.variance = 0.05f, .seed = seed}, 0.50000, 0.04775, 1e-5, 1e-5);
+        check_moments(in::image<float>(4096, 2560, 0.25f) | in::gaussian{.variance = 0.05f, .seed = seed}, 0.26478,
+                      0.03945, 1e-5, 1e-5);
+        check_moments(in::image<float>(4096, 2560, 0.8f) | in::speckle{.variance = 0.1f, .seed = seed}, 0.76763,
+                      0.04487, 1e-5, 1e-5);
+        const auto normal = half | in::gaussian{.variance = 0.0025f, .seed = seed};
+        CHECK(ks_distance(normal, [](double v) { return normal_cdf((v - 0.5) / 0.05); }) < 1.95 / std::sqrt(n));
+        for (const double sigmas : {2.0, 3.0, 4.0, 4.5, 5.0}) {
+            const double expected = n * normal_cdf(-sigmas);
+            double above = 0, below = 0;
+            for (const float v : normal.pixels()) {
+                above += static_cast<double>(v) > 0.5 + 0.05 * sigmas;
+                below += static_cast<double>(v) < 0.5 - 0.05 * sigmas;
+            }
+            CHECK(std::abs(above - expected) < 4 * std::sqrt(expected) + 1);
+            CHECK(std::abs(below - expected) < 4 * std::sqrt(expected) + 1);
+        }
+    }
 }

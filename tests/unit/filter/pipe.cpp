@@ -178,6 +178,9 @@ TEST_CASE("gray has MATLAB's weights unless told otherwise") {
     // rgb2gray of the pure colours and of white, as documented by MathWorks: 76, 150, 29 and 255.
     const in::image<in::rgb8> colors{{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}, {0, 0, 0}}};
     CHECK((colors | in::to_gray{}) == in::image<std::uint8_t>{{76, 150, 29, 255, 0}});
+    CHECK((colors | in::to_gray{.weights = in::octave_weights}) == (colors | in::to_gray{}));
+    CHECK((colors | in::to_gray{.weights = in::paper_weights}) == in::image<std::uint8_t>{{76, 150, 29, 255, 0}});
+    CHECK((colors | in::to_gray{.weights = in::rec601_weights}) == in::image<std::uint8_t>{{76, 150, 29, 255, 0}});
     CHECK((colors | in::to_gray{.weights = in::rec709_weights}) == in::image<std::uint8_t>{{54, 182, 18, 255, 0}});
     const auto light = in::image<in::rgb<float>>{{{0.5f, 0.25f, 1}}} | in::to_gray{};
     CHECK(static_cast<double>(light(0, 0)) ==
@@ -211,4 +214,26 @@ TEST_CASE("a colour map takes floats and codes alike, and users' tables too") {
         return in::rgb8{static_cast<std::uint8_t>(level), 0, 0};
     });
     CHECK((values | red)(1, 0) == in::rgb8{128, 0, 0});
+}
+
+TEST_CASE("hot is MATLAB's hot(256), and all maps of echoes rise from dark to light") {
+    const auto& hot = in::colormap::hot.colors;
+    for (std::size_t i = 0; i < 256; ++i) {
+        // r = (1:n) / n over the first n = fix(3/8 m), then ones; g the same, n later; b over the rest.
+        const double k = static_cast<double>(i + 1);
+        CHECK(std::abs(hot[i].r - 255 * std::fmin(1, k / 96)) <= 0.5 + 1e-9);
+        CHECK(std::abs(hot[i].g - 255 * std::fmin(1, std::fmax(0, (k - 96) / 96))) <= 0.5 + 1e-9);
+        CHECK(std::abs(hot[i].b - 255 * std::fmax(0, (k - 192) / 64)) <= 0.5 + 1e-9);
+    }
+    for (const in::color_table& map :
+         {in::colormap::copper, in::colormap::gray, in::colormap::hot, in::colormap::amber, in::colormap::sea}) {
+        const auto light = [&](std::size_t i) {
+            return 0.299 * map.colors[i].r + 0.587 * map.colors[i].g + 0.114 * map.colors[i].b;
+        };
+        for (std::size_t i = 1; i < 256; ++i) REQUIRE(light(i) >= light(i - 1) - 0.7);  // rounding
+        CHECK(light(255) > light(0) + 180);
+    }
+    CHECK(in::colormap::amber.colors[0] == in::rgb8{0, 0, 0});
+    CHECK(in::colormap::amber.colors[255] == in::rgb8{255, 244, 200});
+    CHECK(in::colormap::inverse_gray.colors[250] == in::rgb8{5, 5, 5});
 }

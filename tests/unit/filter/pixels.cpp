@@ -6,6 +6,7 @@
 #include <insonify/filter/noise.hpp>
 #include <insonify/filter/pipe.hpp>
 #include <insonify/filter/poisson.hpp>
+#include <insonify/filter/quick_poisson.hpp>
 #include <insonify/filter/where.hpp>
 
 #include <algorithm>
@@ -52,7 +53,7 @@ struct shifted {
 
 TEMPLATE_TEST_CASE("Noise on codes is noise on what they stand for, rounded", "", in::gaussian, in::speckle,
                    in::gaussian_speckle, in::salt_and_pepper, in::rayleigh, in::gamma_speckle, in::k_speckle,
-                   in::rician, in::poisson) {
+                   in::rician, in::poisson, in::quick_poisson) {
     const TestType noise{.seed = 5, .frame = 2};
     const auto codes = ramp(150, 40) | in::to_uint8;
     CHECK((codes | noise) == (codes | in::to_float | noise | in::to_uint8));
@@ -81,7 +82,7 @@ TEMPLATE_TEST_CASE("Each channel of a colour has noise of its own, and the first
 
 TEMPLATE_TEST_CASE("Parts that are filtered one by one have the noise of the whole, wherever they begin", "",
                    in::gaussian, in::speckle, in::gaussian_speckle, in::salt_and_pepper, in::rayleigh,
-                   in::gamma_speckle, in::k_speckle, in::rician, in::poisson) {
+                   in::gamma_speckle, in::k_speckle, in::rician, in::poisson, in::quick_poisson) {
     const TestType noise{.seed = 7};
     const auto source = ramp(1100, 9);
     const auto whole = source | noise;
@@ -228,7 +229,8 @@ TEST_CASE("Salt and pepper: half each, and no more than asked for") {
 }
 
 TEMPLATE_TEST_CASE("No pixel, one pixel, one row and one column", "", in::gaussian, in::speckle, in::gaussian_speckle,
-                   in::salt_and_pepper, in::rayleigh, in::gamma_speckle, in::k_speckle, in::rician, in::poisson) {
+                   in::salt_and_pepper, in::rayleigh, in::gamma_speckle, in::k_speckle, in::rician, in::poisson,
+                   in::quick_poisson) {
     for (const auto [width, height] : {std::array{0, 0}, {0, 3}, {3, 0}, {1, 1}, {1, 700}, {70000, 1}}) {
         const auto out = in::image<float>(width, height, 0.5f) | TestType{};
         CHECK(out.width() == width);
