@@ -41,6 +41,7 @@ enum class stream : std::uint32_t {
     mask,
     second_ripples,
     trawls,
+    survey,
 };
 
 constexpr std::uint64_t scramble(std::uint64_t z) {
