@@ -159,7 +159,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
-/// @throws io_error for a text without soundings, or whose soundings are too far apart for a grid of 2^26 vertices
+/// @throws io_error for a text without soundings, or whose soundings are so far apart that they make less than one in
+/// 1024 vertices, or that there are more than 2^26
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
     detail::require(spacing > 0 && spacing < 1e6, "spacing", spacing, "metres above 0");
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
@@ -185,9 +186,10 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     if (soundings.empty()) in.fail("there are no soundings");
     const std::int64_t width = (std::max)(right - left + 1, std::int64_t{2}),
                        height = (std::max)(high - low + 1, std::int64_t{2});
-    // Both are below 2^53, so that their product as a double tells.
-    if (static_cast<double>(width) * static_cast<double>(height) > 67108864.0)
-        in.fail("the soundings need more than 2^26 vertices: take a larger spacing");
+    // Two soundings at the ends of the world must not cost the world's memory.
+    const double most = (std::min)(1024.0 * static_cast<double>(soundings.size()), 67108864.0);
+    if (static_cast<double>(width) * static_cast<double>(height) > most)
+        in.fail("the soundings are too far apart, more than 1024 vertices for each or 2^26: take a larger spacing");
 
     heightfield field{.heights = image<float>(static_cast<int>(width), static_cast<int>(height)),
                       .origin = {spacing * static_cast<double>(left), spacing * static_cast<double>(low)},
