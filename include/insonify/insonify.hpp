@@ -71,9 +71,11 @@
 #include <insonify/seabed/adaptive.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/area.hpp>
+#include <insonify/seabed/bathymetry.hpp>
 #include <insonify/seabed/blend.hpp>
 #include <insonify/seabed/blocks.hpp>
 #include <insonify/seabed/cover.hpp>
+#include <insonify/seabed/detailed.hpp>
 #include <insonify/seabed/edit.hpp>
 #include <insonify/seabed/flat.hpp>
 #include <insonify/seabed/heightfield.hpp>

@@ -139,14 +139,17 @@ inline heightfield_sampler heightfield::prepare() const {
 /// draws a contour line. Take 16 bits or more, or smooth the pixels first.
 /// @param spacing  metres between pixels, > 0
 /// @param scale    metres per unit of a pixel
+/// @param no_data  the value of pixels that mean nothing, as 0 often is; NaN pixels always do
 /// @throws invalid_input for a picture smaller than 2 x 2, a spacing not above 0 or a scale that is not finite
-inline heightfield from_image(image_view<const float> picture, double spacing, float scale = 1) {
+inline heightfield from_image(image_view<const float> picture, double spacing, float scale = 1,
+                              float no_data = std::numeric_limits<float>::quiet_NaN()) {
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
     heightfield result{.heights = image<float>(picture.width(), picture.height()), .spacing = spacing};
     validate(result);
     for (int j = 0; j < picture.height(); ++j) {
         const auto from = picture.row(picture.height() - 1 - j);
-        std::transform(from.begin(), from.end(), result.heights.row(j).begin(), [=](float p) { return scale * p; });
+        std::transform(from.begin(), from.end(), result.heights.row(j).begin(),
+                       [=](float p) { return p == no_data ? std::numeric_limits<float>::quiet_NaN() : scale * p; });
     }
     return result;
 }

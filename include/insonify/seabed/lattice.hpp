@@ -41,6 +41,7 @@ enum class stream : std::uint32_t {
     mask,
     second_ripples,
     trawls,
+    survey,
 };
 
 constexpr std::uint64_t scramble(std::uint64_t z) {
@@ -258,11 +259,11 @@ constexpr float fade(float t) {
 constexpr float mix(float a, float b, float t) {
     return a + t * (b - a);
 }
-constexpr float clamp01(float t) {
+[[nodiscard]] constexpr float clamp01(float t) {
     return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 template <class Lanes>
-INSONIFY_INLINE void clamp01(Lanes& t) {
+INSONIFY_INLINE void clamp_lanes(Lanes& t) {
     const Lanes zero{}, one = zero + 1.0f;
     t = t > 0.0f ? t : zero;
     t = t < 1.0f ? t : one;

@@ -114,7 +114,7 @@ class rock_sampler {
             lanes n, step, height;
             load(n, &weights[i]);
             n = 0.5f + 1.8f * (n - 0.25f);
-            detail::clamp01(n);
+            detail::clamp_lanes(n);
             detail::fade(step, n);
             load(height, heights + i);
             height = height + (0.4f * relief_) * step;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <insonify/seabed/blend.hpp>
+#include <insonify/seabed/detailed.hpp>
 #include <insonify/seabed/edit.hpp>
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/seabed/mixed.hpp>
@@ -30,7 +31,7 @@ struct basic_sculpted {
     float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     type type_at(double x, double y) const { return at(prepare(), x, y).kind; }
 };
-using sculpted = basic_sculpted<std::variant<flat, ripples, mud, rock, blend, mixed, heightfield>>;
+using sculpted = basic_sculpted<std::variant<flat, ripples, mud, rock, blend, mixed, heightfield, detailed>>;
 
 /// Evaluates `basic_sculpted`.
 template <preparable Ground>
@@ -59,7 +60,8 @@ class sculpt_sampler {
     void fill(std::size_t count, const scanline& line, std::span<float> heights, std::span<type> types) const {
         if (count == 0) return ground_.row(line, heights, types);
         fill(count - 1, line, heights, types);
-        const auto& [done, bounds] = edits_[count - 1];
+        const edit& done = edits_[count - 1].done;
+        const detail::box& bounds = edits_[count - 1].bounds;
         if (line.y < bounds.low.y || line.y > bounds.high.y || heights.empty()) return;
         // Which samples it reaches.
         std::size_t begin = 0, end = heights.size();

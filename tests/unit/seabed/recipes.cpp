@@ -115,6 +115,45 @@ TEST_CASE("heights and types are a function of position alone, whatever patch, c
     }
 }
 
+namespace {
+
+struct raise_blocks {
+    const sb::detail::block_layer& layer;
+    const sb::detail::stretch& part;
+    float* values;
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        layer.raise<N>(part, values);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("every instruction set gives the same bits, of dense samples and of sparse ones") {
+    using namespace sb::detail;
+    const double origin = GENERATE(0.0, -10000000.0), spacing = GENERATE(0.001, 0.03, 5.3);
+    const sb::power_law_noise noise({.rms = 0.1f, .longest = 2}, 3, stream::sand);
+    const ripple_train train({.wavelength = 0.5f, .direction = 0.7f}, 3, stream::ripples, "ripples");
+    const round_marks marks(1.5, 0.9f, 0.5f, 0.1f, 0.2f, {3, stream::mounds});
+    const trawl_furrows furrows({.density = 0.3f}, 3);
+    const block_layer blocks(0.7, 0.6f, 0.4f, 2, {3, stream::blocks});
+    for (int j = 0; j < 5; ++j) {
+        const sb::scanline line{.y = origin + 0.37 * j, .origin = origin, .spacing = spacing};
+        const stretch part(line, 201);
+        const auto at = [&](in::isa level) {
+            stretch_values values{};
+            insonify::detail::dispatch(raise_blocks{blocks, part, values.data()}, level);
+            noise.add(part, values, level);
+            train.add(part, values, level);
+            marks.add(part, values, level);
+            furrows.add(part, values, level);
+            return std::vector<float>(values.begin(), values.begin() + 201);
+        };
+        CHECK(at(in::isa::baseline) == at(in::isa::scalar));
+        CHECK(at(in::isa::avx2) == at(in::isa::scalar));
+    }
+}
+
 TEST_CASE("the call operator of a recipe agrees with its sampler, and seeds differ") {
     std::visit(
         [](const auto&... recipe) {

@@ -221,7 +221,7 @@ TEST_CASE("Blocks of rock come in the numbers that their exponent says") {
             const sb::detail::stretch part(line, 200);
             sb::detail::stretch_values heights{};
             layer.raise<1>(part, heights.data());
-            for (std::size_t i = 0; i < 200; ++i) count += heights[i] > 0 ? 1u : 0u;
+            for (std::size_t i = 0; i < 200; ++i) count += heights[i] > 0.0f ? 1u : 0u;
         }
         return static_cast<double>(count) / 40000;
     };

@@ -1,0 +1,77 @@
+// A GeoTIFF of depths or heights as the bottom of a picture: import_geotiff <file> <out.png> [-1 for depths]
+//
+// GDAL reads it (GeoTIFF and the hundred other formats that it knows); what it calls no data stays a hole up to ten
+// vertices wide. Where the survey is too coarse for a sonar, sand of the survey's own roughness goes on.
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/insonify.hpp>
+#include <insonify/io/png.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+#include <gdal_priv.h>
+
+namespace in = insonify;
+namespace sb = insonify::seabed;
+
+namespace {
+
+/// The first band, north up, in metres of the file's projection.
+sb::heightfield read_raster(const char* path, float scale) {
+    GDALAllRegister();
+    const auto close = [](GDALDataset* d) { GDALClose(d); };
+    const std::unique_ptr<GDALDataset, decltype(close)> file(static_cast<GDALDataset*>(GDALOpen(path, GA_ReadOnly)),
+                                                             close);
+    double place[6];
+    if (!file || file->GetRasterCount() < 1) throw in::io_error(std::string(path) + ": is no raster that GDAL reads");
+    if (file->GetGeoTransform(place) != CE_None || place[2] != 0 || place[4] != 0 || place[1] != -place[5])
+        throw in::io_error(std::string(path) + ": is not north up with square pixels");
+    GDALRasterBand& band = *file->GetRasterBand(1);
+    in::image<float> picture(band.GetXSize(), band.GetYSize());
+    if (band.RasterIO(GF_Read, 0, 0, picture.width(), picture.height(), picture.row(0).data(), picture.width(),
+                      picture.height(), GDT_Float32, 0, 0) != CE_None)
+        throw in::io_error(std::string(path) + ": cannot be read");
+    int has_no_data = 0;
+    const auto no_data = static_cast<float>(band.GetNoDataValue(&has_no_data));
+    sb::heightfield field =
+        has_no_data != 0 ? sb::from_image(picture, place[1], scale, no_data) : sb::from_image(picture, place[1], scale);
+    field.origin = {place[0] + 0.5 * place[1], place[3] - (picture.height() - 0.5) * place[1]};
+    return field;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    if (argc < 3) {
+        std::fputs("import_geotiff <file> <out.png> [-1 for depths]\n", stderr);
+        return 2;
+    }
+    const float scale = argc > 3 ? static_cast<float>(std::atof(argv[3])) : 1.0f;
+    const sb::heightfield survey = sb::fill_gaps(read_raster(argv[1], scale), 10);
+
+    sb::roughness finer = sb::roughness_of(in::sediment::medium_sand);
+    finer.longest = (std::max)(static_cast<float>(survey.spacing), finer.shortest);
+    finer.rms =
+        sb::facts_of(in::sediment::medium_sand).rms() * static_cast<float>(in::numeric::pow(survey.spacing, 0.625));
+    in::scene scene;
+    scene.seabed = sb::detailed{.field = survey, .surface = finer};
+
+    // From the western edge, 15 m above the bottom there.
+    const glm::dvec2 start = survey.origin;
+    const double length = survey.spacing * (survey.heights.height() - 1);
+    const double ground = static_cast<double>(survey.height_at(start.x, start.y + length / 2));
+    const double width = (std::min)(survey.spacing * (survey.heights.width() - 1), 100.0);
+    const in::ground_range rig{.position = start,
+                               .altitude = static_cast<float>((ground == ground ? ground : 0.0) + 15),
+                               .ping_spacing = 0.1f,
+                               .pings = (std::min)(1000, static_cast<int>(length / 0.1) + 1),
+                               .range = static_cast<float>(width),
+                               .bins = 1000};
+    in::thread_pool pool;
+    const auto recorded = in::render(scene, rig, in::record_options<in::labels, in::lambert_backscatter>{}, pool);
+    in::write_png(argv[2], in::with_speckle(recorded, rig, {}, pool).image | in::display{.white = 1});
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "import_geotiff: %s\n", error.what());
+    return 1;
+}

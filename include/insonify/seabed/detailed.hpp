@@ -1,0 +1,82 @@
+// A coarse survey with relief finer than its grid: what multibeam maps of a metre's spacing need before a sonar of
+// centimetres looks at them.
+#pragma once
+
+#include <insonify/seabed/heightfield.hpp>
+#include <insonify/seabed/noise.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+class detailed_sampler;
+
+/// A heightfield, smooth between its vertices instead of in facets, and roughness on top.
+///
+/// To go on where the survey's spectrum ends, take its spacing for the longest cell: of a sediment's relief all that is
+/// shorter than L metres has an rms of facts_of(sediment).rms() L^0.625.
+struct detailed {
+    heightfield field{};
+    roughness surface{.rms = 0.01f, .longest = 1, .shortest = 0.06f};
+    std::uint64_t seed = 1;
+
+    /// By reference: the heightfield has to outlive the sampler.
+    /// @throws invalid_input as `validate` of heightfields, and for parameters of the roughness out of their range
+    detailed_sampler prepare() const;
+    float operator()(double x, double y) const;
+    type type_at(double x, double y) const { return field.type_at(x, y); }
+};
+
+/// Evaluates `detailed`.
+class detailed_sampler {
+  public:
+    explicit detailed_sampler(const detailed& d)
+        : field_(&d.field), surface_(d.surface, d.seed, detail::stream::survey) {
+        validate(d.field);
+    }
+
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
+            for (std::size_t i = 0; i < part.count; ++i) values[i] = smooth_at(part.x[i], part.y);
+            surface_.add(part, values);
+        });
+        for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
+    }
+
+  private:
+    /// Catmull-Rom in both directions; beside missing vertices, and where there is none, the drawn facets.
+    float smooth_at(double x, double y) const {
+        const image<float>& h = field_->heights;
+        const detail::grid_coordinate u((x - field_->origin.x) / field_->spacing, h.width() - 1),
+            v((y - field_->origin.y) / field_->spacing, h.height() - 1);
+        const auto held = [](int i, int size) { return i < 0 ? 0 : i < size ? i : size - 1; };
+        float column[4];
+        for (int j = 0; j < 4; ++j) {
+            const int row = held(v.cell - 1 + j, h.height());
+            float p[4];
+            for (int i = 0; i < 4; ++i) p[i] = h(held(u.cell - 1 + i, h.width()), row);
+            column[j] = between(p, static_cast<float>(u.across));
+        }
+        const float height = between(column, static_cast<float>(v.across));
+        return numeric::is_finite(height) ? height : field_->height_at(x, y);
+    }
+    static float between(const float (&p)[4], float t) {
+        const float b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2 * p[2] - 0.5f * p[3],
+                    d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
+        return p[1] + t * (b + t * (c + t * d));
+    }
+
+    const heightfield* field_;
+    power_law_noise surface_;
+};
+
+inline detailed_sampler detailed::prepare() const {
+    return detailed_sampler(*this);
+}
+inline float detailed::operator()(double x, double y) const {
+    return at(prepare(), x, y).height;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,149 @@
+// Surveys: what the readers make of good text and of bad, how gaps are closed, and what detail adds.
+#include <insonify/io/netpbm.hpp>
+#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/bathymetry.hpp>
+#include <insonify/seabed/sample.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+namespace sb = insonify::seabed;
+
+namespace {
+
+constexpr const char* grid =
+    "ncols 3\nnrows 2\nxllcorner 1000\nyllcorner -50\ncellsize 2\nNODATA_value -9999\n"
+    "1 2 3\n4 -9999 6.5\n";
+
+bool missing(float height) {
+    return !in::numeric::is_finite(height);
+}
+
+}  // namespace
+
+TEST_CASE("An Esri grid stands at the centres of its cells, north up, with holes where there is no data") {
+    const sb::heightfield field = sb::parse_esri_grid(grid);
+    REQUIRE(field.heights.width() == 3);
+    REQUIRE(field.heights.height() == 2);
+    CHECK(field.origin == glm::dvec2(1001, -49));
+    CHECK(field.spacing == 2);
+    CHECK(field.heights(0, 1) == 1);
+    CHECK(field.heights(2, 1) == 3);
+    CHECK(field.heights(0, 0) == 4);
+    CHECK(missing(field.heights(1, 0)));
+    CHECK(field.heights(2, 0) == 6.5f);
+    CHECK(field.height_at(1001, -47) == 1);
+    CHECK(sb::parse_esri_grid(grid, -1).heights(2, 1) == -3);
+}
+
+TEST_CASE("An Esri grid may name centres, write its words in any case and end its lines as it likes") {
+    const sb::heightfield field =
+        sb::parse_esri_grid("NCOLS 2\r\nNROWS 2\r\nXLLCENTER 5\r\nYLLCENTER 7\r\nCELLSIZE 0.5\r\n1e0 +2\r\nnan 4");
+    CHECK(field.origin == glm::dvec2(5, 7));
+    CHECK(field.heights(0, 1) == 1);
+    CHECK(field.heights(1, 1) == 2);
+    CHECK(missing(field.heights(0, 0)));
+    CHECK(field.heights(1, 0) == 4);
+}
+
+TEST_CASE("What is no Esri grid is refused with the line and the reason") {
+    const std::string head = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+    const auto read = [](const std::string& text) { return sb::parse_esri_grid(text, 1, "bottom.asc"); };
+    CHECK_THROWS_WITH(read(""), ContainsSubstring("bottom.asc:1: ncols is missing"));
+    CHECK_THROWS_WITH(read(head + "1 2 3"), ContainsSubstring("ends before a height"));
+    CHECK_THROWS_WITH(read(head + "1 2\n3 x"), ContainsSubstring("bottom.asc:7: 'x' is not a number"));
+    CHECK_THROWS_WITH(read(head + "1 2\n3 4 5"), ContainsSubstring("goes on after"));
+    CHECK_THROWS_WITH(read("ncols 2\nnrows 2\ncellsize 1\n1 2 3 4"), ContainsSubstring("xllcorner"));
+    CHECK_THROWS_WITH(read("ncols 2.5\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4"),
+                      ContainsSubstring("ncols"));
+    CHECK_THROWS_WITH(read("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2 3 4"),
+                      ContainsSubstring("cellsize"));
+    CHECK_THROWS_WITH(read("ncols 2\nwidth 3\n"), ContainsSubstring("'width' is no word"));
+    CHECK_THROWS_WITH(read("ncols 16777216\nnrows 16777216\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2"),
+                      ContainsSubstring("too short"));
+    CHECK_THROWS_WITH(read("ncols 2\nnrows 2\nxllcorner 1e300\nyllcorner 0\ncellsize 1\n1 2 3 4"),
+                      ContainsSubstring("1e9"));
+}
+
+TEST_CASE("Soundings come onto a grid in any order, averaged where there are several, missing where there are none") {
+    const sb::heightfield field =
+        sb::parse_xyz("x,y,depth\n10,20,3\n11,20,4\n# a remark\n10.4,19.6,5\n\n11;22;7;quality 3\n", 1, -1);
+    REQUIRE(field.heights.width() == 2);
+    REQUIRE(field.heights.height() == 3);
+    CHECK(field.origin == glm::dvec2(10, 20));
+    CHECK(field.heights(0, 0) == -4);
+    CHECK(field.heights(1, 0) == -4);
+    CHECK(field.heights(1, 2) == -7);
+    CHECK(missing(field.heights(0, 1)));
+    CHECK(missing(field.heights(0, 2)));
+}
+
+TEST_CASE("What are no soundings is refused") {
+    CHECK_THROWS_WITH(sb::parse_xyz("", 1), ContainsSubstring("no soundings"));
+    CHECK_THROWS_WITH(sb::parse_xyz("1 2", 1), ContainsSubstring("ends before a z"));
+    CHECK_THROWS_WITH(sb::parse_xyz("1 2 z", 1), ContainsSubstring("'z' is not a number"));
+    CHECK_THROWS_WITH(sb::parse_xyz("0 0 1\n900000000 900000000 1", 1), ContainsSubstring("2^26"));
+    CHECK_THROWS_WITH(sb::parse_xyz("0 0 1", 0), ContainsSubstring("spacing is 0"));
+}
+
+TEST_CASE("A picture of 16 bits keeps its steps and leaves out what is no data") {
+    in::image<std::uint16_t> picture(2, 2);
+    picture(0, 0) = 0, picture(1, 0) = 1, picture(0, 1) = 65535, picture(1, 1) = 300;
+    const auto shares = in::parse_netpbm<float>(in::format_netpbm(picture));
+    const sb::heightfield field = sb::from_image(shares, 0.5, 65535 * 0.01f, 0);
+    CHECK(missing(field.heights(0, 1)));
+    CHECK(field.heights(1, 1) == Approx(0.01));
+    CHECK(field.heights(0, 0) == Approx(655.35));
+    CHECK(field.heights(1, 0) == Approx(3.0));
+}
+
+TEST_CASE("Gaps close from their edges, as far as asked") {
+    sb::heightfield field{.heights = in::image<float>(9, 9, 2.0f)};
+    for (int j = 2; j < 7; ++j)
+        for (int i = 2; i < 7; ++i) field.heights(i, j) = std::numeric_limits<float>::quiet_NaN();
+    const auto holes = [](const sb::heightfield& f) {
+        return std::count_if(f.heights.pixels().begin(), f.heights.pixels().end(), missing);
+    };
+    CHECK(holes(sb::fill_gaps(field, 0)) == 25);
+    CHECK(holes(sb::fill_gaps(field, 1)) == 9);
+    const sb::heightfield whole = sb::fill_gaps(field);
+    CHECK(holes(whole) == 0);
+    CHECK(whole.heights(4, 4) == 2);
+    sb::heightfield nothing{.heights = in::image<float>(3, 3, std::numeric_limits<float>::quiet_NaN())};
+    CHECK(holes(sb::fill_gaps(nothing)) == 9);
+}
+
+TEST_CASE("Detail goes through the survey's vertices, has no facets, and adds the roughness asked for") {
+    sb::heightfield field{.heights = in::image<float>(40, 40), .origin = {100, 200}, .spacing = 2};
+    for (int j = 0; j < 40; ++j)
+        for (int i = 0; i < 40; ++i) field.heights(i, j) = std::sin(0.5f * static_cast<float>(i));
+    const sb::detailed even{.field = field, .surface = {.rms = 0}};
+    CHECK(even(100 + 2 * 7, 200 + 2 * 9) == field.heights(7, 9));
+    // Slopes on both sides of a vertex are the same, which facets' are not.
+    const auto bend = [](const auto& f) {
+        const auto at = [&](double x) { return static_cast<double>(f(x, 231)); };
+        return std::abs(at(114.01) - 2 * at(114) + at(113.99)) / 0.01;
+    };
+    CHECK(bend(even) < 0.01);
+    CHECK(bend(field) > 0.03);
+
+    const sb::detailed rough{.field = field, .surface = {.rms = 0.05f, .longest = 1, .shortest = 0.1f}};
+    const sb::grid area{.origin = {110, 210}, .spacing = 0.11, .width = 300, .height = 300};
+    const auto with = sb::sample(rough, area).heights, without = sb::sample(even, area).heights;
+    double square = 0;
+    for (std::size_t k = 0; k < with.size(); ++k)
+        square += std::pow(static_cast<double>(with.pixels()[k] - without.pixels()[k]), 2) / 90000;
+    CHECK(std::sqrt(square) == Approx(0.05).epsilon(0.05));
+}
+
+TEST_CASE("Detail leaves holes where the survey has them, and no wider ones") {
+    sb::heightfield field{.heights = in::image<float>(9, 9, 1.0f)};
+    field.heights(4, 4) = std::numeric_limits<float>::quiet_NaN();
+    const sb::detailed bed{.field = field, .surface = {.rms = 0}};
+    CHECK(missing(bed(4, 4)));
+    CHECK(bed(2.5, 4.2) == 1);
+    CHECK(bed(6, 4) == 1);
+}
