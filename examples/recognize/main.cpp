@@ -86,14 +86,13 @@ class experiment {
 
     /// Learns from pictures that are drawn by a recipe. A set of another seed is the test on pictures of its own kind.
     void learn_from(const recipe& r) {
-        const generator::options drawing = options_of(
-            r, options_.references.empty() ? std::vector<std::string>{} : class_folders(options_.references));
-        const generator::stock shared(drawing);
+        const artist hand(
+            r, options_.references.empty() ? std::vector<std::string>{} : class_folders(options_.references), pool_);
         const class_counts tested{options_.synthetic[0], options_.synthetic[1], options_.synthetic[2]};
-        const features own = features_of(draw_set(drawing, shared, tested, options_.seeds + 1, pool_));
+        const features own = features_of(hand.draw_set(tested, options_.seeds + 1));
         std::vector<features> sets;
         for (std::size_t seed = 1; seed <= options_.seeds; ++seed)
-            sets.push_back(features_of(draw_set(drawing, shared, shares(most_), seed, pool_)));
+            sets.push_back(features_of(hand.draw_set(shares(most_), seed)));
         learn(
             r.name, r.description,
             [&](std::size_t seed, std::size_t images) { return some_of(sets[seed], shares(images)); }, &own);

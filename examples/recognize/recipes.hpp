@@ -14,6 +14,13 @@ namespace in = insonify;
 inline const std::array<std::string, 3> classes{"cylinder", "cube", "sphere"};
 using class_counts = std::array<std::size_t, 3>;
 
+/// What is looked for, as generate_dataset says it: the sizes that are all that is known of the objects beforehand. The
+/// simulator's lie within.
+inline const std::array<std::vector<std::string>, 3> objects{
+    {{"--targets", "cylinder", "--target-size", "0.4:0.6", "--aspect", "0.9:1.15"},
+     {"--targets", "cube", "--target-size", "0.4:0.8", "--aspect", "1"},
+     {"--targets", "sphere", "--target-size", "0.5:0.9", "--aspect", "1"}}};
+
 /// A picture and what it shows.
 struct example {
     in::image<std::uint8_t> picture;
@@ -40,10 +47,12 @@ inline std::vector<recipe> recipes() {
              {"--mode", "slant_range", "--seabeds", "sand,mud,ripples", "--noise", "seabed"}}};
 }
 
-/// What generate_dataset would do with the recipe's command line.
+/// What generate_dataset would do with the recipe's command line, for one class.
 /// @param references  folders of pictures to match histograms with, for recipes that do
-inline generator::options options_of(const recipe& r, const std::vector<std::string>& references) {
-    std::vector<std::string> words{"generate_dataset", "--out", "-", "--chip", "5", "--pixels", "128"};
+inline generator::options options_of(const recipe& r, std::size_t kind, const std::vector<std::string>& references) {
+    std::vector<std::string> words{"generate_dataset", "--out", "-",        "--chip", "5",
+                                   "--pixels",         "128",   "--burial", "0:0.3"};
+    words.insert(words.end(), objects[kind].begin(), objects[kind].end());
     words.insert(words.end(), r.arguments.begin(), r.arguments.end());
     if (r.needs_references && !references.empty()) {
         words.push_back("--reference");
@@ -54,26 +63,37 @@ inline generator::options options_of(const recipe& r, const std::vector<std::str
     return generator::parse(static_cast<int>(pointers.size()), pointers.data());
 }
 
-/// Pictures of each class by turns of seabeds; another seed has none of them.
-inline std::vector<example> draw_set(generator::options o, const generator::stock& shared, const class_counts& counts,
-                                     std::uint64_t seed, in::thread_pool& pool) {
-    std::vector<generator::options> of_class;
-    std::vector<std::pair<std::size_t, std::size_t>> wanted;  // class and number
-    for (std::size_t kind = 0; kind < classes.size(); ++kind) {
-        o.targets = {classes[kind]};
-        o.seed = classes.size() * seed + kind;
-        of_class.push_back(o);
-        for (std::size_t i = 0; i < counts[kind]; ++i) wanted.emplace_back(kind, i);
+/// Draws sets by one recipe.
+class artist {
+  public:
+    artist(const recipe& r, const std::vector<std::string>& references, in::thread_pool& pool)
+        : pool_(pool), shared_(options_of(r, 0, references)) {
+        for (std::size_t kind = 0; kind < classes.size(); ++kind) of_class_.push_back(options_of(r, kind, references));
     }
-    std::vector<example> set(wanted.size());
-    pool.bulk(wanted.size(), [&](std::size_t i) {
-        const auto [kind, number] = wanted[i];
-        in::serial_executor alone;
-        const generator::plan p = generator::plan_image(of_class[kind], number, shared.references());
-        set[i] = {generator::draw(of_class[kind], p, shared, alone).gray, kind};
-    });
-    return set;
-}
+
+    /// Pictures of each class, by turns of seabeds; another seed has none of them.
+    std::vector<example> draw_set(const class_counts& counts, std::uint64_t seed) const {
+        std::vector<generator::options> of_class = of_class_;
+        std::vector<std::pair<std::size_t, std::size_t>> wanted;  // class and number
+        for (std::size_t kind = 0; kind < classes.size(); ++kind) {
+            of_class[kind].seed = classes.size() * seed + kind;
+            for (std::size_t i = 0; i < counts[kind]; ++i) wanted.emplace_back(kind, i);
+        }
+        std::vector<example> set(wanted.size());
+        pool_.bulk(wanted.size(), [&](std::size_t i) {
+            const auto [kind, number] = wanted[i];
+            in::serial_executor alone;
+            const generator::plan p = generator::plan_image(of_class[kind], number, shared_.references());
+            set[i] = {generator::draw(of_class[kind], p, shared_, alone).gray, kind};
+        });
+        return set;
+    }
+
+  private:
+    in::thread_pool& pool_;
+    generator::stock shared_;
+    std::vector<generator::options> of_class_;
+};
 
 /// The folders of a set's classes: images/<class>.
 inline std::vector<std::string> class_folders(const std::string& root) {

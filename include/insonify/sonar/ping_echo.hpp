@@ -44,7 +44,7 @@ class ping_listener {
           bin_(rig.bin()),
           step_((std::min)(bin_, cell)),
           profile_step_((std::max)(step_, 0.5 * cell)),
-          first_point_(static_cast<std::size_t>(numeric::floor_to_int(start / profile_step_))),
+          first_point_(static_cast<std::size_t>(-numeric::floor_to_int(-start / profile_step_))),
           spacing_(rig.ping_spacing),
           bins_(static_cast<std::size_t>(rig.bins)) {
         top_ = -1e30;

@@ -402,7 +402,7 @@ template <in::across_track Axis>
 in::recording<in::labels> window_of(const in::seabed::any& bottom, const in::side_scan_rig<Axis>& rig, bool all) {
     in::scene s;
     s.seabed = bottom;
-    const in::ping_frame middle(in::ping_of(rig, 12), rig.side), first(in::ping_of(rig, 0), rig.side);
+    const in::ping_frame middle(in::ping_of(rig, rig.pings / 2), rig.side), first(in::ping_of(rig, 0), rig.side);
     const double range = 0.5 * static_cast<double>(rig.first_range + rig.range);
     s.add(in::cube{.size = glm::vec3(0.6f)}, {.position = glm::dvec3(middle.world(range, 0), 0.2), .yaw = 0.5f},
           "cube");
@@ -426,6 +426,18 @@ TEST_CASE("A window samples the bottom that can be heard in it or hide it; the r
                 REQUIRE(part.labels.seabed(x, y) == whole.labels.seabed(x, y));
             }
     };
+    // Wherever tiles of the bottom begin.
+    for (int turn = 0; turn < 60; ++turn) {
+        const float angle = 0.1f * static_cast<float>(turn);
+        INFO("yaw " << angle);
+        check(bottoms[1], in::side_scan{.position = {turn, -3.3 * turn},
+                                        .altitude = 3,
+                                        .yaw = angle,
+                                        .pings = 16,
+                                        .first_range = 9 + angle,
+                                        .range = 11 + angle,
+                                        .bins = 50});
+    }
     for (const in::seabed::any& bottom : bottoms)
         for (const float altitude : {4.0f, 9.0f})
             for (const float distance : {3.0f, 8.0f}) {
