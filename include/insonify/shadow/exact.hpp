@@ -150,10 +150,10 @@ class light_blockers {
         const double along = numeric::dot(normal, toward), behind = numeric::dot(normal, a);
         const double sign = is_left ? 1 : -1;
         const auto size = [](double v) { return v < 0 ? -v : v; };
-        const double touching = 0x1p-40 * rays.reach() * (size(normal.x) + size(normal.y) + size(normal.z));
-        if (!(sign * along > 0 && sign * behind > touching)) return false;
+        const double hair = 0x1p-40 * (size(normal.x) + size(normal.y) + size(normal.z));
+        if (!(sign * along > 0 && sign * behind > hair * rays.reach())) return false;
         // What the light itself touches doesn't stop it.
-        return !rays.end() || sign * (along - behind) > touching;
+        return !rays.end() || sign * (along - behind) > hair * rays.size();
     }
 
     std::span<const glm::uvec3> triangles_;

@@ -27,6 +27,7 @@ class light_rays {
         : source_(light.to_light()),
           frame_(light),
           reach_(reach),
+          size_(reach),
           slack_(small_share * (1 + frame_.cot_elevation()) * reach) {}
     /// @throws invalid_input for a position that isn't finite
     light_rays(const point_light& light, double reach)
@@ -34,8 +35,8 @@ class light_rays {
         for (int i = 0; i < 3; ++i)
             insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
                                       "finite coordinates");
-        for (int i = 0; i < 3; ++i) reach = (std::max)(reach, source_[i] < 0 ? -source_[i] : source_[i]);
-        reach_ = reach;
+        size_ = reach_ = reach;
+        for (int i = 0; i < 3; ++i) size_ = (std::max)(size_, source_[i] < 0 ? -source_[i] : source_[i]);
     }
 
     /// From a point to the light: unit length if it is parallel, the whole way if it isn't.
@@ -43,6 +44,8 @@ class light_rays {
     /// Whether rays end where `toward` does.
     bool end() const { return is_near_; }
     double reach() const { return reach_; }
+    /// Of the coordinates of all that is asked about and of the light, if it is near.
+    double size() const { return size_; }
 
     std::size_t planes() const { return is_near_ ? 6 : 1; }
 
@@ -70,7 +73,7 @@ class light_rays {
         const glm::dvec3 d = p - source_;
         const double depth = (std::max)(d[axis] < 0 ? -d[axis] : d[axis], smallest_depth());
         return {d[(axis + 1) % 3] / depth, d[(axis + 2) % 3] / depth, 1 / depth * (1 - small_share),
-                small_share * reach_ / depth};
+                small_share * size_ / depth};
     }
 
     /// What a triangle covers of a plane, and how near it comes to the light there; none if it isn't over the plane.
@@ -92,7 +95,7 @@ class light_rays {
             return glm::dvec3(d[next], d[last], sign * d[axis]);
         };
         const glm::dvec3 corner[3] = {before(a), before(b), before(c)};
-        const double little = small_share * reach_;
+        const double little = small_share * size_;
         bool outside[4] = {true, true, true, true};
         double nearest = corner[0].z;
         for (const glm::dvec3& p : corner) {
@@ -109,7 +112,7 @@ class light_rays {
         }
         const auto seen = [](const glm::dvec3& p) { return glm::dvec3(p.x / p.z, p.y / p.z, 1 / p.z); };
         std::optional<topped_box> box =
-            around(seen(corner[0]), seen(corner[1]), seen(corner[2]), small_share * reach_ / nearest);
+            around(seen(corner[0]), seen(corner[1]), seen(corner[2]), small_share * size_ / nearest);
         box->top = rounded_up(1 / nearest * (1 + small_share));
         return box;
     }
@@ -117,7 +120,7 @@ class light_rays {
   private:
     static constexpr double small_share = 0x1p-40;
     /// Nearer to the light than this, directions aren't told apart.
-    double smallest_depth() const { return 0x1p-20 * reach_; }
+    double smallest_depth() const { return 0x1p-20 * size_; }
 
     static topped_box around(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double margin) {
         const auto least = [](double x, double y, double z) { return (std::min)((std::min)(x, y), z); };
@@ -130,7 +133,7 @@ class light_rays {
     glm::dvec3 source_;  ///< direction, or position
     light_frame frame_;
     bool is_near_ = false;
-    double reach_ = 0, slack_ = 0;
+    double reach_ = 0, size_ = 0, slack_ = 0;
     glm::dvec2 lowest_{-(std::numeric_limits<double>::max)()}, highest_{(std::numeric_limits<double>::max)()};
 };
 

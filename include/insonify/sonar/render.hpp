@@ -8,6 +8,8 @@
 #include <insonify/sonar/seabed_reach.hpp>
 #include <insonify/sonar/shading.hpp>
 
+#include <bit>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
@@ -94,14 +96,15 @@ class overhead_painter {
         const int cells = options_.cells > 0 ? options_.cells : (longer + 1) / 2;
         require(cells <= 32768, "cells", cells, "at most 32768");
         require(options_.reach >= 0 && numeric::is_finite(options_.reach), "reach", options_.reach, "0 or more");
-        const double spacing = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y) / cells;
+        const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
+        const double spacing = coarsely_rounded(longer_side / cells);
 
         seabed::height_range range = merge(seabed::prepare(scene_.seabed).range(), {0, 0});
-        const double longest = static_cast<double>(options_.reach) * spacing * cells;
+        const double longest = static_cast<double>(options_.reach) * longer_side;
         ground_box ground = shown_ground(view_, range);
         if constexpr (!std::is_same_v<Shadow, shadow::none>)
             ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
-        seabed::grid grid = grid_under(shown_ground(view_, range), ground, spacing);
+        seabed::grid grid = grid_under(ground, spacing);
         bottom_origin_ = grid.origin;
         grid.origin += rig.position;
         grid.band_limited = true;
@@ -141,19 +144,27 @@ class overhead_painter {
         std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
     }
 
-    /// A grid that starts at a corner of what is shown, whatever else it covers: what is shown has the same vertices
-    /// then. Its origin is relative to the rig's position, so that far from the world's origin no bit of it changes.
-    static seabed::grid grid_under(const ground_box& shown, const ground_box& all, double spacing) {
-        const auto cells = [&](double length) {
-            return -static_cast<int>(numeric::floor_to_int(1e-6 - length / spacing));
-        };
-        const glm::ivec2 before{cells(shown.first.x - all.first.x), cells(shown.first.y - all.first.y)};
-        const auto vertices = [&](int axis) {
-            const int count = before[axis] + cells(all.last[axis] - shown.first[axis]) + 1;
+    /// To eleven bits. So many multiples of it are exact, in float too, that vertices are where they are to the last
+    /// bit, whatever else is sampled beside them.
+    static double coarsely_rounded(double length) {
+        constexpr std::uint64_t last = std::uint64_t{1} << 42;
+        return std::bit_cast<double>((std::bit_cast<std::uint64_t>(length) + last / 2) & ~(last - 1));
+    }
+
+    /// The grid of multiples of the spacing over a part of the ground. Its origin is relative to the rig's position, so
+    /// that far from the world's origin no bit of it changes.
+    static seabed::grid grid_under(const ground_box& ground, double spacing) {
+        seabed::grid grid{.spacing = spacing};
+        const auto along = [&](int axis) {
+            const double first = static_cast<double>(numeric::floor_to_int(ground.first[axis] / spacing));
+            const double count = 2 - static_cast<double>(numeric::floor_to_int(-ground.last[axis] / spacing)) - first;
             require(count <= 1 << 20, "vertices of the seabed along an axis", count, "at most 2^20: less `reach`");
-            return (std::max)(2, count);
+            grid.origin[axis] = spacing * first;
+            return static_cast<int>(count);
         };
-        return {shown.first - spacing * glm::dvec2(before), spacing, vertices(0), vertices(1)};
+        grid.width = along(0);
+        grid.height = along(1);
+        return grid;
     }
 
     placed_mesh bottom_in_rig() const {

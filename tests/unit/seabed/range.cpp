@@ -36,10 +36,12 @@ TEST_CASE("No seabed leaves the range that it promises, and none promises ten ti
     check(sb::flat{}, 10);
     check(sb::flat{.surface = {.rms = 0}}, 1e9);
     check(sb::ripples{}, 3);
+    check(sb::ripples{.wavelength = 0.3f, .sharpness = 0.9f, .surface = {.rms = 0}}, 3);
     check(sb::ripples{.second = {.wavelength = 0.3f, .steepness = 0.1f}}, 3);
     check(sb::mud{}, 10);
     check(sb::mud{.density = 0, .trawls = {.density = 0.1f}}, 10);
     check(sb::rock{}, 10);
+    check(sb::rock{.relief = 2, .fracture = 1, .surface = {.rms = 0}}, 10);
     check(sb::blend{.second = sb::rock{}}, 10);
     check(sb::mixed{.base = sb::mud{}, .layers = {{.bottom = sb::rock{}}, {.bottom = sb::ripples{}}}}, 10);
 }
