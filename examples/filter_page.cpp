@@ -20,7 +20,7 @@ constexpr in::rgb8 paper{24, 26, 30}, ink{225, 225, 225}, before{70, 76, 86}, ba
 
 in::image<float> scene_picture() {
     in::scene scene;
-    scene.seabed = in::seabed::ripples{.wavelength = 0.9f, .height = 0.07f, .direction = 0.5f, .seed = 7};
+    scene.seabed = in::seabed::ripples{.wavelength = 0.9f, .steepness = 0.08f, .direction = 0.5f, .seed = 7};
     scene.add(in::cylinder{.radius = 0.35f, .length = 2}, {.position = {-0.4, 0.3, 0.35}, .yaw = 60_deg}, "cylinder");
     const in::overhead rig{.altitude = 2.2f, .size = {tile, tile}, .grazing = 14_deg};
     // Dim, and with a little grain, as recordings are: bright pixels of a picture in [0, 1] leave no room for speckle.

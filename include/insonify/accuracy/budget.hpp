@@ -132,6 +132,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
 
     const detail::seabed_probe probed(bottom, rig, how, ex);
     const double pixel = view.ground_sampling();
+    const int longer = (std::max)(rig.size.x, rig.size.y);
     const auto errors_of = [&](double cells_per_pixel, double texels) {
         Shadow policy{};
         if constexpr (requires { policy.texels_per_pixel; }) policy.texels_per_pixel = static_cast<float>(texels);
@@ -148,7 +149,9 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
 
     // From the coarsest grid on, each of half the cells of the next; first with more texels than can matter. If none
     // keeps to the budget, the one that is the least beyond it is taken.
-    constexpr double many_texels = 8;
+    double many_texels = 8;
+    if constexpr (requires { found.shadow.largest; })
+        many_texels = (std::min)(many_texels, static_cast<double>(found.shadow.largest) / longer);
     double chosen = how.finest, least_excess = std::numeric_limits<double>::infinity();
     bool keeps = false;
     for (double cells = 1.0 / 16; cells <= how.finest && !keeps; cells *= 2) {
@@ -163,16 +166,15 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     const double fewer = chosen * 0.70710678118654752;
     if (keeps && keeps_to(errors_of(fewer, many_texels), usable)) chosen = fewer;
 
-    double texels = keeps ? 0.5 : many_texels;
+    double texels = keeps ? (std::min)(0.5, many_texels) : many_texels;
     found.expected = errors_of(chosen, texels);
     if constexpr (requires { found.shadow.texels_per_pixel; }) {
         while (texels < many_texels && !keeps_to(found.expected, usable)) {
-            texels *= 2;
+            texels = (std::min)(2 * texels, many_texels);
             found.expected = errors_of(chosen, texels);
         }
         found.shadow.texels_per_pixel = static_cast<float>(texels);
     }
-    const int longer = (std::max)(rig.size.x, rig.size.y);
     const double cells = (std::min)(32768.0, (std::max)(1.0, longer * chosen));
     found.cells = static_cast<int>(numeric::floor_to_int(cells + 0.5));
     return found;

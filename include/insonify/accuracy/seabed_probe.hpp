@@ -1,4 +1,7 @@
 // How far pictures of a seabed are from the truth, by a few small ones.
+//
+// Of shadows the truth is a ray for each pixel, marched over the finest grid: it shares nothing with a shadow policy,
+// so any may be judged by it.
 #pragma once
 
 #include <insonify/accuracy/metrics.hpp>
@@ -17,6 +20,7 @@ struct errors {
     double height = 1;        ///< of the seabed, root mean square, in pixels on the ground
     double intensity = 0.05;  ///< root mean square error of the linear picture
 };
+
 /// How `settings_for` looks at a seabed.
 struct probe {
     int chips = 4;       ///< small pictures, spread over the large one

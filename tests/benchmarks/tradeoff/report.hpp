@@ -181,13 +181,14 @@ inline std::string page(const contents& c) {
         "Pictures\n"
         "are " +
         pixels + " x " + pixels + " pixels under light of " + svg::number(c.grazing_degrees, 0) +
-        " degrees. Times are those that one thread keeps a processor busy for a whole frame, everything made anew, "
-        "the\n"
-        "least of all runs; memory is what a frame allocates at its peak. Compare figures of one run alone.\n\n"
+        " degrees. Times are those for which a whole frame, everything made anew, keeps\n"
+        "one processor busy, the least of all runs; memory is what it allocates at its peak. Compare figures of one "
+        "run\n"
+        "alone.\n\n"
         "![Time against the error of shadow edges, on three seabeds](tradeoff.svg)\n\n"
         "An edge of a shadow is off by so many pixels: the wrong pixels of the shadow's mask over the pixels along "
         "its\n"
-        "border (`accuracy::mean_boundary_displacement`). The oracle is a ray for each pixel and one from there to the "
+        "border (`accuracy::compare_masks`). The oracle is a ray for each pixel and one from there to the "
         "light,\n"
         "marched in double over the seabed at four vertices a pixel (`tests/marching.hpp`).\n\n"
         "![What tolerating an error saves](tradeoff_saved.svg)\n\n"
@@ -205,6 +206,9 @@ inline std::string page(const contents& c) {
             if (w.seabed == seabed && (w.on_front || !w.name.empty())) text += row_of(w);
     text +=
         "\n## One knob at a time\n\n"
+        "The seabed's mesh with fewer triangles takes longer to find than it saves in one frame: it is for meshes that "
+        "are\n"
+        "kept, and for memory.\n\n"
         "| knob | setting | ms | MiB | error | against |\n|---|---|---:|---:|---|---|\n";
     for (const knob& k : c.knobs)
         text += "| " + k.name + " | " + k.setting + " | " + svg::number(k.ms, k.ms < 10 ? 2 : 1) + " | " +

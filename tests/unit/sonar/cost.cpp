@@ -1,0 +1,114 @@
+// What a picture costs depends on what it shows, not on how much seabed there is: counted in points sampled.
+#include <insonify/insonify.hpp>
+
+#include <cmath>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+using namespace in::literals;
+
+namespace {
+
+template <class Shadow = in::shadow::refined>
+in::render_stats cost_of(const in::seabed::any& bottom, const in::overhead& rig,
+                         const in::render_options<Shadow>& options = {}) {
+    in::scene scene;
+    scene.seabed = bottom;
+    return in::render(scene, rig, options).stats;
+}
+
+/// A rig over the middle of another's picture that sees so many of its pixels.
+in::overhead chip_of(in::overhead rig, int pixels) {
+    const double half = in::overhead_geometry(rig).half_extent(0).x * pixels / rig.size.x;
+    rig.field_of_view = static_cast<float>(2 * in::numeric::atan2(half, static_cast<double>(rig.altitude)));
+    rig.size = {pixels, pixels};
+    return rig;
+}
+
+}  // namespace
+
+TEST_CASE("A chip costs a chip, not the picture it is cut from") {
+    const in::overhead rig{.altitude = 4, .size = {1024, 1024}, .grazing = 10_deg};
+    for (const in::seabed::any& bottom : {in::seabed::any(in::seabed::ripples{}), in::seabed::any(in::seabed::mud{})}) {
+        const auto whole = cost_of<in::shadow::none>(bottom, rig);
+        const auto chip = cost_of<in::shadow::none>(bottom, chip_of(rig, 256));
+        // A sixteenth of the picture, the coarse look at the bottom's bounds included, and the sides' worth of
+        // rounding.
+        CHECK(chip.seabed_samples * 15 < whole.seabed_samples);
+        CHECK(chip.seabed_samples >=
+              static_cast<std::uint64_t>(chip.seabed_columns) * static_cast<std::uint64_t>(chip.seabed_rows));
+        // With shadows, what can throw one into the chip: relief x cot(10 degrees) up-light of it, and no more.
+        const auto shadowed = cost_of(bottom, chip_of(rig, 256));
+        const double spacing = 2 * in::overhead_geometry(rig).half_extent(0).x / 512;
+        const double reach = 0.25 / std::tan(0.1745) / spacing;
+        CHECK(shadowed.seabed_columns >= chip.seabed_columns);
+        CHECK(shadowed.seabed_columns <= chip.seabed_columns + reach);
+        CHECK(shadowed.seabed_rows <= chip.seabed_rows * 3 / 2);
+    }
+}
+
+TEST_CASE("Anywhere on ten kilometres of seabed a picture samples as many points as at home") {
+    const in::seabed::any bottom = in::seabed::blend{};
+    const in::overhead home{.altitude = 10, .size = {256, 256}, .grazing = 20_deg};
+    std::uint64_t most = 0, least = ~std::uint64_t{0};
+    for (const glm::dvec2& place :
+         {glm::dvec2(0, 0), glm::dvec2(10e3, 10e3), glm::dvec2(-4321, 9876), glm::dvec2(5e3, -7e3)}) {
+        in::overhead rig = home;
+        rig.position = place;
+        const std::uint64_t samples = cost_of(bottom, rig).seabed_samples;
+        most = (std::max)(most, samples);
+        least = (std::min)(least, samples);
+    }
+    CHECK(most < least * 3 / 2);  // the relief differs, and with it how far shadows reach
+}
+
+TEST_CASE("All ten kilometres at once cost as many points as forty metres, and so do their triangles") {
+    const in::overhead metres{.altitude = 11.5f, .size = {256, 256}, .grazing = 30_deg};  // 40 m
+    in::overhead kilometres = metres;
+    kilometres.altitude *= 250;
+    for (const in::seabed::any& bottom : {in::seabed::any(in::seabed::ripples{}), in::seabed::any(in::seabed::mud{}),
+                                          in::seabed::any(in::seabed::rock{})}) {
+        const auto few = cost_of(bottom, metres), many = cost_of(bottom, kilometres);
+        CHECK(many.seabed_samples <= few.seabed_samples * 11 / 10);
+        CHECK(many.seabed.triangles <= few.seabed.triangles * 11 / 10);
+    }
+}
+
+TEST_CASE("A swath of ten kilometres out samples as much seabed as one at home") {
+    in::scene scene;
+    scene.seabed = in::seabed::ripples{};
+    in::side_scan rig{.altitude = 5, .pings = 64, .range = 30, .bins = 256};
+    const auto home = in::render(scene, rig).stats.seabed_vertices;
+    rig.position = {7e3, -9e3};
+    const auto away = in::render(scene, rig).stats.seabed_vertices;
+    CHECK(away <= home * 5 / 4);
+    CHECK(away >= home * 4 / 5);
+}
+
+TEST_CASE("A smooth bottom is drawn by few triangles, and looks the same to the pixels allowed") {
+    in::scene scene;
+    scene.seabed = in::seabed::mud{};
+    scene.add(in::cube{}, {.position = {0.5, -0.5, 0.5}}, "cube");
+    const in::overhead rig{.altitude = 3, .size = {256, 256}, .grazing = 30_deg};
+    const auto dark = [](const in::frame<>& f) {
+        return in::map_pixels(f.labels.shadow, [](std::uint16_t by) { return static_cast<std::uint8_t>(by != 0); });
+    };
+    const auto all = in::render(scene, rig);
+    std::uint64_t before = all.stats.seabed.triangles + 1;
+    for (const float error : {0.0f, 0.25f, 2.0f}) {
+        in::render_options<> options{};
+        options.edge_error = error;
+        options.slope_error = 0.1f;
+        const auto few = in::render(scene, rig, options);
+        CAPTURE(error);
+        CHECK(few.stats.seabed.triangles < before);
+        before = few.stats.seabed.triangles;
+        const auto off = in::accuracy::compare_masks(dark(few), dark(all));
+        CHECK(off.mean_boundary_displacement() <= static_cast<double>(error));
+    }
+    CHECK(before * 8 < all.stats.seabed.triangles);
+    in::render_options<> wrong{};
+    wrong.edge_error = -1;
+    CHECK_THROWS_AS(in::render(scene, rig, wrong), in::invalid_input);
+}
