@@ -43,6 +43,14 @@ class detailed_sampler {
         for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
     }
 
+    /// Catmull-Rom's negative shares sum to 1/8 at most: a row overshoots by as much of the range, and a column of rows
+    /// by 1/8 of five quarters more.
+    height_range range() const {
+        const height_range field = field_->prepare().range();
+        const double over = 0.2813 * (field.highest - field.lowest) + surface_.most();
+        return field.empty() ? field : height_range{field.lowest - over, field.highest + over};
+    }
+
   private:
     /// Catmull-Rom in both directions; beside missing vertices, and where there is none, the drawn facets.
     float smooth_at(double x, double y) const {

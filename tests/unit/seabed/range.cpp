@@ -46,6 +46,14 @@ TEST_CASE("No seabed leaves the range that it promises, and none promises ten ti
     check(sb::mixed{.base = sb::mud{}, .layers = {{.bottom = sb::rock{}}, {.bottom = sb::ripples{}}}}, 10);
 }
 
+TEST_CASE("A survey with detail keeps to the range of its vertices, what is between them, and the detail") {
+    sb::heightfield survey{.heights = in::image<float>(40, 40), .origin = {-90, -5}, .spacing = 2.5};
+    for (int i = 0; i < 40; ++i)
+        for (int j = 0; j < 40; ++j) survey.heights(i, j) = (i + j) % 3 == 0 ? 1.0f : 0.0f;
+    check(survey, 2);
+    check(sb::detailed{.field = survey}, 3);
+}
+
 TEST_CASE("Nothing has no range") {
     CHECK(sb::prepare(sb::any(sb::none{})).range().empty());
 }
