@@ -101,20 +101,26 @@ inline int count_nan(const float* values, int count) {
     return found;
 }
 
-/// Counts codes. Four tables take turns, because pixels like their neighbours would wait for one another's count.
+/// Counts codes. Of codes of 8 bits, four tables take turns, because pixels like their neighbours would wait for one
+/// another's count.
 template <pixel_code Code>
 class code_counter {
   public:
-    code_counter() : counts_(4 * levels) {}
+    /// Below this many pixels, a part costs more to add up than to count.
+    static constexpr std::size_t least_pixels = sizeof(Code) == 1 ? 1 << 16 : 1 << 20;
+
+    code_counter() : counts_(tables * levels) {}
 
     void add(const Code* codes, int count) {
         std::uint32_t* const table = counts_.data();
         int i = 0;
-        for (; i + 4 <= count; i += 4) {
-            ++table[codes[i]];
-            ++table[levels + codes[i + 1]];
-            ++table[2 * levels + codes[i + 2]];
-            ++table[3 * levels + codes[i + 3]];
+        if constexpr (tables == 4) {
+            for (; i + 4 <= count; i += 4) {
+                ++table[codes[i]];
+                ++table[levels + codes[i + 1]];
+                ++table[2 * levels + codes[i + 2]];
+                ++table[3 * levels + codes[i + 3]];
+            }
         }
         for (; i < count; ++i) ++table[codes[i]];
     }
@@ -128,13 +134,16 @@ class code_counter {
     }
 
     void add_to(histogram& sum) const {
-        for (std::size_t i = 0; i < levels; ++i)
-            sum.counts[i] += static_cast<std::uint32_t>(counts_[i] + counts_[levels + i] + counts_[2 * levels + i] +
-                                                        counts_[3 * levels + i]);
+        for (std::size_t i = 0; i < levels; ++i) {
+            std::uint32_t count = 0;  // of fewer than 2^32 pixels; one table may lack what another has too much
+            for (std::size_t table = 0; table < tables; ++table) count += counts_[table * levels + i];
+            sum.counts[i] += count;
+        }
     }
 
   private:
     static constexpr std::size_t levels = std::size_t{(std::numeric_limits<Code>::max)()} + 1;
+    static constexpr std::size_t tables = sizeof(Code) == 1 ? 4 : 1;
     std::vector<std::uint32_t> counts_;
 };
 
@@ -142,6 +151,8 @@ class code_counter {
 template <class Pixel>
 class bin_counter {
   public:
+    static constexpr std::size_t least_pixels = 1 << 20;
+
     explicit bin_counter(int bins) : bins_(bins), counts_(static_cast<std::size_t>(bins)) {}
 
     void add(const Pixel* pixels, int count) {
@@ -161,12 +172,11 @@ class bin_counter {
 template <class Pixel, executor E, class Make>
 histogram count_parts(image_view<const Pixel> source, int bins, E& ex, const Make& make) {
     using counter = decltype(make());
-    // Few and large parts, each below 2^32 pixels: what they cost is the adding up of bins.
-    const auto rows = static_cast<std::size_t>(source.height());
+    // Up to 16 parts of 2^31 pixels at most; a part of more rows than the image has is the image.
+    const std::size_t rows = static_cast<std::size_t>(source.height());
     const auto width = static_cast<std::size_t>((std::max)(source.width(), 1));
-    const std::size_t grain =
-        (std::max)(rows / 16 < (std::size_t{1} << 31) / width ? rows / 16 : (std::size_t{1} << 31) / width,
-                   (std::size_t{1} << 16) / width + 1);
+    const std::size_t most = (std::size_t{1} << 31) / width, least = counter::least_pixels / width + 1;
+    const std::size_t grain = (std::max)((std::min)(rows / 16 + 1, most), least);
     std::vector<histogram> sums((rows + grain - 1) / grain);
     bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         counter own = make();
