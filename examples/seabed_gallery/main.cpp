@@ -5,6 +5,7 @@
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "../common/pictures.hpp"
@@ -40,7 +41,7 @@ std::vector<entry> entries() {
                     sb::patches{.coverage = 0.4f, .size = 6}, 1.0f}},
         .seed = 4};
     return {
-        {"flat medium sand", 0.04, of(in::sediment::medium_sand), "sassed_12.png", 60, 230},
+        {"flat medium sand", 0.04, of(in::sediment::medium_sand), "sassed_14.png", 150, 190},
         {"ripples", 0.04, sb::ripples{.wavelength = 1.1f, .steepness = 0.12f, .seed = 5}, "sassed_00.png", 0, 60},
         {"ripples that fork", 0.04, sb::ripples{.wavelength = 0.9f, .spread = 0.16f, .bandwidth = 0.13f, .seed = 6},
          "sassed_28.png", 90, 20},
@@ -51,7 +52,7 @@ std::vector<entry> entries() {
                      .second = {.wavelength = 0.5f, .steepness = 0.06f, .direction = -0.9f},
                      .seed = 7},
          nullptr, 0, 0},
-        {"sand, mud, ripples", 0.06, sand_in_mud, "sassed_14.png", 170, 230},
+        {"sand, mud, ripples", 0.06, sand_in_mud, "sassed_10.png", 230, 0},
         {"mud with marks", 0.05, sb::mud{.seed = 8, .kind = sb::type::sandy_mud}, "sassed_02.png", 200, 60},
         {"mud, trawled", 0.1,
          sb::mud{.density = 0.05f, .trawls = {.density = 0.15f, .depth = 0.1f, .width = 0.8f}, .seed = 9}, nullptr, 0,
@@ -102,7 +103,14 @@ int main(int argc, char** argv) try {
     const std::string folder = argc > 2 ? argv[2] : EXAMPLES_REFERENCE "/sas_sassed";
     in::thread_pool pool;
     const std::vector<entry> all = entries();
-    constexpr int columns = 4;
+    const auto real_path = [&](const entry& e) {
+        const std::string path = folder + "/" + (e.real != nullptr ? e.real : "");
+        std::FILE* const there = e.real != nullptr ? std::fopen(path.c_str(), "rb") : nullptr;
+        if (there != nullptr) std::fclose(there);
+        return there != nullptr ? path : std::string();
+    };
+    const bool has_real = std::any_of(all.begin(), all.end(), [&](const entry& e) { return !real_path(e).empty(); });
+    const int columns = has_real ? 4 : 3;
     in::image<float> sheet(columns * (tile_width + gap) + gap,
                            static_cast<int>(all.size()) * (tile_height + gap + caption) + gap, 0.1f);
     std::printf("%-30s %-9s %9s %8s %8s %8s %8s %8s %8s %8s %8s\n", "seabed", "view", "deviation", "skewness", "across",
@@ -118,9 +126,7 @@ int main(int argc, char** argv) try {
             examples::write_text(sheet, left + 2, top + tile_height + 3, std::string(e.name) + ", " + view, 1.0f);
             left += tile_width + gap;
         }
-        const std::string path = folder + "/" + (e.real != nullptr ? e.real : "");
-        if (std::FILE* const there = e.real != nullptr ? std::fopen(path.c_str(), "rb") : nullptr) {
-            std::fclose(there);
+        if (const std::string path = real_path(e); !path.empty()) {
             const in::image<float> real = examples::read_gray(path);
             in::image<float> cut(tile_width, tile_height);
             for (int y = 0; y < tile_height; ++y)
