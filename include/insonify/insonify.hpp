@@ -67,7 +67,10 @@
 #include <insonify/seabed/rock.hpp>
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/tessellate.hpp>
+#include <insonify/shadow/box_tree.hpp>
+#include <insonify/shadow/exact.hpp>
 #include <insonify/shadow/light.hpp>
+#include <insonify/shadow/light_rays.hpp>
 #include <insonify/shadow/lookup.hpp>
 #include <insonify/shadow/map.hpp>
 #include <insonify/shadow/policy.hpp>
@@ -75,6 +78,7 @@
 #include <insonify/sonar/backscatter.hpp>
 #include <insonify/sonar/bottom_tiles.hpp>
 #include <insonify/sonar/display.hpp>
+#include <insonify/sonar/exact_light.hpp>
 #include <insonify/sonar/illumination.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/ping_echo.hpp>
@@ -85,6 +89,7 @@
 #include <insonify/sonar/scene.hpp>
 #include <insonify/sonar/sediment.hpp>
 #include <insonify/sonar/shading.hpp>
+#include <insonify/sonar/seabed_reach.hpp>
 #include <insonify/sonar/side_scan.hpp>
 #include <insonify/sonar/slant_range.hpp>
 #include <insonify/sonar/slant_to_ground.hpp>

@@ -95,7 +95,7 @@ class exact_shadows {
                   const glm::dvec2& rounded) {
             const glm::uvec3& t = s.placed->shape->triangles[triangle];
             const glm::dvec3 &a = s.corners[t.x], ab = s.corners[t.y] - a, ac = s.corners[t.z] - a;
-            // Tomas Möller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
+            // Tomas Moller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
             const glm::dvec3 ray = view.ray(x, y), from = view.eye() - a, p = numeric::cross(ray, ac);
             const double scale = 1 / numeric::dot(ab, p);
             double b = numeric::dot(from, p) * scale, c = numeric::dot(ray, numeric::cross(from, ab)) * scale;
