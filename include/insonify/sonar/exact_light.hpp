@@ -50,6 +50,8 @@ class exact_shadows {
         cast(ex);
     }
 
+    exact_shadows(const exact_shadows&) = delete;  // casters point to shapes
+
     /// Marks how much of the light reaches what the `useful` pixels show.
     /// @param f      their fragments
     /// @param shape  what they show: 0 the seabed, else the instance

@@ -8,8 +8,6 @@
 #include <insonify/sonar/seabed_reach.hpp>
 #include <insonify/sonar/shading.hpp>
 
-#include <bit>
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
@@ -97,7 +95,7 @@ class overhead_painter {
         require(cells <= 32768, "cells", cells, "at most 32768");
         require(options_.reach >= 0 && numeric::is_finite(options_.reach), "reach", options_.reach, "0 or more");
         const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
-        const double spacing = coarsely_rounded(longer_side / cells);
+        const double spacing = longer_side / cells;
 
         seabed::height_range range = merge(seabed::prepare(scene_.seabed).range(), {0, 0});
         const double longest = static_cast<double>(options_.reach) * longer_side;
@@ -144,23 +142,16 @@ class overhead_painter {
         std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
     }
 
-    /// To eleven bits. So many multiples of it are exact, in float too, that vertices are where they are to the last
-    /// bit, whatever else is sampled beside them.
-    static double coarsely_rounded(double length) {
-        constexpr std::uint64_t last = std::uint64_t{1} << 42;
-        return std::bit_cast<double>((std::bit_cast<std::uint64_t>(length) + last / 2) & ~(last - 1));
-    }
-
-    /// The grid of multiples of the spacing over a part of the ground. Its origin is relative to the rig's position, so
-    /// that far from the world's origin no bit of it changes.
+    /// The multiples of the spacing over a part of the ground: where a vertex is doesn't depend on what else is
+    /// sampled. They count from the rig's position, so that far from the world's origin no bit of it changes.
     static seabed::grid grid_under(const ground_box& ground, double spacing) {
         seabed::grid grid{.spacing = spacing};
         const auto along = [&](int axis) {
-            const double first = static_cast<double>(numeric::floor_to_int(ground.first[axis] / spacing));
-            const double count = 2 - static_cast<double>(numeric::floor_to_int(-ground.last[axis] / spacing)) - first;
+            const double first = static_cast<double>(numeric::floor_to_int(ground.first[axis] / spacing + 1e-6));
+            const double count = 1 - static_cast<double>(numeric::floor_to_int(-ground.last[axis] / spacing)) - first;
             require(count <= 1 << 20, "vertices of the seabed along an axis", count, "at most 2^20: less `reach`");
             grid.origin[axis] = spacing * first;
-            return static_cast<int>(count);
+            return static_cast<int>((std::max)(2.0, count));
         };
         grid.width = along(0);
         grid.height = along(1);

@@ -14,6 +14,7 @@ namespace peers {
 
 namespace in = insonify;
 
+template <insonify::shadow::policy Shadow>
 class insonify_renderer {
   public:
     insonify_renderer(workload::scene w, int threads) : pool_(threads) {
@@ -40,7 +41,7 @@ class insonify_renderer {
     }
 
   private:
-    using options = in::render_options<in::shadow::refined, in::no_labels>;
+    using options = in::render_options<Shadow, in::no_labels>;
 
     in::thread_pool pool_;
     in::scene scene_;
