@@ -51,10 +51,10 @@ void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit)
 }  // namespace detail
 
 /// The surface of a heightfield as a mesh of the triangles that it takes, given what it may be off by: at no point of a
-/// triangle is the drawn surface (`height_at`) farther above or below it than `allowed` at the triangle's corners; at
-/// no vertex below it are the slopes, and the vertices below it are all of one type. Where nothing may be left out, the
-/// triangles are those of `tessellate`; on a plane there are two, four times as many beside an edge whose length is no
-/// power of two cells.
+/// triangle is the drawn surface (`height_at`) farther above or below it than `allowed` at the triangle's corners; nor
+/// are the slopes at any vertex below it, and the vertices below it are all of one type. Where nothing may be left out
+/// the triangles are those of `tessellate`; a plane takes two, and some more beside an edge whose length isn't a power
+/// of two cells. Finding them takes several times as long as `tessellate` does.
 ///
 /// No two triangles that share a longest side could be replaced by the one that they are halves of.
 /// @throws invalid_input as `tessellate`, and for a negative or NaN leeway

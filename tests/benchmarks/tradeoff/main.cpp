@@ -107,7 +107,9 @@ candidate make_candidate(const in::scene& scene, const in::overhead& rig, const 
 void measure_pictures(const options& o, report::contents& into) {
     const in::overhead rig = rig_of(o);
     in::thread_pool pool(2);
-    for (const auto& [name, bottom] : seabeds) {
+    for (const auto& seabed : seabeds) {
+        const std::string& name = seabed.first;
+        const in::seabed::any& bottom = seabed.second;
         std::fprintf(stderr, "%s\n", name.c_str());
         in::scene scene;
         scene.seabed = bottom;

@@ -13,6 +13,7 @@
 namespace in = insonify;
 namespace sb = insonify::seabed;
 namespace acc = insonify::accuracy;
+using namespace in::literals;
 
 namespace {
 
@@ -49,7 +50,7 @@ trial random_trial(std::uint64_t seed, int pixels) {
              .altitude = between(0.4, 1.2),
              .yaw = between(0, 6.28),
              .size = {pixels, pixels},
-             .grazing = static_cast<float>(in::numeric::to_radians(kind == 2 ? between(10, 45) : between(4, 30))),
+             .grazing = between(kind == 2 ? 10 : 4, kind == 2 ? 45 : 30) * 1_deg,
              .light_azimuth = between(0, 6.28)};
     return t;
 }
