@@ -91,7 +91,10 @@ inline std::string trade_chart(const contents& c) {
         for (double ms : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0}) {
             if (std::log10(ms) < low_ms || std::log10(ms) > high_ms) continue;
             body += svg::line(x0, y(ms), x0 + width, y(ms), "#e2e2e2");
-            if (x0 == left) body += svg::text(x0 - 6, y(ms) + 4, svg::number(ms, 0) + " ms", " text-anchor='end'");
+            if (x0 == left)
+                body += svg::text(x0 - 6, y(ms) + 4,
+                                  ms < 1000 ? svg::number(ms, 0) + " ms" : svg::number(ms / 1000, 0) + " s",
+                                  " text-anchor='end'");
         }
         std::vector<const way*> front;
         for (const way& w : c.ways) {
