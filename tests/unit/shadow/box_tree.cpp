@@ -98,4 +98,10 @@ TEST_CASE("A point that is settled is asked about no more") {
     CHECK(tree.find<1>(at, 1, settle) == 1);
     CHECK(asked == 3);
     CHECK(tree.find<1>(at, 0, settle) == 0);
+
+    // Of several points only the one that is settled.
+    constexpr int count = INSONIFY_SIMD ? 4 : 1;
+    const std::vector<shadow::point_range> several(count, shadow::point_range(0, 0, 0, 0));
+    const auto settle_last = [&](std::uint32_t, int k) { return k == count - 1; };
+    CHECK(tree.find<count>(several.data(), (1u << count) - 1, settle_last) == 1u << (count - 1));
 }
