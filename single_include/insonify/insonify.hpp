@@ -8644,6 +8644,21 @@ class border {
     float per_metre_, relief_;
 };
 
+/// From the first to the last sample of a row that is wanted.
+struct extent {
+    std::size_t begin, end = 0;
+
+    void include(std::size_t i) {
+        begin = (std::min)(begin, i);
+        end = i + 1;
+    }
+    std::size_t size() const { return end > begin ? end - begin : 0; }
+    template <class T>
+    std::span<T> of(std::span<T> row) const {
+        return row.empty() ? row : row.subspan(begin, size());
+    }
+};
+
 /// Lays what `layer` samples over `heights` and `types`, which hold what lies below, or don't where the layer hides it:
 /// `below` is asked to fill them where they are wanted.
 template <class Below, typed_sampler Layer>
@@ -8653,21 +8668,22 @@ void lay_over(const outline& where, const border& edge, const Layer& layer, cons
     const stretch part(line, count);
     stretch_values across;
     where.margins(part, across);
-    bool any_layer = false, any_below = false;
+    // Away from borders one of the two is all there is to evaluate.
+    extent above{count}, under{count};
     for (std::size_t i = 0; i < count; ++i) {
         across[i] = edge.across(across[i]);
-        any_layer |= across[i] > 0;
-        any_below |= across[i] < 1;
+        if (across[i] > 0) above.include(i);
+        if (across[i] < 1) under.include(i);
     }
-    // Away from borders one of the two is all there is to evaluate.
-    if (!any_below) return layer.row(line, heights, types);
-    below(line, heights, types);
-    if (!any_layer) return;
+    if (under.size() > 0) below(line.from(under.begin), under.of(heights), under.of(types));
+    if (above.size() == 0) return;
 
     std::array<float, chunk> other;
     std::array<type, chunk> other_types;
-    layer.row(line, {other.data(), count}, {other_types.data(), types.size()});
-    for (std::size_t i = 0; i < count; ++i) {
+    const std::span<float> layer_heights(other.data(), count);
+    const std::span<type> layer_types(other_types.data(), types.size());
+    layer.row(line.from(above.begin), above.of(layer_heights), above.of(layer_types));
+    for (std::size_t i = above.begin; i < above.end; ++i) {
         const border::meeting top = edge.at(across[i], heights[i], other[i]);
         heights[i] = top.height;
         if (top.is_layer && !types.empty()) types[i] = other_types[i];
