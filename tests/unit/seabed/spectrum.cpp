@@ -214,7 +214,8 @@ TEST_CASE("Blocks of rock come in the numbers that their exponent says") {
     // The share of the ground under blocks of each size class, alone: with an exponent of 2 it is the same for all.
     const auto covered = [](float spacing, float share) {
         in::image<float> values(200, 200);
-        const sb::detail::block_layer layer(spacing, share, 1, 1000, {7, sb::detail::stream::blocks, 0});
+        const sb::detail::block_layer layer(static_cast<double>(spacing), share, 1, 1000,
+                                            {7, sb::detail::stream::blocks, 0});
         std::size_t count = 0;
         for (int j = 0; j < 200; ++j) {
             const sb::scanline line{.y = 0.31 * j, .spacing = 0.29};
