@@ -4552,7 +4552,7 @@ class needed_vertices {
                 load(value, row + x);
                 const floats off = value - (start + dx_ * (across + static_cast<float>(x - from_.x)));
                 const ints fit = ints(off <= most_) & ints(-off <= most_);
-                if (any(ints(fit == 0))) return false;
+                if (insonify::detail::any(ints(fit == 0))) return false;
             }
             for (; x <= last; ++x) {
                 const float off = row[x] - (start + dx_ * static_cast<float>(x - from_.x));

@@ -193,7 +193,8 @@ TEST_CASE("MATLAB's integer classes are counts themselves") {
     const auto wide = in::image<std::uint16_t>(300, 200, 1000);
     CHECK((wide | in::matlab_poisson{.seed = 4}) == (wide | in::poisson{.photons = 65535, .seed = 4}));
     double mean = 0, square = 0;
-    for (const std::uint16_t v : (wide | in::matlab_poisson{.seed = 4}).pixels()) {
+    const auto counts = wide | in::matlab_poisson{.seed = 4};
+    for (const std::uint16_t v : counts.pixels()) {
         mean += v / 6e4;
         square += (v - 1000.0) * (v - 1000.0) / 6e4;
     }

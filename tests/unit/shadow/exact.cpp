@@ -297,7 +297,7 @@ TEST_CASE("One vertical wall of a seabed, and one flat as a table") {
     }
 }
 
-TEST_CASE("The answers are the same at every instruction set and for any executor") {
+TEST_CASE("Exact answers are the same at every instruction set and for any executor") {
     in::thread_pool pool(3);
     const auto same = [&](const auto& light) {
         const lit_mesh serial(rough(), light), threads(rough(), light, true, 0, pool);
