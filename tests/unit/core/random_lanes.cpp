@@ -19,7 +19,7 @@ struct draws {
     std::vector<std::uint32_t> words;
     std::vector<double> logarithms, normals;
 };
-struct draw_kernel {
+struct counting_kernel {
     draws& into;
     std::size_t count;
 
@@ -53,7 +53,7 @@ TEST_CASE("Words, logarithms and normal draws are the same one by one and in lan
     const in::isa level = GENERATE(in::isa::scalar, in::isa::baseline, in::isa::avx2);
     constexpr std::size_t count = 20000;
     draws found;
-    dispatch(draw_kernel{found, count}, level);
+    dispatch(counting_kernel{found, count}, level);
     REQUIRE(found.words.size() == 4 * count);
     const auto same = [](double a, double b) {
         return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
