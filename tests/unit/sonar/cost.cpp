@@ -38,10 +38,12 @@ TEST_CASE("A chip costs a chip, not the picture it is cut from") {
         CHECK(chip.seabed_samples * 15 < whole.seabed_samples);
         CHECK(chip.seabed_samples >=
               static_cast<std::uint64_t>(chip.seabed_columns) * static_cast<std::uint64_t>(chip.seabed_rows));
-        // With shadows, what can throw one into the chip: relief x cot(10 degrees) up-light of it, and no more.
+        // With shadows, what can throw one into the chip: the range that heights keep to x cot(10 degrees) up-light of
+        // it, and no more.
         const auto shadowed = cost_of(bottom, chip_of(rig, 256));
         const double spacing = 2 * in::overhead_geometry(rig).half_extent(0).x / 512;
-        const double reach = 0.25 / std::tan(0.1745) / spacing;
+        const auto range = in::seabed::merge(in::seabed::prepare(bottom).range(), {0, 0});
+        const double reach = (range.highest - range.lowest) / std::tan(0.1745) / spacing + 2;
         CHECK(shadowed.seabed_columns >= chip.seabed_columns);
         CHECK(shadowed.seabed_columns <= chip.seabed_columns + reach);
         CHECK(shadowed.seabed_rows <= chip.seabed_rows * 3 / 2);
