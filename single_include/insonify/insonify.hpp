@@ -91,7 +91,11 @@
 #define INSONIFY_INLINE inline __attribute__((always_inline))
 #define INSONIFY_INLINE_LAMBDA __attribute__((always_inline))
 #define INSONIFY_RARE __attribute__((noinline))
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define INSONIFY_UNROLL  // what is checked at every access takes minutes to compile unrolled
+#else
 #define INSONIFY_UNROLL _Pragma("GCC unroll 16")  // -O2 leaves even a loop of three as one
+#endif
 #else
 #define INSONIFY_UNROLL
 #define INSONIFY_INLINE inline
