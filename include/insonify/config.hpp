@@ -36,13 +36,22 @@
 
 // Fused multiply-add rounds once where a product and a sum round twice, so a compiler that may fuse changes bytes.
 // Every header that computes with floats stands between these two, which forbid it there whatever the user's flags
-// allow. (clang heeds no pragma under an explicit -ffp-contract=fast; fast-honor-pragmas is the same and does.)
+// allow. (clang heeds no pragma under an explicit -ffp-contract=fast; fast-honor-pragmas is the same and does.) g++ is
+// also asked not to remark on how wide vectors are passed: they stay inside always-inlined code.
 #if defined(__clang__)
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define INSONIFY_ARITHMETIC_END _Pragma("float_control(pop)")
-#elif defined(__GNUC__) && defined(__FP_FAST_FMA)
-#define INSONIFY_ARITHMETIC_BEGIN _Pragma("GCC push_options") _Pragma("GCC optimize(\"fp-contract=off\")")
-#define INSONIFY_ARITHMETIC_END _Pragma("GCC pop_options")
+#elif defined(__GNUC__)
+#define INSONIFY_ARITHMETIC_BEGIN \
+    INSONIFY_CONTRACTION_OFF _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wpsabi\"")
+#define INSONIFY_ARITHMETIC_END _Pragma("GCC diagnostic pop") INSONIFY_CONTRACTION_BACK
+#if defined(__FP_FAST_FMA)
+#define INSONIFY_CONTRACTION_OFF _Pragma("GCC push_options") _Pragma("GCC optimize(\"fp-contract=off\")")
+#define INSONIFY_CONTRACTION_BACK _Pragma("GCC pop_options")
+#else
+#define INSONIFY_CONTRACTION_OFF
+#define INSONIFY_CONTRACTION_BACK
+#endif
 #else
 #define INSONIFY_ARITHMETIC_BEGIN
 #define INSONIFY_ARITHMETIC_END

@@ -7,11 +7,6 @@
 #include <insonify/core/dispatch.hpp>
 #include <insonify/core/random_lanes.hpp>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
@@ -183,9 +178,5 @@ INSONIFY_INLINE void normal_lanes(lanes<float, N>& first, lanes<float, N>& secon
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END

@@ -6,11 +6,6 @@
 
 #include <insonify/core/random.hpp>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
@@ -89,9 +84,5 @@ inline double mean_of_rice(double steady) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END

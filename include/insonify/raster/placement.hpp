@@ -10,11 +10,6 @@
 
 #include <memory>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
@@ -98,9 +93,5 @@ struct placement_kernel {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END

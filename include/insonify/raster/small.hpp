@@ -9,11 +9,6 @@
 
 #include <limits>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
@@ -111,9 +106,5 @@ struct small_setup {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END

@@ -10,11 +10,6 @@
 
 #include <bit>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
@@ -220,9 +215,5 @@ struct small_fill {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END

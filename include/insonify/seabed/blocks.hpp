@@ -9,11 +9,6 @@
 
 #include <insonify/seabed/strewn.hpp>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed::detail {
@@ -183,9 +178,5 @@ class block_layer {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed::detail
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END

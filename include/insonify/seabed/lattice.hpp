@@ -17,11 +17,6 @@
 #include <array>
 #include <cstdint>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed::detail {
@@ -270,9 +265,5 @@ INSONIFY_INLINE void clamp_lanes(Lanes& t) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed::detail
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END

@@ -12,11 +12,6 @@
 
 #include <glm/vec3.hpp>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
@@ -141,9 +136,5 @@ image<glm::vec3> normals(const heightfield& field, Executor&& ex = serial_execut
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END

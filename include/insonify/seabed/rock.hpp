@@ -4,11 +4,6 @@
 #include <insonify/seabed/blocks.hpp>
 #include <insonify/seabed/noise.hpp>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
@@ -153,9 +148,5 @@ inline float rock::operator()(double x, double y) const {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END

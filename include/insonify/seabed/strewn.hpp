@@ -3,11 +3,6 @@
 
 #include <insonify/seabed/lattice.hpp>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed::detail {
@@ -103,9 +98,5 @@ class round_marks {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed::detail
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END

@@ -11,11 +11,6 @@
 #include <insonify/sonar/illumination.hpp>
 #include <insonify/sonar/rig.hpp>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
@@ -182,9 +177,5 @@ class exact_shadows {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END

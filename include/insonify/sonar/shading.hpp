@@ -6,11 +6,6 @@
 #include <insonify/sonar/illumination.hpp>
 #include <insonify/sonar/rig.hpp>
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
@@ -196,9 +191,5 @@ class surface_shader {
 
 }  // namespace detail
 }  // namespace insonify::inline INSONIFY_ABI
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
