@@ -60,22 +60,22 @@
 // Run-time dispatch to wider instruction sets: x86-64 with GNU attributes only. Other targets compile one path.
 #if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__)
 #define INSONIFY_DISPATCH 1
-#define INSONIFY_TARGET(isa) __attribute__((target(isa), flatten, noinline))
 #else
 #define INSONIFY_DISPATCH 0
 #endif
 
-#if defined(__GNUC__)
+// A kernel is one function, whatever it calls. Not where every access is checked: that would compile for minutes.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define INSONIFY_TARGET(isa) __attribute__((target(isa), noinline))
+#define INSONIFY_INLINE inline
+#define INSONIFY_INLINE_LAMBDA
+#define INSONIFY_RARE __attribute__((noinline))
+#elif defined(__GNUC__)
+#define INSONIFY_TARGET(isa) __attribute__((target(isa), flatten, noinline))
 #define INSONIFY_INLINE inline __attribute__((always_inline))
 #define INSONIFY_INLINE_LAMBDA __attribute__((always_inline))
 #define INSONIFY_RARE __attribute__((noinline))
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define INSONIFY_UNROLL  // what is checked at every access takes minutes to compile unrolled
 #else
-#define INSONIFY_UNROLL _Pragma("GCC unroll 16")  // -O2 leaves even a loop of three as one
-#endif
-#else
-#define INSONIFY_UNROLL
 #define INSONIFY_INLINE inline
 #define INSONIFY_INLINE_LAMBDA
 #define INSONIFY_RARE

@@ -67,13 +67,22 @@
 
 // Fused multiply-add rounds once where a product and a sum round twice, so a compiler that may fuse changes bytes.
 // Every header that computes with floats stands between these two, which forbid it there whatever the user's flags
-// allow. (clang heeds no pragma under an explicit -ffp-contract=fast; fast-honor-pragmas is the same and does.)
+// allow. (clang heeds no pragma under an explicit -ffp-contract=fast; fast-honor-pragmas is the same and does.) g++ is
+// also asked not to remark on how wide vectors are passed: they stay inside always-inlined code.
 #if defined(__clang__)
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define INSONIFY_ARITHMETIC_END _Pragma("float_control(pop)")
-#elif defined(__GNUC__) && defined(__FP_FAST_FMA)
-#define INSONIFY_ARITHMETIC_BEGIN _Pragma("GCC push_options") _Pragma("GCC optimize(\"fp-contract=off\")")
-#define INSONIFY_ARITHMETIC_END _Pragma("GCC pop_options")
+#elif defined(__GNUC__)
+#define INSONIFY_ARITHMETIC_BEGIN \
+    INSONIFY_CONTRACTION_OFF _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wpsabi\"")
+#define INSONIFY_ARITHMETIC_END _Pragma("GCC diagnostic pop") INSONIFY_CONTRACTION_BACK
+#if defined(__FP_FAST_FMA)
+#define INSONIFY_CONTRACTION_OFF _Pragma("GCC push_options") _Pragma("GCC optimize(\"fp-contract=off\")")
+#define INSONIFY_CONTRACTION_BACK _Pragma("GCC pop_options")
+#else
+#define INSONIFY_CONTRACTION_OFF
+#define INSONIFY_CONTRACTION_BACK
+#endif
 #else
 #define INSONIFY_ARITHMETIC_BEGIN
 #define INSONIFY_ARITHMETIC_END
@@ -82,22 +91,22 @@
 // Run-time dispatch to wider instruction sets: x86-64 with GNU attributes only. Other targets compile one path.
 #if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__)
 #define INSONIFY_DISPATCH 1
-#define INSONIFY_TARGET(isa) __attribute__((target(isa), flatten, noinline))
 #else
 #define INSONIFY_DISPATCH 0
 #endif
 
-#if defined(__GNUC__)
+// A kernel is one function, whatever it calls. Not where every access is checked: that would compile for minutes.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define INSONIFY_TARGET(isa) __attribute__((target(isa), noinline))
+#define INSONIFY_INLINE inline
+#define INSONIFY_INLINE_LAMBDA
+#define INSONIFY_RARE __attribute__((noinline))
+#elif defined(__GNUC__)
+#define INSONIFY_TARGET(isa) __attribute__((target(isa), flatten, noinline))
 #define INSONIFY_INLINE inline __attribute__((always_inline))
 #define INSONIFY_INLINE_LAMBDA __attribute__((always_inline))
 #define INSONIFY_RARE __attribute__((noinline))
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define INSONIFY_UNROLL  // what is checked at every access takes minutes to compile unrolled
 #else
-#define INSONIFY_UNROLL _Pragma("GCC unroll 16")  // -O2 leaves even a loop of three as one
-#endif
-#else
-#define INSONIFY_UNROLL
 #define INSONIFY_INLINE inline
 #define INSONIFY_INLINE_LAMBDA
 #define INSONIFY_RARE
@@ -1117,6 +1126,45 @@ struct triangle_run {
     bool is_small;  ///< eight go through the set-up at a time
 };
 
+/// Reads the triangles of some runs in order, small ones as many at a time as are wanted, whatever their runs.
+class run_reader {
+  public:
+    explicit run_reader(std::span<const triangle_run> runs) : runs_(runs) {}
+
+    bool empty() const { return runs_.empty(); }
+
+    /// The next small triangles, `most` of them or as many as come before one that isn't small.
+    /// @returns how many
+    int take_small(std::uint32_t* names, int most) {
+        int count = 0;
+        while (!runs_.empty() && runs_.front().is_small && count < most) {
+            const std::span<const std::uint32_t> left = runs_.front().names.subspan(taken_);
+            const auto some = (std::min)(left.size(), static_cast<std::size_t>(most - count));
+            std::copy_n(left.data(), some, names + count);
+            count += static_cast<int>(some);
+            taken_ += some;
+            if (some < left.size()) break;
+            next();
+        }
+        return count;
+    }
+    /// The next run.
+    std::span<const std::uint32_t> take_run() {
+        const std::span<const std::uint32_t> names = runs_.front().names;
+        next();
+        return names;
+    }
+
+  private:
+    void next() {
+        runs_ = runs_.subspan(1);
+        taken_ = 0;
+    }
+
+    std::span<const triangle_run> runs_;
+    std::size_t taken_ = 0;  ///< of the first of them
+};
+
 /// The runs of one chunk.
 class tile_runs {
   public:
@@ -1538,43 +1586,52 @@ INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from)
     }
 }
 
+#if INSONIFY_SIMD
+/// Within every four lanes, lane i of row[k] becomes lane k of into[i]; for N of 4 or 8.
+template <int N>
+INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N> (&row)[4]) {
+    static_assert(N == 4 || N == 8);
+    lanes<float, N> low[2], high[2];
+    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
+        const auto &a = row[2 * k], &b = row[2 * k + 1];
+        if constexpr (N == 4) {
+            low[k] = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+            high[k] = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+        } else {
+            low[k] = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+            high[k] = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+        }
+    });
+    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
+        const auto &a = k == 0 ? low[0] : high[0], &b = k == 0 ? low[1] : high[1];
+        if constexpr (N == 4) {
+            into[2 * k] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+            into[2 * k + 1] = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+        } else {
+            into[2 * k] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+            into[2 * k + 1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    });
+}
+#endif
+
 /// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 4 or 8.
 template <int N, class Rows>
 INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
 #if INSONIFY_SIMD
     // Four lanes of eight lie side by side with the other four and go the same way.
-    using floats = lanes<float, N>;
-    floats row[4], pair[4];
-    INSONIFY_UNROLL
-    for (int k = 0; k < 4; ++k) {
+    lanes<float, N> row[4];
+    unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA {
         if constexpr (N == 4) {
             load(row[k], rows(k));
         } else {
-            static_assert(N == 8);
             lanes<float, 4> first, second;
             load(first, rows(k));
             load(second, rows(k + 4));
             row[k] = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
         }
-    }
-    INSONIFY_UNROLL
-    for (int k = 0; k < 4; k += 2)
-        if constexpr (N == 4) {
-            pair[k] = __builtin_shufflevector(row[k], row[k + 1], 0, 4, 1, 5);
-            pair[k + 1] = __builtin_shufflevector(row[k], row[k + 1], 2, 6, 3, 7);
-        } else {
-            pair[k] = __builtin_shufflevector(row[k], row[k + 1], 0, 8, 1, 9, 4, 12, 5, 13);
-            pair[k + 1] = __builtin_shufflevector(row[k], row[k + 1], 2, 10, 3, 11, 6, 14, 7, 15);
-        }
-    INSONIFY_UNROLL
-    for (int k = 0; k < 2; ++k)
-        if constexpr (N == 4) {
-            into[2 * k] = __builtin_shufflevector(pair[k], pair[k + 2], 0, 1, 4, 5);
-            into[2 * k + 1] = __builtin_shufflevector(pair[k], pair[k + 2], 2, 3, 6, 7);
-        } else {
-            into[2 * k] = __builtin_shufflevector(pair[k], pair[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-            into[2 * k + 1] = __builtin_shufflevector(pair[k], pair[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
-        }
+    });
+    transpose_fours<N>(into, row);
 #else
     std::memcpy(into, rows(0), 4 * sizeof(float));
 #endif
@@ -1991,11 +2048,6 @@ INSONIFY_ARITHMETIC_END
 // A triangle is small if it extends less than 2^14 sub-pixels; then differences of its corners have 15 bits and edge
 // functions 30. What is decided here is what setup.hpp decides for triangles of any size, in the same integers.
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
@@ -2094,10 +2146,6 @@ struct small_setup {
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/placement.hpp -------------------------------------------------------------
@@ -2105,11 +2153,6 @@ INSONIFY_ARITHMETIC_END
 // time.
 
 #include <memory>
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2195,10 +2238,6 @@ struct placement_kernel {
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/assembly.hpp --------------------------------------------------------------
@@ -2208,11 +2247,6 @@ INSONIFY_ARITHMETIC_END
 // and no number of clipping planes makes less exact.
 
 #include <optional>
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2558,10 +2592,6 @@ struct assembly_kernel {
 }  // namespace detail
 }  // namespace insonify::inline INSONIFY_ABI
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/small_depth.hpp -----------------------------------------------------------
@@ -2570,11 +2600,6 @@ INSONIFY_ARITHMETIC_END
 // In double they are depth.hpp's planes, with a bound of the error, so that depths come out correctly rounded. In float
 // they are off by a few units in the last place of the largest corner's depth, held between the corners' depths, and
 // cost a third less. Both give a pixel the same depth whichever tile asks.
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2630,10 +2655,6 @@ struct small_planes {
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/tile_buffer.hpp -----------------------------------------------------------
@@ -2641,11 +2662,6 @@ INSONIFY_ARITHMETIC_END
 //
 // A tile resolves visibility in buffers of its own that stay in the first-level cache; who won is known before anything
 // is shaded, and shading happens once per pixel.
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2728,10 +2744,6 @@ INSONIFY_INLINE void keep_nearer(float* depth, std::uint32_t* winner, const lane
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/small_fill.hpp ------------------------------------------------------------
@@ -2740,11 +2752,6 @@ INSONIFY_ARITHMETIC_END
 // A triangle of a fine mesh covers two or three pixels. Rows of eight would mostly miss, so where a group's triangles
 // are tiny, each lane walks over the box of its own triangle, and only the pixels that came out covered are compared
 // with the tile, triangle after triangle. Others go row by row. Both ways give the same bits.
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2775,6 +2782,7 @@ struct small_fill {
 
   private:
     static constexpr bool exact = small_planes<N, Real>::exact;
+    static constexpr int block = tile_buffer<Winners>::block;
     static constexpr auto lane_count = static_cast<std::size_t>(N);
     using ints = lanes<std::int32_t, N>;
     using floats = lanes<float, N>;
@@ -2805,12 +2813,17 @@ struct small_fill {
         }
     }
 
+    /// What lies in N boxes: bit 4 row + column of a lane is about that pixel of its box, and so is the depth there.
+    struct box_pixels {
+        ints covered{}, doubtful{};
+        float depth[static_cast<unsigned>(block * block * N)];
+    };
+
     /// One pixel of N boxes at a time, each no larger than Size x Size.
     template <int Size, class Nearest>
     INSONIFY_INLINE void fill_boxes(const ints& wide, const ints& tall, const Nearest& nearest) const {
-        static_assert(Size <= tile_buffer<Winners>::block);
-        constexpr int pitch = tile_buffer<Winners>::block;
-        ints bc, bc_dx, bc_dy, ca, ca_dx, ca_dy, ab, ab_dx, ab_dy, right, down, x0, y0;
+        static_assert(Size <= block);
+        ints bc, bc_dx, bc_dy, ca, ca_dx, ca_dy, ab, ab_dx, ab_dy, right, down;
         load(bc, t.bc.origin), load(bc_dx, t.bc.dx), load(bc_dy, t.bc.dy);
         load(ca, t.ca.origin), load(ca_dx, t.ca.dx), load(ca_dy, t.ca.dy);
         load(ab, t.ab.origin), load(ab_dx, t.ab.dx), load(ab_dy, t.ab.dy);
@@ -2821,87 +2834,82 @@ struct small_fill {
         floats lowest, highest;
         load(lowest, planes.lowest), load(highest, planes.highest);
         reals rise[static_cast<unsigned>(Size)];
-        INSONIFY_UNROLL
-        for (int column = 0; column < Size; ++column) {
+        unroll<Size>([&](int column) INSONIFY_INLINE_LAMBDA {
             convert(rise[column], ints(right + column * unit));
             rise[column] = rise[column] * dx;
-        }
+        });
 
-        // Bit 4 row + column of a lane is about that pixel of its box.
-        ints covered = ints{}, doubtful = ints{};
-        float depth[static_cast<unsigned>(Size * pitch * N)];
-        INSONIFY_UNROLL
-        for (int row = 0; row < Size; ++row) {
+        box_pixels found;
+        unroll<Size>([&](int row) INSONIFY_INLINE_LAMBDA {
             ints bc_x = bc, ca_x = ca, ab_x = ab;
             reals drop;
             convert(drop, ints(down + row * unit));
             drop = z_a + dy * drop;
-            INSONIFY_UNROLL
-            for (int column = 0; column < Size; ++column) {
+            unroll<Size>([&](int column) INSONIFY_INLINE_LAMBDA {
+                const int pixel = row * block + column;
+                const ints bit = ints{} + (1 << pixel);
                 const ints outside = bc_x | ca_x | ab_x | (wide - column) | (tall - row);
-                const std::int32_t bit = 1 << (row * pitch + column);
-                covered |= outside >= 0 ? ints{} + bit : ints{};
-                const reals plane = rise[column] + drop;
+                found.covered |= outside >= 0 ? bit : ints{};
                 floats z;
                 ints in_doubt = ints{};
-                round(z, in_doubt, plane, error);
-                if constexpr (exact) doubtful |= in_doubt ? ints{} + bit : ints{};
+                round(z, in_doubt, rise[column] + drop, error);
+                if constexpr (exact) found.doubtful |= in_doubt ? bit : ints{};
                 z = z > lowest ? z : lowest;
                 z = z < highest ? z : highest;
-                store(depth + (row * pitch + column) * N, z);
+                store(found.depth + pixel * N, z);
                 bc_x += bc_dx;
                 ca_x += ca_dx;
                 ab_x += ab_dx;
-            }
+            });
             bc += bc_dy;
             ca += ca_dy;
             ab += ab_dy;
-        }
+        });
         if constexpr (exact) {
-            doubtful &= covered;
-            if (any(doubtful)) settle(doubtful, depth, nearest);
+            found.doubtful &= found.covered;
+            if (any(found.doubtful)) settle(found, nearest);
         }
+        keep_covered(found);
+    }
 
+    /// Compares what is covered with the tile: triangle after triangle, so that who comes first keeps a tie.
+    INSONIFY_INLINE void keep_covered(const box_pixels& found) const {
         std::int32_t start[lane_count];
-        ints index;
+        ints x0, y0, index;
         load(x0, t.x0), load(y0, t.y0);
         tile.template index<N>(index, x0, y0);
         store(start, index);
         const std::int32_t* const in_block = tile.in_block();
         float* const depths = tile.depths();
         std::uint32_t* const winners = tile.winners();
-        // Sixteen bits a triangle, in order: who comes first keeps a tie.
-        constexpr int pixels = pitch * pitch, per_word = 64 / pixels;
+        // Sixteen bits a triangle, four triangles a word.
+        constexpr int pixels = block * block, per_word = 64 / pixels, word_count = (N + per_word - 1) / per_word;
         lanes<std::uint16_t, N> bits;
-        convert(bits, covered);
-        std::uint64_t words[(lane_count + per_word - 1) / per_word] = {};
+        convert(bits, found.covered);
+        std::uint64_t words[static_cast<unsigned>(word_count)] = {};
         if constexpr (N == 1)
             words[0] = bits;
         else
             std::memcpy(words, &bits, sizeof bits);
-        int first = 0;
-        INSONIFY_UNROLL
-        for (std::uint64_t left : words) {
-            for (; left != 0; left &= left - 1) {
-                const int bit = std::countr_zero(left), k = first + bit / pixels, pixel = bit % pixels;
+        unroll<word_count>([&](int word) INSONIFY_INLINE_LAMBDA {
+            for (std::uint64_t left = words[word]; left != 0; left &= left - 1) {
+                const int bit = std::countr_zero(left), k = word * per_word + bit / pixels, pixel = bit % pixels;
                 const std::ptrdiff_t at = start[k] + in_block[pixel];
-                const float z = depth[pixel * N + k];
+                const float z = found.depth[pixel * N + k];
                 if (!(z < depths[at])) continue;
                 depths[at] = z;
                 if constexpr (Winners) winners[at] = names[k];
             }
-            first += per_word;
-        }
+        });
     }
 
     template <class Nearest>
-    INSONIFY_INLINE void settle(const ints& doubtful, float* depth, const Nearest& nearest) const {
-        constexpr int pitch = tile_buffer<Winners>::block;
+    INSONIFY_INLINE void settle(box_pixels& found, const Nearest& nearest) const {
         for (int k = 0; k < count; ++k)
-            for (auto left = static_cast<std::uint32_t>(lane(doubtful, k)); left != 0; left &= left - 1) {
+            for (auto left = static_cast<std::uint32_t>(lane(found.doubtful, k)); left != 0; left &= left - 1) {
                 const int pixel = std::countr_zero(left);
-                const float z = nearest(k, t.x0[k] + pixel % pitch, t.y0[k] + pixel / pitch);
-                depth[pixel * N + k] = (std::min)((std::max)(z, planes.lowest[k]), planes.highest[k]);
+                const float z = nearest(k, t.x0[k] + pixel % block, t.y0[k] + pixel / block);
+                found.depth[pixel * N + k] = (std::min)((std::max)(z, planes.lowest[k]), planes.highest[k]);
             }
     }
 
@@ -2912,7 +2920,8 @@ struct small_fill {
         count_up<std::int32_t, N>(column);
         const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + names[k];
         const floats lowest = floats{} + planes.lowest[k], highest = floats{} + planes.highest[k];
-        const reals error = reals{} + planes.error[k];
+        reals error{};
+        if constexpr (exact) error = error + planes.error[k];
         for (int x = t.x0[k]; x <= t.x1[k]; x += N) {
             const ints at = column + (x - t.x0[k]);
             ints bc = t.bc.origin[k] + at * t.bc.dx[k];
@@ -2952,19 +2961,10 @@ struct small_fill {
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/tile.hpp ------------------------------------------------------------------
 // The pixel loop: one tile, its triangles in order, coverage and depth several pixels at a time.
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -3086,28 +3086,13 @@ struct tile_kernel {
         tile.restart(box.x0, box.y0);
         tile.template clear<Width>();
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
-        // Small triangles are taken by the vector, from as many runs as it needs; none overtakes another.
-        std::span<const triangle_run> runs = triangles.runs();
-        std::size_t taken = 0;  // of the first of them
-        while (!runs.empty()) {
+        run_reader left(triangles.runs());
+        while (!left.empty()) {
             std::uint32_t names[static_cast<unsigned>(N)];
-            int count = 0;
-            while (!runs.empty() && runs.front().is_small && count < N) {
-                const std::span<const std::uint32_t> left = runs.front().names.subspan(taken);
-                const auto some = (std::min)(left.size(), static_cast<std::size_t>(N - count));
-                std::copy_n(left.data(), some, names + count);
-                count += static_cast<int>(some);
-                taken += some;
-                if (some < left.size()) break;
-                runs = runs.subspan(1);
-                taken = 0;
-            }
-            if (count > 0) {
+            if (const int count = left.take_small(names, N))
                 draw_small<N>(names, count);
-            } else {
-                for (const std::uint32_t name : runs.front().names) draw_one<N>(name);
-                runs = runs.subspan(1);
-            }
+            else
+                for (const std::uint32_t name : left.take_run()) draw_one<N>(name);
         }
         copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
     }
@@ -3178,10 +3163,6 @@ struct tile_kernel {
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/fragment_lanes.hpp --------------------------------------------------------
@@ -3190,11 +3171,6 @@ INSONIFY_ARITHMETIC_END
 // Where a triangle of a fine mesh covers two or three pixels, most of the work is to fetch its corners. So what the
 // vertex callable gives is kept for each vertex, beside what interpolation needs, in whole vectors of four floats; and
 // a pixel takes its three corners in a few loads.
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -3238,8 +3214,7 @@ class fragment_lanes {
         const glm::uvec3* corners[count];
         if (!any(ints(name >= screen.compact_names()))) {
             std::memcpy(triangles, names, sizeof triangles);
-            INSONIFY_UNROLL
-            for (int k = 0; k < N; ++k) corners[k] = &screen.indices(names[k]);
+            unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(names[k]); });
             read_corners(records, corners);
             const grid_place* const places = screen.places();
             weigh(screen.grid(),
@@ -3266,19 +3241,17 @@ class fragment_lanes {
 
     /// @param corners  of the lanes' triangles
     INSONIFY_INLINE void read_corners(const record* records, const glm::uvec3* const (&corners)[count]) {
-        INSONIFY_UNROLL
-        for (int i = 0; i < 3; ++i) {
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             if constexpr (N == 1) {
                 std::memcpy(values_[i], records[(*corners[0])[i]].values, sizeof values_[i]);
             } else {
                 const float* from[count];
-                INSONIFY_UNROLL
-                for (int k = 0; k < N; ++k) from[k] = records[(*corners[k])[i]].values;
-                INSONIFY_UNROLL
-                for (int block = 0; block < 4 * record::blocks; block += 4)
-                    transpose<N>(values_[i] + block, [&](int k) { return from[k] + block; });
+                unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { from[k] = records[(*corners[k])[i]].values; });
+                unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
+                    transpose<N>(values_[i] + 4 * block, [&](int k) { return from[k] + 4 * block; });
+                });
             }
-        }
+        });
     }
 
     /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out. In float a
@@ -3300,11 +3273,9 @@ class fragment_lanes {
         weights[1] = cx * ay - cy * ax;
         weights[2] = ax * by - ay * bx;
         front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
-        INSONIFY_UNROLL
-        for (int i = 0; i < 3; ++i) weights[i] = weights[i] * values_[i][record::count];
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * values_[i][record::count]; });
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
-        INSONIFY_UNROLL
-        for (int i = 0; i < 3; ++i) weights[i] = weights[i] * scale;
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * scale; });
     }
     /// Where one of them was clipped, or is too large.
     template <class Screen>
@@ -3384,10 +3355,6 @@ struct shading_kernel {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
 
@@ -4087,11 +4054,6 @@ INSONIFY_ARITHMETIC_END
 // whatever the recipe was. Of a wave of n vertices to the length they give sin(2 pi / n) / (2 pi / n) of the slope:
 // 0.90 at 8, 0.97 at 16.
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
@@ -4216,10 +4178,6 @@ image<glm::vec3> normals(const heightfield& field, Executor&& ex = serial_execut
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
 
@@ -5194,11 +5152,6 @@ INSONIFY_ARITHMETIC_END
 //
 // Based on: Guy M. Morton. A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing. IBM, 1966.
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::shadow {
@@ -5484,10 +5437,6 @@ class box_tree {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
 
@@ -6151,11 +6100,6 @@ INSONIFY_ARITHMETIC_END
 // light. So for solids only those sides are drawn into the map: half of the triangles, and no lit surface is ever
 // compared with itself, which needs no bias.
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::shadow {
@@ -6244,11 +6188,10 @@ class caster_map {
         gather_pairs<N>(h[0], h[1], [&](int k) { return heights + lane(first, k); });
         gather_pairs<N>(h[2], h[3], [&](int k) { return heights + lane(first, k) + width; });
         floats low = h[0], high = h[0];
-        INSONIFY_UNROLL
-        for (int i = 1; i < 4; ++i) {
-            low = h[i] < low ? h[i] : low;
-            high = h[i] > high ? h[i] : high;
-        }
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            low = h[i + 1] < low ? h[i + 1] : low;
+            high = h[i + 1] > high ? h[i + 1] : high;
+        });
         // All four below by more than they differ, or above by as much: that is how far a surface may go on changing.
         // Nothing is minus infinity: beside something, it makes the difference infinite.
         const floats spread = high - low;
@@ -6350,10 +6293,6 @@ class caster_map {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
 
@@ -6492,11 +6431,6 @@ INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/random_lanes.hpp ------------------------------------------------------------
 // The numbers of random.hpp, several at a time and to the same bits: blocks of Philox, uniform and normal draws.
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -6669,10 +6603,6 @@ INSONIFY_INLINE void normal_lanes(lanes<double, N>& first, lanes<double, N>& sec
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/random.hpp ------------------------------------------------------------------
@@ -6778,11 +6708,6 @@ INSONIFY_ARITHMETIC_END
 //
 // Based on: Guy L. Steele, Doug Lea, Christine H. Flood. Fast Splittable Pseudorandom Number Generators. OOPSLA, 2014
 // (the finaliser "variant 13"). Chris Wellons. Prospecting for Hash Functions. 2018 (the 32-bit finaliser "lowbias32").
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -7033,10 +6958,6 @@ INSONIFY_INLINE void clamp_lanes(Lanes& t) {
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/noise.hpp -----------------------------------------------------------------
@@ -7046,11 +6967,6 @@ INSONIFY_ARITHMETIC_END
 // whole y direction are paid for once per cell crossed, not once per sample.
 //
 // Based on: Ken Perlin. Improving Noise. SIGGRAPH, 2002 (gradients on a lattice, quintic fade).
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -7267,10 +7183,6 @@ class power_law_noise {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
 
@@ -7519,11 +7431,6 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/strewn.hpp ----------------------------------------------------------------
 // Things strewn over the plane by lot: which cells of a lattice may hold one that a row crosses, and round ones drawn.
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed::detail {
@@ -7620,10 +7527,6 @@ class round_marks {
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/ripple_train.hpp ----------------------------------------------------------
@@ -7640,11 +7543,6 @@ INSONIFY_ARITHMETIC_END
 // Based on: Dajun Tang, Frank S. Henyey, Brian T. Hefner, Peter A. Traykovski. Simulating Realistic-Looking Sediment
 // Ripple Fields. IEEE Journal of Oceanic Engineering 34, 2009 (why ripples are not Gaussian).
 // M. V. Berry, M. R. Dennis. Phase Singularities in Isotropic Random Waves. Proc. R. Soc. A 456, 2000 (how many forks).
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -7931,10 +7829,6 @@ class ripple_train {
 }  // namespace detail
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/trawls.hpp ----------------------------------------------------------------
@@ -7942,11 +7836,6 @@ INSONIFY_ARITHMETIC_END
 //
 // Boats of one direction go side by side in lanes that meander a little; a lane holds one furrow, which comes and goes
 // along it. The spoil lies in a low berm on either side.
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8071,10 +7960,6 @@ class trawl_furrows {
 
 }  // namespace detail
 }  // namespace insonify::inline INSONIFY_ABI::seabed
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
 
@@ -8235,11 +8120,6 @@ INSONIFY_ARITHMETIC_END
 // they are boulders.
 //
 // Based on: Steven Worley. A Cellular Texture Basis Function. SIGGRAPH, 1996.
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8411,19 +8291,10 @@ class block_layer {
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/rock.hpp ------------------------------------------------------------------
 // Rock: outcrops that step up from the bottom, broken into blocks, boulders and rubble.
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8569,10 +8440,6 @@ inline float rock::operator()(double x, double y) const {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
 
@@ -9773,11 +9640,6 @@ INSONIFY_ARITHMETIC_END
 // Who is in whose shadow: one map for the seabed, and a small tight one for each target, so that a target's shadow is
 // fine whatever the size of the picture, and the label of a shadow is the name of who casts it.
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
@@ -9923,10 +9785,6 @@ class shadow_maps {
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/exact_light.hpp ------------------------------------------------------------
@@ -9935,11 +9793,6 @@ INSONIFY_ARITHMETIC_END
 //
 // The point is where the ray through the pixel's centre meets the triangle's plane, in doubles: what the rasterizer
 // interpolates lies beside it by what rounding the corners to sub-pixels moves, and that moves a shadow's edge too.
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10108,19 +9961,10 @@ class exact_shadows {
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/shading.hpp ----------------------------------------------------------------
 // From what a pixel shows to its value and its labels, several pixels at a time.
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10184,8 +10028,7 @@ class surface_shader {
         using floats = lanes<float, N>;
         const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
         floats normal[3];
-        INSONIFY_UNROLL
-        for (int i = 0; i < 3; ++i) f.interpolate(normal[i], 3 + i);
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(normal[i], 3 + i); });
         const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
         floats length;
         square_root<N>(length, square);
@@ -10205,8 +10048,7 @@ class surface_shader {
                 surface_points<N> at;
                 at.visible = f.visible;
                 at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
-                INSONIFY_UNROLL
-                for (int i = 0; i < 3; ++i) f.interpolate(at.position[i], i);
+                unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(at.position[i], i); });
                 facet_normal<N>(at.facet, f, side);
                 shadows_(shares, at, useful);
             }
@@ -10267,11 +10109,10 @@ class surface_shader {
                                              const lanes<float, N>& side) {
         using floats = lanes<float, N>;
         floats ab[3], ac[3];
-        INSONIFY_UNROLL
-        for (int i = 0; i < 3; ++i) {
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             ab[i] = f.at_corner(1, i) - f.at_corner(0, i);
             ac[i] = f.at_corner(2, i) - f.at_corner(0, i);
-        }
+        });
         into[0] = side * (ab[1] * ac[2] - ac[1] * ab[2]);
         into[1] = side * (ab[2] * ac[0] - ac[2] * ab[0]);
         into[2] = side * (ab[0] * ac[1] - ac[0] * ab[1]);
@@ -10307,10 +10148,6 @@ class surface_shader {
 
 }  // namespace detail
 }  // namespace insonify::inline INSONIFY_ABI
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
 
@@ -11225,10 +11062,6 @@ struct settings {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::accuracy
-
-namespace insonify::inline INSONIFY_ABI::accuracy {
-
 /// The cheapest settings with which pictures of a seabed keep to a budget, as far as a probe can tell; where none does,
 /// those that are the least beyond it, and `expected` says how far off they are.
 ///
@@ -11383,11 +11216,6 @@ INSONIFY_ARITHMETIC_END
 // The law is that of the draws in random.hpp to a float's rounding: a normal draw is off by less than 6e-7 of what
 // exact arithmetic makes of its two words, and no probability by more than 6e-8. Same bits at every N.
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
@@ -11436,27 +11264,8 @@ INSONIFY_INLINE void store_draws(float* into, const lanes<float, N> (&draw)[4]) 
     if constexpr (N == 1) {
         for (int i = 0; i < 4; ++i) into[i] = draw[i];
     } else {
-        lanes<float, N> pair[4], row[4];
-        unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
-            const auto &a = draw[2 * i], &b = draw[2 * i + 1];
-            if constexpr (N == 8) {
-                pair[i] = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
-                pair[i + 2] = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
-            } else {
-                pair[i] = __builtin_shufflevector(a, b, 0, 4, 1, 5);
-                pair[i + 2] = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-            }
-        });
-        unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
-            const auto &a = pair[2 * i], &b = pair[2 * i + 1];
-            if constexpr (N == 8) {
-                row[2 * i] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
-                row[2 * i + 1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
-            } else {
-                row[2 * i] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
-                row[2 * i + 1] = __builtin_shufflevector(a, b, 2, 3, 6, 7);
-            }
-        });
+        lanes<float, N> row[4];
+        transpose_fours<N>(row, draw);
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { store(into + i * N, row[i]); });
     }
 }
@@ -11560,10 +11369,6 @@ INSONIFY_INLINE void normal_lanes(lanes<float, N>& first, lanes<float, N>& secon
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/gamma.hpp -------------------------------------------------------------------
@@ -11571,11 +11376,6 @@ INSONIFY_ARITHMETIC_END
 //
 // Based on: George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM Transactions on
 // Mathematical Software 26, 2000.
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11655,10 +11455,6 @@ inline double mean_of_rice(double steady) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
 
@@ -12010,11 +11806,6 @@ INSONIFY_ARITHMETIC_END
 // Noise is defined on floats in [0, 1]. Codes of 8 and 16 bits are taken there and back, as MATLAB's imnoise does, and
 // each channel of a colour has noise of its own.
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
@@ -12234,10 +12025,6 @@ void apply_rule(const Rule& rule, const float* from, const float* draw, const fl
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/correlated.hpp ------------------------------------------------------------
@@ -12435,11 +12222,6 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/filter/rejection.hpp -------------------------------------------------------------
 // Draws by trial: pixels whose trial fails go on to the next, side by side with others that failed.
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
@@ -12506,10 +12288,6 @@ struct rejection_kernel {
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/echo_noise.hpp ------------------------------------------------------------
@@ -12521,11 +12299,6 @@ INSONIFY_ARITHMETIC_END
 //
 // Based on: E. Jakeman, P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation
 // 24, 1976 (the K-distribution).
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -12804,10 +12577,6 @@ struct rician {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
 
@@ -13413,11 +13182,6 @@ INSONIFY_ARITHMETIC_END
 // Based on: George E. P. Box, Mervin E. Muller. A Note on the Generation of Random Normal Deviates. Annals of
 // Mathematical Statistics 29, 1958.
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
@@ -13618,10 +13382,6 @@ struct salt_and_pepper {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
 
@@ -14004,11 +13764,6 @@ INSONIFY_ARITHMETIC_END
 // Based on: Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random Variables. Insurance:
 // Mathematics and Economics 12, 1993 (algorithm PTRS, means of 10 and above; below, inversion by summing).
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
@@ -14274,10 +14029,6 @@ struct matlab_poisson {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/quick_poisson.hpp ---------------------------------------------------------
@@ -14287,11 +14038,6 @@ INSONIFY_ARITHMETIC_END
 // the International Statistical Institute 5, 1938 (third order). William F. Sheppard. On the Calculation of the most
 // Probable Values of Frequency-Constants. Proceedings of the London Mathematical Society 29, 1898 (what rounding adds
 // to a variance, 1 / 12).
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // wide vectors stay inside always-inlined code
-#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -14399,10 +14145,6 @@ struct quick_poisson {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
-
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 INSONIFY_ARITHMETIC_END
 

@@ -95,10 +95,6 @@ struct settings {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::accuracy
-
-namespace insonify::inline INSONIFY_ABI::accuracy {
-
 /// The cheapest settings with which pictures of a seabed keep to a budget, as far as a probe can tell; where none does,
 /// those that are the least beyond it, and `expected` says how far off they are.
 ///

@@ -55,27 +55,8 @@ INSONIFY_INLINE void store_draws(float* into, const lanes<float, N> (&draw)[4]) 
     if constexpr (N == 1) {
         for (int i = 0; i < 4; ++i) into[i] = draw[i];
     } else {
-        lanes<float, N> pair[4], row[4];
-        unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
-            const auto &a = draw[2 * i], &b = draw[2 * i + 1];
-            if constexpr (N == 8) {
-                pair[i] = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
-                pair[i + 2] = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
-            } else {
-                pair[i] = __builtin_shufflevector(a, b, 0, 4, 1, 5);
-                pair[i + 2] = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-            }
-        });
-        unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
-            const auto &a = pair[2 * i], &b = pair[2 * i + 1];
-            if constexpr (N == 8) {
-                row[2 * i] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
-                row[2 * i + 1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
-            } else {
-                row[2 * i] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
-                row[2 * i + 1] = __builtin_shufflevector(a, b, 2, 3, 6, 7);
-            }
-        });
+        lanes<float, N> row[4];
+        transpose_fours<N>(row, draw);
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { store(into + i * N, row[i]); });
     }
 }

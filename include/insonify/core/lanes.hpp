@@ -174,43 +174,52 @@ INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from)
     }
 }
 
+#if INSONIFY_SIMD
+/// Within every four lanes, lane i of row[k] becomes lane k of into[i]; for N of 4 or 8.
+template <int N>
+INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N> (&row)[4]) {
+    static_assert(N == 4 || N == 8);
+    lanes<float, N> low[2], high[2];
+    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
+        const auto &a = row[2 * k], &b = row[2 * k + 1];
+        if constexpr (N == 4) {
+            low[k] = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+            high[k] = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+        } else {
+            low[k] = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+            high[k] = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+        }
+    });
+    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
+        const auto &a = k == 0 ? low[0] : high[0], &b = k == 0 ? low[1] : high[1];
+        if constexpr (N == 4) {
+            into[2 * k] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+            into[2 * k + 1] = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+        } else {
+            into[2 * k] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+            into[2 * k + 1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    });
+}
+#endif
+
 /// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 4 or 8.
 template <int N, class Rows>
 INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
 #if INSONIFY_SIMD
     // Four lanes of eight lie side by side with the other four and go the same way.
-    using floats = lanes<float, N>;
-    floats row[4], pair[4];
-    INSONIFY_UNROLL
-    for (int k = 0; k < 4; ++k) {
+    lanes<float, N> row[4];
+    unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA {
         if constexpr (N == 4) {
             load(row[k], rows(k));
         } else {
-            static_assert(N == 8);
             lanes<float, 4> first, second;
             load(first, rows(k));
             load(second, rows(k + 4));
             row[k] = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
         }
-    }
-    INSONIFY_UNROLL
-    for (int k = 0; k < 4; k += 2)
-        if constexpr (N == 4) {
-            pair[k] = __builtin_shufflevector(row[k], row[k + 1], 0, 4, 1, 5);
-            pair[k + 1] = __builtin_shufflevector(row[k], row[k + 1], 2, 6, 3, 7);
-        } else {
-            pair[k] = __builtin_shufflevector(row[k], row[k + 1], 0, 8, 1, 9, 4, 12, 5, 13);
-            pair[k + 1] = __builtin_shufflevector(row[k], row[k + 1], 2, 10, 3, 11, 6, 14, 7, 15);
-        }
-    INSONIFY_UNROLL
-    for (int k = 0; k < 2; ++k)
-        if constexpr (N == 4) {
-            into[2 * k] = __builtin_shufflevector(pair[k], pair[k + 2], 0, 1, 4, 5);
-            into[2 * k + 1] = __builtin_shufflevector(pair[k], pair[k + 2], 2, 3, 6, 7);
-        } else {
-            into[2 * k] = __builtin_shufflevector(pair[k], pair[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-            into[2 * k + 1] = __builtin_shufflevector(pair[k], pair[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
-        }
+    });
+    transpose_fours<N>(into, row);
 #else
     std::memcpy(into, rows(0), 4 * sizeof(float));
 #endif

@@ -9,6 +9,7 @@
 #include <insonify/core/executor.hpp>
 #include <insonify/raster/setup.hpp>
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -54,6 +55,45 @@ struct tile_range {
 struct triangle_run {
     std::span<const std::uint32_t> names;
     bool is_small;  ///< eight go through the set-up at a time
+};
+
+/// Reads the triangles of some runs in order, small ones as many at a time as are wanted, whatever their runs.
+class run_reader {
+  public:
+    explicit run_reader(std::span<const triangle_run> runs) : runs_(runs) {}
+
+    bool empty() const { return runs_.empty(); }
+
+    /// The next small triangles, `most` of them or as many as come before one that isn't small.
+    /// @returns how many
+    int take_small(std::uint32_t* names, int most) {
+        int count = 0;
+        while (!runs_.empty() && runs_.front().is_small && count < most) {
+            const std::span<const std::uint32_t> left = runs_.front().names.subspan(taken_);
+            const auto some = (std::min)(left.size(), static_cast<std::size_t>(most - count));
+            std::copy_n(left.data(), some, names + count);
+            count += static_cast<int>(some);
+            taken_ += some;
+            if (some < left.size()) break;
+            next();
+        }
+        return count;
+    }
+    /// The next run.
+    std::span<const std::uint32_t> take_run() {
+        const std::span<const std::uint32_t> names = runs_.front().names;
+        next();
+        return names;
+    }
+
+  private:
+    void next() {
+        runs_ = runs_.subspan(1);
+        taken_ = 0;
+    }
+
+    std::span<const triangle_run> runs_;
+    std::size_t taken_ = 0;  ///< of the first of them
 };
 
 /// The runs of one chunk.

@@ -52,8 +52,7 @@ class fragment_lanes {
         const glm::uvec3* corners[count];
         if (!any(ints(name >= screen.compact_names()))) {
             std::memcpy(triangles, names, sizeof triangles);
-            INSONIFY_UNROLL
-            for (int k = 0; k < N; ++k) corners[k] = &screen.indices(names[k]);
+            unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(names[k]); });
             read_corners(records, corners);
             const grid_place* const places = screen.places();
             weigh(screen.grid(),
@@ -80,19 +79,17 @@ class fragment_lanes {
 
     /// @param corners  of the lanes' triangles
     INSONIFY_INLINE void read_corners(const record* records, const glm::uvec3* const (&corners)[count]) {
-        INSONIFY_UNROLL
-        for (int i = 0; i < 3; ++i) {
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             if constexpr (N == 1) {
                 std::memcpy(values_[i], records[(*corners[0])[i]].values, sizeof values_[i]);
             } else {
                 const float* from[count];
-                INSONIFY_UNROLL
-                for (int k = 0; k < N; ++k) from[k] = records[(*corners[k])[i]].values;
-                INSONIFY_UNROLL
-                for (int block = 0; block < 4 * record::blocks; block += 4)
-                    transpose<N>(values_[i] + block, [&](int k) { return from[k] + block; });
+                unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { from[k] = records[(*corners[k])[i]].values; });
+                unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
+                    transpose<N>(values_[i] + 4 * block, [&](int k) { return from[k] + 4 * block; });
+                });
             }
-        }
+        });
     }
 
     /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out. In float a
@@ -114,11 +111,9 @@ class fragment_lanes {
         weights[1] = cx * ay - cy * ax;
         weights[2] = ax * by - ay * bx;
         front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
-        INSONIFY_UNROLL
-        for (int i = 0; i < 3; ++i) weights[i] = weights[i] * values_[i][record::count];
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * values_[i][record::count]; });
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
-        INSONIFY_UNROLL
-        for (int i = 0; i < 3; ++i) weights[i] = weights[i] * scale;
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * scale; });
     }
     /// Where one of them was clipped, or is too large.
     template <class Screen>

@@ -39,6 +39,7 @@ struct small_fill {
 
   private:
     static constexpr bool exact = small_planes<N, Real>::exact;
+    static constexpr int block = tile_buffer<Winners>::block;
     static constexpr auto lane_count = static_cast<std::size_t>(N);
     using ints = lanes<std::int32_t, N>;
     using floats = lanes<float, N>;
@@ -69,12 +70,17 @@ struct small_fill {
         }
     }
 
+    /// What lies in N boxes: bit 4 row + column of a lane is about that pixel of its box, and so is the depth there.
+    struct box_pixels {
+        ints covered{}, doubtful{};
+        float depth[static_cast<unsigned>(block * block * N)];
+    };
+
     /// One pixel of N boxes at a time, each no larger than Size x Size.
     template <int Size, class Nearest>
     INSONIFY_INLINE void fill_boxes(const ints& wide, const ints& tall, const Nearest& nearest) const {
-        static_assert(Size <= tile_buffer<Winners>::block);
-        constexpr int pitch = tile_buffer<Winners>::block;
-        ints bc, bc_dx, bc_dy, ca, ca_dx, ca_dy, ab, ab_dx, ab_dy, right, down, x0, y0;
+        static_assert(Size <= block);
+        ints bc, bc_dx, bc_dy, ca, ca_dx, ca_dy, ab, ab_dx, ab_dy, right, down;
         load(bc, t.bc.origin), load(bc_dx, t.bc.dx), load(bc_dy, t.bc.dy);
         load(ca, t.ca.origin), load(ca_dx, t.ca.dx), load(ca_dy, t.ca.dy);
         load(ab, t.ab.origin), load(ab_dx, t.ab.dx), load(ab_dy, t.ab.dy);
@@ -85,87 +91,82 @@ struct small_fill {
         floats lowest, highest;
         load(lowest, planes.lowest), load(highest, planes.highest);
         reals rise[static_cast<unsigned>(Size)];
-        INSONIFY_UNROLL
-        for (int column = 0; column < Size; ++column) {
+        unroll<Size>([&](int column) INSONIFY_INLINE_LAMBDA {
             convert(rise[column], ints(right + column * unit));
             rise[column] = rise[column] * dx;
-        }
+        });
 
-        // Bit 4 row + column of a lane is about that pixel of its box.
-        ints covered = ints{}, doubtful = ints{};
-        float depth[static_cast<unsigned>(Size * pitch * N)];
-        INSONIFY_UNROLL
-        for (int row = 0; row < Size; ++row) {
+        box_pixels found;
+        unroll<Size>([&](int row) INSONIFY_INLINE_LAMBDA {
             ints bc_x = bc, ca_x = ca, ab_x = ab;
             reals drop;
             convert(drop, ints(down + row * unit));
             drop = z_a + dy * drop;
-            INSONIFY_UNROLL
-            for (int column = 0; column < Size; ++column) {
+            unroll<Size>([&](int column) INSONIFY_INLINE_LAMBDA {
+                const int pixel = row * block + column;
+                const ints bit = ints{} + (1 << pixel);
                 const ints outside = bc_x | ca_x | ab_x | (wide - column) | (tall - row);
-                const std::int32_t bit = 1 << (row * pitch + column);
-                covered |= outside >= 0 ? ints{} + bit : ints{};
-                const reals plane = rise[column] + drop;
+                found.covered |= outside >= 0 ? bit : ints{};
                 floats z;
                 ints in_doubt = ints{};
-                round(z, in_doubt, plane, error);
-                if constexpr (exact) doubtful |= in_doubt ? ints{} + bit : ints{};
+                round(z, in_doubt, rise[column] + drop, error);
+                if constexpr (exact) found.doubtful |= in_doubt ? bit : ints{};
                 z = z > lowest ? z : lowest;
                 z = z < highest ? z : highest;
-                store(depth + (row * pitch + column) * N, z);
+                store(found.depth + pixel * N, z);
                 bc_x += bc_dx;
                 ca_x += ca_dx;
                 ab_x += ab_dx;
-            }
+            });
             bc += bc_dy;
             ca += ca_dy;
             ab += ab_dy;
-        }
+        });
         if constexpr (exact) {
-            doubtful &= covered;
-            if (any(doubtful)) settle(doubtful, depth, nearest);
+            found.doubtful &= found.covered;
+            if (any(found.doubtful)) settle(found, nearest);
         }
+        keep_covered(found);
+    }
 
+    /// Compares what is covered with the tile: triangle after triangle, so that who comes first keeps a tie.
+    INSONIFY_INLINE void keep_covered(const box_pixels& found) const {
         std::int32_t start[lane_count];
-        ints index;
+        ints x0, y0, index;
         load(x0, t.x0), load(y0, t.y0);
         tile.template index<N>(index, x0, y0);
         store(start, index);
         const std::int32_t* const in_block = tile.in_block();
         float* const depths = tile.depths();
         std::uint32_t* const winners = tile.winners();
-        // Sixteen bits a triangle, in order: who comes first keeps a tie.
-        constexpr int pixels = pitch * pitch, per_word = 64 / pixels;
+        // Sixteen bits a triangle, four triangles a word.
+        constexpr int pixels = block * block, per_word = 64 / pixels, word_count = (N + per_word - 1) / per_word;
         lanes<std::uint16_t, N> bits;
-        convert(bits, covered);
-        std::uint64_t words[(lane_count + per_word - 1) / per_word] = {};
+        convert(bits, found.covered);
+        std::uint64_t words[static_cast<unsigned>(word_count)] = {};
         if constexpr (N == 1)
             words[0] = bits;
         else
             std::memcpy(words, &bits, sizeof bits);
-        int first = 0;
-        INSONIFY_UNROLL
-        for (std::uint64_t left : words) {
-            for (; left != 0; left &= left - 1) {
-                const int bit = std::countr_zero(left), k = first + bit / pixels, pixel = bit % pixels;
+        unroll<word_count>([&](int word) INSONIFY_INLINE_LAMBDA {
+            for (std::uint64_t left = words[word]; left != 0; left &= left - 1) {
+                const int bit = std::countr_zero(left), k = word * per_word + bit / pixels, pixel = bit % pixels;
                 const std::ptrdiff_t at = start[k] + in_block[pixel];
-                const float z = depth[pixel * N + k];
+                const float z = found.depth[pixel * N + k];
                 if (!(z < depths[at])) continue;
                 depths[at] = z;
                 if constexpr (Winners) winners[at] = names[k];
             }
-            first += per_word;
-        }
+        });
     }
 
     template <class Nearest>
-    INSONIFY_INLINE void settle(const ints& doubtful, float* depth, const Nearest& nearest) const {
-        constexpr int pitch = tile_buffer<Winners>::block;
+    INSONIFY_INLINE void settle(box_pixels& found, const Nearest& nearest) const {
         for (int k = 0; k < count; ++k)
-            for (auto left = static_cast<std::uint32_t>(lane(doubtful, k)); left != 0; left &= left - 1) {
+            for (auto left = static_cast<std::uint32_t>(lane(found.doubtful, k)); left != 0; left &= left - 1) {
                 const int pixel = std::countr_zero(left);
-                const float z = nearest(k, t.x0[k] + pixel % pitch, t.y0[k] + pixel / pitch);
-                depth[pixel * N + k] = (std::min)((std::max)(z, planes.lowest[k]), planes.highest[k]);
+                const float z = nearest(k, t.x0[k] + pixel % block, t.y0[k] + pixel / block);
+                found.depth[pixel * N + k] = (std::min)((std::max)(z, planes.lowest[k]), planes.highest[k]);
             }
     }
 
@@ -176,7 +177,8 @@ struct small_fill {
         count_up<std::int32_t, N>(column);
         const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + names[k];
         const floats lowest = floats{} + planes.lowest[k], highest = floats{} + planes.highest[k];
-        const reals error = reals{} + planes.error[k];
+        reals error{};
+        if constexpr (exact) error = error + planes.error[k];
         for (int x = t.x0[k]; x <= t.x1[k]; x += N) {
             const ints at = column + (x - t.x0[k]);
             ints bc = t.bc.origin[k] + at * t.bc.dx[k];

@@ -129,28 +129,13 @@ struct tile_kernel {
         tile.restart(box.x0, box.y0);
         tile.template clear<Width>();
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
-        // Small triangles are taken by the vector, from as many runs as it needs; none overtakes another.
-        std::span<const triangle_run> runs = triangles.runs();
-        std::size_t taken = 0;  // of the first of them
-        while (!runs.empty()) {
+        run_reader left(triangles.runs());
+        while (!left.empty()) {
             std::uint32_t names[static_cast<unsigned>(N)];
-            int count = 0;
-            while (!runs.empty() && runs.front().is_small && count < N) {
-                const std::span<const std::uint32_t> left = runs.front().names.subspan(taken);
-                const auto some = (std::min)(left.size(), static_cast<std::size_t>(N - count));
-                std::copy_n(left.data(), some, names + count);
-                count += static_cast<int>(some);
-                taken += some;
-                if (some < left.size()) break;
-                runs = runs.subspan(1);
-                taken = 0;
-            }
-            if (count > 0) {
+            if (const int count = left.take_small(names, N))
                 draw_small<N>(names, count);
-            } else {
-                for (const std::uint32_t name : runs.front().names) draw_one<N>(name);
-                runs = runs.subspan(1);
-            }
+            else
+                for (const std::uint32_t name : left.take_run()) draw_one<N>(name);
         }
         copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
     }

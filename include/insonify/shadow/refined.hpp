@@ -100,11 +100,10 @@ class caster_map {
         gather_pairs<N>(h[0], h[1], [&](int k) { return heights + lane(first, k); });
         gather_pairs<N>(h[2], h[3], [&](int k) { return heights + lane(first, k) + width; });
         floats low = h[0], high = h[0];
-        INSONIFY_UNROLL
-        for (int i = 1; i < 4; ++i) {
-            low = h[i] < low ? h[i] : low;
-            high = h[i] > high ? h[i] : high;
-        }
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            low = h[i + 1] < low ? h[i + 1] : low;
+            high = h[i + 1] > high ? h[i + 1] : high;
+        });
         // All four below by more than they differ, or above by as much: that is how far a surface may go on changing.
         // Nothing is minus infinity: beside something, it makes the difference infinite.
         const floats spread = high - low;

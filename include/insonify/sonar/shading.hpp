@@ -68,8 +68,7 @@ class surface_shader {
         using floats = lanes<float, N>;
         const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
         floats normal[3];
-        INSONIFY_UNROLL
-        for (int i = 0; i < 3; ++i) f.interpolate(normal[i], 3 + i);
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(normal[i], 3 + i); });
         const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
         floats length;
         square_root<N>(length, square);
@@ -89,8 +88,7 @@ class surface_shader {
                 surface_points<N> at;
                 at.visible = f.visible;
                 at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
-                INSONIFY_UNROLL
-                for (int i = 0; i < 3; ++i) f.interpolate(at.position[i], i);
+                unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(at.position[i], i); });
                 facet_normal<N>(at.facet, f, side);
                 shadows_(shares, at, useful);
             }
@@ -151,11 +149,10 @@ class surface_shader {
                                              const lanes<float, N>& side) {
         using floats = lanes<float, N>;
         floats ab[3], ac[3];
-        INSONIFY_UNROLL
-        for (int i = 0; i < 3; ++i) {
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             ab[i] = f.at_corner(1, i) - f.at_corner(0, i);
             ac[i] = f.at_corner(2, i) - f.at_corner(0, i);
-        }
+        });
         into[0] = side * (ab[1] * ac[2] - ac[1] * ab[2]);
         into[1] = side * (ab[2] * ac[0] - ac[2] * ab[0]);
         into[2] = side * (ab[0] * ac[1] - ac[0] * ab[1]);
