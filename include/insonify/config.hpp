@@ -66,19 +66,30 @@
 
 // A kernel is one function, whatever it calls. Not where every access is checked: that would compile for minutes.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define INSONIFY_WHOLE_KERNELS 0
 #define INSONIFY_TARGET(isa) __attribute__((target(isa), noinline))
 #define INSONIFY_INLINE inline
 #define INSONIFY_INLINE_LAMBDA
 #define INSONIFY_RARE __attribute__((noinline))
 #elif defined(__GNUC__)
+#define INSONIFY_WHOLE_KERNELS 1
 #define INSONIFY_TARGET(isa) __attribute__((target(isa), flatten, noinline))
 #define INSONIFY_INLINE inline __attribute__((always_inline))
 #define INSONIFY_INLINE_LAMBDA __attribute__((always_inline))
 #define INSONIFY_RARE __attribute__((noinline))
 #else
+#define INSONIFY_WHOLE_KERNELS 0
 #define INSONIFY_INLINE inline
 #define INSONIFY_INLINE_LAMBDA
 #define INSONIFY_RARE
+#endif
+
+// Functions of targets that could fuse products with sums, for g++ without -ffp-contract=off; clang is told by
+// INSONIFY_ARITHMETIC_BEGIN.
+#if defined(__GNUC__) && !defined(__clang__)
+#define INSONIFY_NEVER_FUSED __attribute__((optimize("fp-contract=off")))
+#else
+#define INSONIFY_NEVER_FUSED
 #endif
 
 #define INSONIFY_JOIN_RAW(a, b) a##b

@@ -34,6 +34,7 @@
 #include <insonify/filter/parameter.hpp>
 #include <insonify/filter/pipe.hpp>
 #include <insonify/filter/poisson.hpp>
+#include <insonify/filter/poisson_tables.hpp>
 #include <insonify/filter/quick_poisson.hpp>
 #include <insonify/filter/rejection.hpp>
 #include <insonify/filter/where.hpp>

@@ -108,7 +108,7 @@ void filters() {
     show("gaussian and speckle", in::gaussian_speckle{.seed = 3});
     show("rayleigh", in::rayleigh{.seed = 3});
     show("poisson", in::poisson{.seed = 3});
-    show("quick poisson", in::quick_poisson{.seed = 3});
+    show("quick poisson", in::quick_poisson{.photons = 5000, .seed = 3});
     show("salt and pepper", in::salt_and_pepper{.seed = 3});
     show("looks", in::gamma_speckle{.looks = 2.2f, .seed = 3});
     show("K", in::k_speckle{.shape = 0.7f, .seed = 3});

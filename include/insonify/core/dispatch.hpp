@@ -1,8 +1,9 @@
 // One kernel, several instruction sets: written once over a lane count, chosen when the program runs.
 //
 // A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
-// values go through it at a time. Its arithmetic is the same in every lane at every N, and no target fuses products
-// with sums (AVX-512 could), so all levels give the same bytes; N = 1 is plain scalar code.
+// values go through it at a time. Its arithmetic is the same in every lane at every N, and products are never fused
+// with sums, so all levels give the same bytes; N = 1 is plain scalar code. Kernels that gain by 16 values at a time
+// say so with `static constexpr int widest = 16`; others stay at 8.
 #pragma once
 
 #include <insonify/core/error.hpp>
@@ -16,12 +17,18 @@ enum class isa {
     scalar,    ///< one value at a time
     baseline,  ///< the 128-bit vectors that every processor of the target has (SSE2, NEON)
     avx2,      ///< 256-bit integer and float vectors
+    avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
 };
 
 /// The widest instruction set that this compiler built and this processor runs.
 inline isa best_isa() {
 #if INSONIFY_DISPATCH
-    static const isa best = __builtin_cpu_supports("avx2") ? isa::avx2 : isa::baseline;
+    static const isa best = [] {
+        if (!__builtin_cpu_supports("avx2")) return isa::baseline;
+        const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                             __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+        return is_wide ? isa::avx512 : isa::avx2;
+    }();
     return best;
 #elif INSONIFY_SIMD
     return isa::baseline;
@@ -38,6 +45,11 @@ INSONIFY_TARGET("avx2")
 void run_avx2(const Kernel& kernel) {
     kernel.template run<8>();
 }
+template <class Kernel>
+INSONIFY_TARGET("avx512f,avx512bw,avx512dq,avx512vl")
+INSONIFY_NEVER_FUSED void run_avx512(const Kernel& kernel) {
+    kernel.template run<Kernel::widest>();
+}
 #endif
 
 /// Runs the kernel at `level`, or at the widest level below it that this build and processor have.
@@ -45,7 +57,10 @@ template <class Kernel>
 void dispatch(const Kernel& kernel, isa level) {
     if (level > best_isa()) level = best_isa();
 #if INSONIFY_DISPATCH
-    if (level == isa::avx2) return run_avx2(kernel);
+    if constexpr (requires { Kernel::widest; }) {
+        if (level == isa::avx512) return run_avx512(kernel);
+    }
+    if (level >= isa::avx2) return run_avx2(kernel);
 #endif
 #if INSONIFY_SIMD
     if (level == isa::baseline) return kernel.template run<4>();

@@ -11,14 +11,14 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// Lane k of the words and draws of N blocks belongs to block `order[k]`, so that store_draws gets by with shuffles
-/// inside of 128 bits.
+/// Which of N blocks lane k of their words and draws belongs to, so that store_draws gets by with shuffles inside of
+/// 128 bits.
 template <int N>
-inline constexpr int block_order[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-template <>
-inline constexpr int block_order<8>[8] = {0, 2, 4, 6, 1, 3, 5, 7};
+constexpr int block_of_lane(int k) {
+    return N / 4 * (k % 4) + k / 4;
+}
 
-/// The 4 N words of N blocks of Philox in a row: word[i] holds word i of each, in block_order.
+/// The 4 N words of N blocks of Philox in a row: word[i] holds word i of each; see block_of_lane.
 ///
 /// @param counter  of the first block; its first word counts up from block to block
 template <int N>
@@ -32,7 +32,7 @@ INSONIFY_INLINE void philox_words(lanes<std::uint32_t, N> (&word)[4], const std:
         constexpr int half = N / 2;
         using doubled = lanes<std::uint64_t, half>;
         doubled step;
-        gather<half>(step, [](int k) { return static_cast<std::uint64_t>(block_order<N>[k < 2 ? k : k + 2]); });
+        gather<half>(step, [](int k) { return static_cast<std::uint64_t>(block_of_lane<N>(k / 2 * 4 + k % 2)); });
         // The first words count past 2^32 as they should: the rounds don't look at upper halves.
         const doubled first = step + std::uint64_t{counter[0]}, second = doubled{} + std::uint64_t{counter[1]},
                       third = doubled{} + std::uint64_t{counter[2]}, fourth = doubled{} + std::uint64_t{counter[3]};
@@ -40,11 +40,8 @@ INSONIFY_INLINE void philox_words(lanes<std::uint32_t, N> (&word)[4], const std:
         philox_rounds<half, 2>(block, key_0, key_1);
         using words = lanes<std::uint32_t, N>;
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
-            if constexpr (N == 8) {
-                word[i] = __builtin_shufflevector(words(block[0][i]), words(block[1][i]), 0, 2, 8, 10, 4, 6, 12, 14);
-            } else {
-                word[i] = __builtin_shufflevector(words(block[0][i]), words(block[1][i]), 0, 2, 4, 6);
-            }
+            shuffle<N>(word[i], words(block[0][i]), words(block[1][i]),
+                       [](int k) { return k % 4 / 2 * N + k / 4 * 4 + k % 2 * 2; });
         });
     }
 }

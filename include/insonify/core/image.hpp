@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,30 @@ struct rgb {
 };
 using rgb8 = rgb<std::uint8_t>;
 
+namespace detail {
+
+/// For images whose pixels are all about to be written: not to be written twice, nor by one thread what many will.
+struct unfilled {};
+
+/// Makes values that nobody gave as `T value;` does, not as `T value{};`.
+template <class T>
+struct unfilled_allocator : std::allocator<T> {
+    template <class U>
+    struct rebind {
+        using other = unfilled_allocator<U>;
+    };
+    template <class U>
+    void construct(U* at) {
+        ::new (static_cast<void*>(at)) U;
+    }
+    template <class U, class... From>
+    void construct(U* at, From&&... from) {
+        std::construct_at(at, std::forward<From>(from)...);
+    }
+};
+
+}  // namespace detail
+
 /// Owning row-major image without padding; row 0 is at the top, pixel (x, y) covers [x, x+1) x [y, y+1).
 template <class T>
 class image {
@@ -31,6 +57,9 @@ class image {
     /// @throws invalid_input for a size outside that range
     image(int width, int height, T fill = T{})
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), fill) {}
+
+    image(int width, int height, detail::unfilled)
+        : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area()) {}
 
     /// Rows written out, for tests and small tables: `image<float>{{0, 1}, {2, 3}}`.
     /// @throws invalid_input for rows of different lengths
@@ -46,7 +75,7 @@ class image {
     }
 
     /// A packed copy of what a view shows.
-    explicit image(image_view<const T> source) : image(source.width(), source.height()) {
+    explicit image(image_view<const T> source) : image(source.width(), source.height(), detail::unfilled{}) {
         for (int y = 0; y < height_; ++y) {
             const auto from = source.row(y);
             std::copy(from.begin(), from.end(), row(y).begin());
@@ -91,14 +120,14 @@ class image {
 
     int width_ = 0;
     int height_ = 0;
-    std::vector<T> pixels_;
+    std::vector<T, detail::unfilled_allocator<T>> pixels_;
 };
 
 /// The image with every pixel replaced by `fn(pixel)`; the size stays, the type is what `fn` returns.
 template <class T, class Fn>
 auto map_pixels(image_view<const T> source, Fn&& fn) {
     using result = std::decay_t<decltype(fn(std::declval<const T&>()))>;
-    image<result> out(source.width(), source.height());
+    image<result> out(source.width(), source.height(), detail::unfilled{});
     for (int y = 0; y < source.height(); ++y) {
         const auto from = source.row(y);
         std::transform(from.begin(), from.end(), out.row(y).begin(), fn);

@@ -118,20 +118,28 @@ INSONIFY_INLINE void gather(Lanes& into, const From& from) {
     (std::make_integer_sequence<int, N>{});
 }
 
+#if INSONIFY_SIMD
+/// What `work(half, from)` makes of the lower half of N lanes and of the upper one.
+template <int N, class Lanes, class Work>
+INSONIFY_INLINE void in_halves(Lanes& into, const Lanes& of, const Work& work) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        auto low = __builtin_shufflevector(of, of, I...), high = __builtin_shufflevector(of, of, N / 2 + I...);
+        work(low, low);
+        work(high, high);
+        into = __builtin_shufflevector(low, high, I..., N / 2 + I...);
+    }
+    (std::make_integer_sequence<int, N / 2>{});
+}
+#endif
+
 /// Correctly rounded, as numeric::square_root.
 template <int N>
 INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& of) {
 #if INSONIFY_SIMD && defined(__SSE2__)
-    if constexpr (N % 4 == 0) {
-        using four = lanes<float, 4>;
-        if constexpr (N == 4) {
-            into = __builtin_ia32_sqrtps(of);
-        } else {
-            static_assert(N == 8);
-            const four low = __builtin_ia32_sqrtps(__builtin_shufflevector(of, of, 0, 1, 2, 3));
-            const four high = __builtin_ia32_sqrtps(__builtin_shufflevector(of, of, 4, 5, 6, 7));
-            into = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-        }
+    if constexpr (N == 4) {
+        into = __builtin_ia32_sqrtps(of);
+    } else if constexpr (N % 4 == 0) {
+        in_halves<N>(into, of, [](auto& half, const auto& from) { square_root<N / 2>(half, from); });
     } else
 #endif
         gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
@@ -175,50 +183,52 @@ INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from)
 }
 
 #if INSONIFY_SIMD
-/// Within every four lanes, lane i of row[k] becomes lane k of into[i]; for N of 4 or 8.
+/// Lane i is lane `from(i)` of two vectors side by side.
+template <int N, class From, class Into, class Lanes>
+INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second, const From&) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        into = __builtin_shufflevector(first, second, From{}(I)...);
+    }
+    (std::make_integer_sequence<int, N>{});
+}
+
+/// Four values from each of N / 4 places.
+template <int N, class From>
+INSONIFY_INLINE void load_fours(lanes<float, N>& into, const From& from) {
+    if constexpr (N == 4) {
+        load(into, from(0));
+    } else {
+        lanes<float, N / 2> low, high;
+        load_fours<N / 2>(low, from);
+        load_fours<N / 2>(high, [&](int i) { return from(N / 8 + i); });
+        shuffle<N>(into, low, high, [](int i) { return i; });
+    }
+}
+
+/// Within every four lanes, lane i of row[k] becomes lane k of into[i]; for N of 4, 8 or 16.
 template <int N>
 INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N> (&row)[4]) {
-    static_assert(N == 4 || N == 8);
     lanes<float, N> low[2], high[2];
     unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
         const auto &a = row[2 * k], &b = row[2 * k + 1];
-        if constexpr (N == 4) {
-            low[k] = __builtin_shufflevector(a, b, 0, 4, 1, 5);
-            high[k] = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-        } else {
-            low[k] = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
-            high[k] = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
-        }
+        shuffle<N>(low[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2; });
+        shuffle<N>(high[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2 + 2; });
     });
     unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
         const auto &a = k == 0 ? low[0] : high[0], &b = k == 0 ? low[1] : high[1];
-        if constexpr (N == 4) {
-            into[2 * k] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
-            into[2 * k + 1] = __builtin_shufflevector(a, b, 2, 3, 6, 7);
-        } else {
-            into[2 * k] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
-            into[2 * k + 1] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
-        }
+        shuffle<N>(into[2 * k], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2; });
+        shuffle<N>(into[2 * k + 1], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2 + 2; });
     });
 }
 #endif
 
-/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 4 or 8.
+/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 4, 8 or 16.
 template <int N, class Rows>
 INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
 #if INSONIFY_SIMD
-    // Four lanes of eight lie side by side with the other four and go the same way.
+    // Four lanes of many lie side by side with the other fours and go the same way.
     lanes<float, N> row[4];
-    unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA {
-        if constexpr (N == 4) {
-            load(row[k], rows(k));
-        } else {
-            lanes<float, 4> first, second;
-            load(first, rows(k));
-            load(second, rows(k + 4));
-            row[k] = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
-        }
-    });
+    unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
     transpose_fours<N>(into, row);
 #else
     std::memcpy(into, rows(0), 4 * sizeof(float));

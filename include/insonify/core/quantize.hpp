@@ -4,6 +4,7 @@
 #include <insonify/core/dispatch.hpp>
 #include <insonify/core/lanes.hpp>
 
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <limits>
@@ -33,7 +34,12 @@ namespace detail {
 template <int N, class Code>
 INSONIFY_INLINE void store_codes(Code* to, const lanes<std::int32_t, N>& code) {
 #if INSONIFY_SIMD && defined(__SSE2__)
-    if constexpr (N % 4 == 0) {
+    if constexpr (N > 8) {
+        lanes<std::int32_t, N / 2> half[2];
+        std::memcpy(half, &code, sizeof code);
+        store_codes<N / 2>(to, half[0]);
+        store_codes<N / 2>(to + N / 2, half[1]);
+    } else if constexpr (N % 4 == 0) {
         // Packs saturate to 16 bits with a sign: codes of 16 bits go there less 2^15.
         constexpr int offset = sizeof(Code) == 2 ? 0x8000 : 0;
         const lanes<std::int32_t, N> shifted = code - offset;
@@ -56,6 +62,8 @@ INSONIFY_INLINE void store_codes(Code* to, const lanes<std::int32_t, N>& code) {
 /// quantize, several pixels at a time.
 template <class Code>
 struct quantize_kernel {
+    static constexpr int widest = 16;
+
     const float* from;
     Code* to;
     std::size_t count;
@@ -98,6 +106,22 @@ void quantize_row(std::span<const float> from, std::span<Code> to, isa level = b
 template <pixel_code Code>
 constexpr float dequantize(Code code) {
     return static_cast<float>(code) / static_cast<float>((std::numeric_limits<Code>::max)());
+}
+
+/// Dequantizes as many codes as `to` takes.
+/// @pre from.size() >= to.size()
+template <pixel_code Code>
+void dequantize_row(std::span<const Code> from, std::span<float> to) {
+    if constexpr (sizeof(Code) == 1) {
+        static constexpr auto value = [] {
+            std::array<float, 256> values{};
+            for (std::size_t code = 0; code < values.size(); ++code) values[code] = dequantize(static_cast<Code>(code));
+            return values;
+        }();
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] = value[from[i]];
+    } else {
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] = dequantize(from[i]);
+    }
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

@@ -5,21 +5,23 @@
 #include <insonify/core/lanes.hpp>
 #include <insonify/core/numeric.hpp>
 
-#include <numbers>
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// The products of the lower halves of the lanes with a word. Four lanes are for AVX2: kernels of W lanes of 32 bits
-/// have W / 2 of these.
+/// The products of the lower halves of the lanes with a word. Four lanes are for AVX2, eight for AVX-512: kernels of W
+/// lanes of 32 bits have W / 2 of these.
 template <int N>
 INSONIFY_INLINE void multiply_words(lanes<std::uint64_t, N>& into, const lanes<std::uint64_t, N>& a, std::uint32_t b) {
     // One instruction, which clang sees for itself and g++ has to be told. dispatch.hpp has made it known.
-#if INSONIFY_DISPATCH && !defined(__clang__)
+#if INSONIFY_DISPATCH && INSONIFY_WHOLE_KERNELS && !defined(__clang__)
     using halves = lanes<std::int32_t, 2 * N>;
     const lanes<std::uint64_t, N> factor = lanes<std::uint64_t, N>{} + std::uint64_t{b};
-    if constexpr (N == 4) {
+    if constexpr (N == 8) {
+        using signed_lanes = lanes<long long, N>;
+        into = lanes<std::uint64_t, N>(__builtin_ia32_pmuludq512_mask(halves(a), halves(factor), signed_lanes{},
+                                                                      static_cast<unsigned char>(0xFF)));
+    } else if constexpr (N == 4) {
         into = lanes<std::uint64_t, N>(__builtin_ia32_pmuludq256(halves(a), halves(factor)));
     } else if constexpr (N == 2) {
         into = lanes<std::uint64_t, N>(__builtin_ia32_pmuludq128(halves(a), halves(factor)));
@@ -98,25 +100,6 @@ INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x
     into = k * ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * ln2_low)) - f);
 }
 
-/// numeric::exp for |x| < 700, to 2 ulp.
-template <int N>
-INSONIFY_INLINE void exp_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
-    using doubles = lanes<double, N>;
-    using words = lanes<std::uint64_t, N>;
-    constexpr double ln2_high = 0x1.62e42feep-1, ln2_low = 0x1.a39ef35793c76p-33;
-    doubles k = x * std::numbers::log2e + 0x1.8p52;  // the nearest power of two, in its last bits
-    words bits;
-    std::memcpy(&bits, &k, sizeof bits);
-    k = k - 0x1.8p52;
-    const doubles r = (x - k * ln2_high) - k * ln2_low;
-    doubles sum = doubles{} + 1.0;
-    unroll<14>([&](int i) INSONIFY_INLINE_LAMBDA { sum = sum * (r * (1.0 / (14 - i))) + 1.0; });
-    bits = (bits << 52) + std::uint64_t{0x3FF0000000000000u};
-    doubles power;
-    std::memcpy(&power, &bits, sizeof power);
-    into = sum * power;
-}
-
 /// The largest whole number not above x, for |x| < 2^51.
 template <int N>
 INSONIFY_INLINE void floor_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
@@ -153,10 +136,8 @@ INSONIFY_INLINE void square_root(lanes<double, N>& into, const lanes<double, N>&
 #if INSONIFY_SIMD && defined(__SSE2__)
     if constexpr (N == 2) {
         into = __builtin_ia32_sqrtpd(of);
-    } else if constexpr (N == 4) {
-        const lanes<double, 2> low = __builtin_ia32_sqrtpd(__builtin_shufflevector(of, of, 0, 1));
-        const lanes<double, 2> high = __builtin_ia32_sqrtpd(__builtin_shufflevector(of, of, 2, 3));
-        into = __builtin_shufflevector(low, high, 0, 1, 2, 3);
+    } else if constexpr (N % 2 == 0) {
+        in_halves<N>(into, of, [](auto& half, const auto& from) { square_root<N / 2>(half, from); });
     } else
 #endif
         gather<N>(into, [&](int k) { return numeric::square_root(lane(of, k)); });

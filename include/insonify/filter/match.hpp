@@ -108,7 +108,17 @@ inline std::vector<float> values_at_ranks(const distribution& source, const dist
     std::size_t above = 0;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const double rank = static_cast<double>(source.cumulative[i]) / total;
-        while (share(above) < rank) ++above;  // ends: the last share is 1
+        // The first share that is no less: not far from the one before, if the source has as many values.
+        std::size_t step = 1, last = reference.values.size() - 1;
+        while (above + step < last && share(above + step) < rank) above += std::exchange(step, 2 * step);
+        last = (std::min)(last, above + step);
+        while (above < last) {
+            const std::size_t middle = above + (last - above) / 2;
+            if (share(middle) < rank)
+                above = middle + 1;
+            else
+                last = middle;
+        }
         const auto high = static_cast<double>(reference.values[above]);
         if (above == 0 || share(above) == rank) {
             result[i] = static_cast<float>(high);

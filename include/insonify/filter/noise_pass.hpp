@@ -31,7 +31,8 @@ enum class noise_stream : std::uint32_t {
     k_speckle,
     rician,
     texture,
-    quick_poisson
+    quick_poisson,
+    small_poisson
 };
 
 /// What the draws of one filter hang on, besides the pixel.
@@ -77,6 +78,8 @@ inline void to_floats(const float* from, float* to, int count, std::size_t step)
 }
 template <pixel_code Code>
 void to_floats(const Code* from, float* to, int count, std::size_t step) {
+    const auto size = static_cast<std::size_t>(count);
+    if (step == 1) return dequantize_row(std::span<const Code>(from, size), std::span<float>(to, size));
     for (int i = 0; i < count; ++i) to[i] = dequantize(from[static_cast<std::size_t>(i) * step]);
 }
 
@@ -120,9 +123,11 @@ class noise_pass {
         if constexpr (std::same_as<Channel, float>) {
             for (int i = 0; i < run.count; ++i) to[static_cast<std::size_t>(i) * step] = values[i];
         } else {
-            Channel codes[run_length];
             const auto count = static_cast<std::size_t>(run.count);
-            quantize_row(std::span<const float>(values, count), std::span<Channel>(codes, count));
+            const std::span<const float> noisy(values, count);
+            if (step == 1) return quantize_row(noisy, std::span<Channel>(to, count));
+            Channel codes[run_length];
+            quantize_row(noisy, std::span<Channel>(codes, count));
             for (std::size_t i = 0; i < count; ++i) to[i * step] = codes[i];
         }
     }
@@ -150,6 +155,12 @@ struct unit_draws {
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { unit_lanes<N>(into[i], word[i]); });
     }
 };
+struct word_draws {  // as they are, to be taken for whole numbers again
+    template <int N>
+    static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { std::memcpy(&into[i], &word[i], sizeof into[i]); });
+    }
+};
 struct radius_draws {
     template <int N>
     static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
@@ -160,6 +171,8 @@ struct radius_draws {
 /// The draws of a run of a row; four pixels in a row share a block of Philox.
 template <class Draws>
 struct draw_kernel {
+    static constexpr int widest = 16;
+
     float* into;
     int count;
     std::uint32_t counter[4];

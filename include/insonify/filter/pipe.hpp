@@ -202,7 +202,7 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
         sweep(look_at(source), source.view(), pass, ex, origin);
         return std::move(source);
     } else {
-        image<to> out(source.width(), source.height());
+        image<to> out(source.width(), source.height(), unfilled{});
         sweep(look_at(source), out.view(), pass, ex, origin);
         return out;
     }

@@ -144,7 +144,7 @@ struct stretch {
         for (std::size_t i = count; i < whole(); ++i) x[i] = x[count - 1];
     }
     /// The count rounded up to whole vectors.
-    std::size_t whole() const { return (count + 7) & ~std::size_t{7}; }
+    std::size_t whole() const { return (count + 15) & ~std::size_t{15}; }
     double last() const { return x[count - 1]; }
 
     /// The samples that may lie in [low, high], as whole vectors: a few more, never one less.
@@ -157,7 +157,7 @@ struct stretch {
         if (first >= n || past <= 0) return {0, 0};
         const auto begin = first > 0 ? static_cast<std::size_t>(first) : 0;
         const auto end = past < n ? static_cast<std::size_t>(past) : count;
-        return {begin & ~std::size_t{7}, (end + 7) & ~std::size_t{7}};
+        return {begin & ~std::size_t{15}, (end + 15) & ~std::size_t{15}};
     }
 };
 

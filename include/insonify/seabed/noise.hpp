@@ -41,7 +41,7 @@ class gradient_noise {
         const std::int64_t first = numeric::floor_to_int(lattice_.u(part.x[0]));
         const std::int64_t last = numeric::floor_to_int(lattice_.u(part.x[part.whole() - 1])) + 1;
         const bool dense = last - first < most_columns;
-        alignas(32) side sides[most_columns + 8];
+        alignas(32) side sides[most_columns + 16];
         if (dense) line.template tabulate<N>(sides, static_cast<std::uint32_t>(first), static_cast<int>(last - first));
 
         for (std::size_t i = 0; i < part.whole(); i += N) {
@@ -207,6 +207,8 @@ class power_law_noise {
         float amplitude;
     };
     struct kernel {
+        static constexpr int widest = 16;
+
         const power_law_noise& noise;
         const detail::stretch& part;
         float* values;

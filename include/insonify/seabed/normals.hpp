@@ -127,7 +127,7 @@ class row_normals {
 template <executor_argument Executor = serial_executor>
 image<glm::vec3> normals(const heightfield& field, Executor&& ex = serial_executor{}) {
     validate(field);
-    image<glm::vec3> result(field.heights.width(), field.heights.height());
+    image<glm::vec3> result(field.heights.width(), field.heights.height(), insonify::detail::unfilled{});
     ex.bulk(static_cast<std::size_t>(field.heights.height()), [&](std::size_t j) {
         const int row = static_cast<int>(j);
         detail::row_normals(field, row, result.row(row).data()).compute();

@@ -183,6 +183,8 @@ class ripple_train {
     }
 
     struct kernel {
+        static constexpr int widest = 16;
+
         const ripple_train& train;
         const stretch& part;
         float* values;

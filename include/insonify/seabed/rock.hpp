@@ -83,6 +83,8 @@ class rock_sampler {
 
   private:
     struct kernel {
+        static constexpr int widest = 16;
+
         const rock_sampler& rock;
         const detail::stretch& part;
         float* values;

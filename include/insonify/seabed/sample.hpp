@@ -43,12 +43,13 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 /// parameters of the recipe out of their range
 template <preparable Recipe, executor_argument Executor = serial_executor>
 heightfield sample(const Recipe& source, const grid& where, Executor&& ex = serial_executor{}) {
+    constexpr insonify::detail::unfilled unfilled;
     heightfield result{
-        .heights = image<float>(where.width, where.height), .origin = where.origin, .spacing = where.spacing};
+        .heights = image<float>(where.width, where.height, unfilled), .origin = where.origin, .spacing = where.spacing};
     if constexpr (single_typed<Recipe>) {
         result.fallback = source.kind;
     } else {
-        result.types = image<type>(where.width, where.height);
+        result.types = image<type>(where.width, where.height, unfilled);
     }
     validate(result);
 

@@ -47,6 +47,8 @@ class round_marks {
 
   private:
     struct kernel {
+        static constexpr int widest = 16;
+
         const round_marks& marks;
         const stretch& part;
         float* values;

@@ -64,6 +64,8 @@ class trawl_furrows {
         double cosine, sine, per_lane, per_length, per_bend;  // the last three per metre
     };
     struct kernel {
+        static constexpr int widest = 16;
+
         const trawl_furrows& furrows;
         const stretch& part;
         float* values;

@@ -21,6 +21,8 @@ struct draws {
     std::vector<float> normals, symmetric, units, logarithms;
 };
 struct draw_kernel_of_all {
+    static constexpr int widest = 16;
+
     draws& into;
 
     template <int N>
@@ -83,7 +85,7 @@ TEST_CASE("Draws in lanes are those of their words, block after block, to a floa
 
 TEST_CASE("Draws in lanes have the same bits at every instruction set") {
     const draws scalar = make(1 << 12, in::isa::scalar);
-    for (const in::isa level : {in::isa::baseline, in::isa::avx2}) {
+    for (const in::isa level : {in::isa::baseline, in::isa::avx2, in::isa::avx512}) {
         const draws wide = make(1 << 12, level);
         CHECK(wide.normals == scalar.normals);
         CHECK(wide.symmetric == scalar.symmetric);
@@ -112,11 +114,9 @@ TEST_CASE("The circle is round to 1.2e-7, at the quarters and their halves too")
     CHECK(worst < 1.2e-7);
 }
 
-TEST_CASE("Exponentials and floors in lanes") {
+TEST_CASE("Floors in lanes") {
     for (double x = -690; x < 690; x += 0.37) {
         double found;
-        exp_lanes<1>(found, x);
-        CHECK(found == Approx(std::exp(x)).epsilon(1e-15));
         floor_lanes<1>(found, x);
         CHECK(found == std::floor(x));
     }

@@ -20,6 +20,8 @@ struct draws {
     std::vector<double> logarithms, normals;
 };
 struct counting_kernel {
+    static constexpr int widest = 16;
+
     draws& into;
     std::size_t count;
 
@@ -50,7 +52,7 @@ struct counting_kernel {
 }  // namespace
 
 TEST_CASE("Words, logarithms and normal draws are the same one by one and in lanes, at every instruction set") {
-    const in::isa level = GENERATE(in::isa::scalar, in::isa::baseline, in::isa::avx2);
+    const in::isa level = GENERATE(in::isa::scalar, in::isa::baseline, in::isa::avx2, in::isa::avx512);
     constexpr std::size_t count = 20000;
     draws found;
     dispatch(counting_kernel{found, count}, level);

@@ -47,25 +47,27 @@ floats by_draws(int count, in::isa level) {
     return floats(buffer, buffer + count);
 }
 
-floats by_poisson(int count, double photons, in::isa level) {
-    const noise_run run{11, 13, count, 1, 1};
-    poisson_run all;
-    const floats from = pixels(count);
-    std::copy(from.begin(), from.end(), all.pixel);
-    dispatch(poisson_squeeze_kernel{&all, photons, run, key}, level);
-    dispatch(rejection_kernel<poisson_rejection>{{}, all.mean, all.count, &all.many, run, key}, level);
-    dispatch(rejection_kernel<poisson_inversion>{{}, all.mean, all.count, &all.few, run, key}, level);
+floats by_poisson(int count, float photons, in::isa level) {
+    const noise_run run{11, 13, count, 0, 1};
+    const floats from = pixels(count), word = by_draws<word_draws>(count, in::isa::scalar),
+                 uniform = by_draws<unit_draws>(count + 3, in::isa::scalar);
     floats to(from.size());
-    dispatch(poisson_pixel_kernel{&all, to.data(), photons, count}, level);
+    pixel_list large;
+    dispatch(poisson_table_kernel{poisson_tables::shared().entries(), from.data(), word.data(), uniform.data() + 3,
+                                  to.data(), count, photons, &large},
+             level);
+    std::vector<double> mean(to.begin(), to.end()), drawn(to.size());
+    dispatch(rejection_kernel<poisson_rejection>{{}, mean.data(), drawn.data(), &large, run, key}, level);
+    for (const double d : drawn) to.push_back(static_cast<float>(d));
     return to;
 }
 
-floats by_quick_poisson(int count, float photons, in::isa level) {
-    const floats from = pixels(count), normal = by_draws<normal_draws>(count, in::isa::scalar);
-    floats to(from.size());
-    pixel_list few;
-    dispatch(quick_poisson_kernel{from.data(), normal.data(), to.data(), count, photons, &few}, level);
-    for (int i = 0; i < few.count; ++i) to.push_back(few.places[i]);
+floats by_quick_poisson(int count, float mean, in::isa level) {
+    const floats normal = by_draws<normal_draws>(count, in::isa::scalar);
+    floats to(normal.size(), mean);
+    pixel_list large;
+    for (int i = 0; i < count; i += 1 + i % 3) add_if(true, i, large.places, large.count);
+    dispatch(quick_poisson_kernel{normal.data(), to.data(), &large, 2 * mean}, level);
     return to;
 }
 
@@ -84,7 +86,8 @@ template <class Fn>
 void same_at_all_levels(const Fn& run) {
     for (const int count : {1, 2, 7, 8, 9, 31, 64, 509, in::run_length}) {
         const auto expected = bits(run(count, in::isa::scalar));
-        for (const in::isa level : {in::isa::baseline, in::isa::avx2}) CHECK(bits(run(count, level)) == expected);
+        for (const in::isa level : {in::isa::baseline, in::isa::avx2, in::isa::avx512})
+            CHECK(bits(run(count, level)) == expected);
     }
 }
 
@@ -103,13 +106,13 @@ TEST_CASE("Kernels of filters make the same bytes at every instruction set") {
     same_at_all_levels([](int n, isa level) { return by_poisson(n, 1, level); });
     same_at_all_levels([](int n, isa level) { return by_poisson(n, 255, level); });
     same_at_all_levels([](int n, isa level) { return by_poisson(n, 1e9, level); });
-    same_at_all_levels([](int n, isa level) { return by_quick_poisson(n, 255, level); });
+    same_at_all_levels([](int n, isa level) { return by_quick_poisson(n, 255.5f, level); });
     same_at_all_levels([](int n, isa level) { return by_gamma(n, 0.3, level); });
     same_at_all_levels([](int n, isa level) { return by_gamma(n, 7, level); });
 }
 
 TEST_CASE("What isn't a number is counted at every instruction set") {
-    for (const in::isa level : {in::isa::scalar, in::isa::baseline, in::isa::avx2}) {
+    for (const in::isa level : {in::isa::scalar, in::isa::baseline, in::isa::avx2, in::isa::avx512}) {
         for (const int count : {1, 8, 50}) {
             int found = -1;
             const floats values = pixels(count);
@@ -127,7 +130,7 @@ TEST_CASE("Rows are rounded as pixels are, at every instruction set and next to 
     }
     std::vector<std::uint8_t> narrow(values.size());
     std::vector<std::uint16_t> wide(values.size());
-    for (const in::isa level : {in::isa::scalar, in::isa::baseline, in::isa::avx2}) {
+    for (const in::isa level : {in::isa::scalar, in::isa::baseline, in::isa::avx2, in::isa::avx512}) {
         in::quantize_row<std::uint8_t>(values, narrow, level);
         in::quantize_row<std::uint16_t>(values, wide, level);
         std::size_t wrong = 0;
