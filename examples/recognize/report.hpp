@@ -71,7 +71,7 @@ inline std::string markdown(const std::vector<outcome>& outcomes, const class_co
 
 /// A square for each pair of shown and answered, darker for more: one matrix beside the other.
 inline std::string svg(const std::vector<outcome>& outcomes) {
-    constexpr int cell = 44, left = 62, top = 42, width = left + 3 * cell + 18, height = top + 3 * cell + 14;
+    constexpr int cell = 44, left = 62, top = 42, width = left + 3 * cell + 40, height = top + 3 * cell + 14;
     constexpr std::size_t columns = 4;
     const auto rows = static_cast<int>((outcomes.size() + columns - 1) / columns);
     const int across = static_cast<int>((std::min)(columns, outcomes.size()));
