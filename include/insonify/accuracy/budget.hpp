@@ -193,9 +193,8 @@ inline settings<> balanced(const overhead& rig) {
             .shadow_error = 0.25,
             .rig = rig};
 }
-inline settings<> exact(const overhead& rig) {
-    return {.shadow = {.texels_per_pixel = 8},
-            .cells = (std::min)(2 * (std::max)(rig.size.x, rig.size.y), 32768),
+inline settings<insonify::shadow::exact> exact(const overhead& rig) {
+    return {.cells = (std::min)(2 * (std::max)(rig.size.x, rig.size.y), 32768),
             .subpixel_bits = 16,
             .side_error = 0.02,
             .shadow_error = 0.02,

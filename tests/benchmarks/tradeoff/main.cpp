@@ -70,6 +70,7 @@ void for_each_policy(const Visit& visit) {
     visit("map", in::shadow::map{});
     visit("pcf", in::shadow::pcf{});
     visit("refined", in::shadow::refined{});
+    visit("exact", in::shadow::exact{});
 }
 
 in::image<std::uint8_t> dark_of(const in::labels& l) {
@@ -114,8 +115,7 @@ void measure_pictures(const options& o, report::contents& into) {
         in::scene scene;
         scene.seabed = bottom;
         const auto dark = marching::dark_pixels(bottom, rig, 4, pool);
-        const auto truth = in::render(
-            scene, rig, in::render_options<>{.shadow = {.texels_per_pixel = 8}, .cells = 4 * o.pixels}, pool);
+        const auto truth = in::render(scene, rig, in::render_options<in::shadow::exact>{.cells = 4 * o.pixels}, pool);
         std::vector<candidate> candidates;
         for (const double cells : {0.0625, 0.125, 0.25, 0.5, 1.0, 2.0})
             for_each_policy([&](const char* policy, auto shadow) {
@@ -133,12 +133,13 @@ void measure_pictures(const options& o, report::contents& into) {
                     add();
                 }
             });
-        for (const auto& [title, how] : {std::pair{"fast", in::accuracy::fast(rig)},
-                                         {"balanced", in::accuracy::balanced(rig)},
-                                         {"exact", in::accuracy::exact(rig)}}) {
-            candidates.push_back(make_candidate(scene, rig, name, "refined", how.options()));
+        const auto add_named = [&](const char* title, const char* policy, const auto& how) {
+            candidates.push_back(make_candidate(scene, rig, name, policy, how.options()));
             candidates.back().way.name = title;
-        }
+        };
+        add_named("fast", "refined", in::accuracy::fast(rig));
+        add_named("balanced", "refined", in::accuracy::balanced(rig));
+        add_named("exact", "exact", in::accuracy::exact(rig));
         for (int run = 0; run < o.runs; ++run)
             for (candidate& c : candidates) {
                 in::frame<> drawn;

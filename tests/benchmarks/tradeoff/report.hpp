@@ -115,7 +115,7 @@ inline std::string trade_chart(const contents& c) {
         x0 += width + gap;
     }
     double key = left;
-    for (const std::string policy : {"refined", "map", "pcf", "none"}) {
+    for (const std::string policy : {"exact", "refined", "map", "pcf", "none"}) {
         body += svg::circle(key, top + height + 42, 5, color_of(policy)) +
                 svg::text(key + 10, top + height + 46, policy == "none" ? "no shadows" : policy);
         key += 110;
