@@ -11,6 +11,7 @@
 #include <insonify/core/draw_lanes.hpp>
 #include <insonify/core/error.hpp>
 #include <insonify/core/executor.hpp>
+#include <insonify/core/filled.hpp>
 #include <insonify/core/gamma.hpp>
 #include <insonify/core/image.hpp>
 #include <insonify/core/image_view.hpp>

@@ -6361,6 +6361,24 @@ class caster_map {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/core/filled.hpp ------------------------------------------------------------------
+// Images of one value, made by all threads: filling a large one takes as long as drawing a small picture, most of it
+// to get hold of the memory.
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+template <class T, executor E>
+image<T> filled(int width, int height, T value, E& ex) {
+    image<T> result(width, height, unfilled{});
+    const std::size_t rows = (std::size_t{1} << 18) / (static_cast<std::size_t>((std::max)(width, 1)) * sizeof(T)) + 1;
+    bulk_ranges(ex, static_cast<std::size_t>(height), rows, [&](std::size_t first, std::size_t last) {
+        for (std::size_t y = first; y < last; ++y) std::ranges::fill(result.row(static_cast<int>(y)), value);
+    });
+    return result;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
 // ------------ insonify/geometry/normals.hpp -------------------------------------------------------------
 // Shading normals for meshes that come without.
 //
@@ -9623,8 +9641,11 @@ struct labels {
     std::vector<target_label> targets;
 
     labels() = default;
-    labels(int width, int height)
-        : instance(width, height, no_instance), shadow(width, height, is_lit), seabed(width, height, no_seabed) {}
+    template <executor_argument Executor = serial_executor>
+    labels(int width, int height, Executor&& ex = serial_executor{})
+        : instance(detail::filled(width, height, no_instance, ex)),
+          shadow(detail::filled(width, height, is_lit, ex)),
+          seabed(detail::filled(width, height, no_seabed, ex)) {}
 };
 
 /// 255 where a target is visible, 0 elsewhere.
@@ -10258,16 +10279,16 @@ class overhead_painter {
   public:
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
-        : scene_(s), view_(rig), options_(options), depth_(rig.size.x, rig.size.y) {
+        : scene_(s), view_(rig), options_(options), depth_(rig.size.x, rig.size.y, unfilled{}) {
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
-        out_.image = image<float>(rig.size.x, rig.size.y);
+        out_.image = filled(rig.size.x, rig.size.y, 0.0f, ex);
         validate(options.shadow);
         if constexpr (!shadow::ray_policy<Shadow> && !std::is_same_v<Shadow, shadow::none>)
             require(!view_.has_near_light(), "overhead.light_distance", rig.light_distance,
                     "infinite, or shadow::exact or penumbra");
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
-        if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y);
+        if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y, ex);
         for (const target& t : s.targets)
             targets_.emplace_back(t.shape, bounds(t.shape, ex), view_.rig_from(to_world(t.placement)), t.is_solid);
         if (has_bottom()) sample_seabed(ex);
@@ -10454,7 +10475,7 @@ class overhead_painter {
     const scene& scene_;
     overhead_geometry view_;
     render_options<Shadow, Labels, Law> options_;
-    image<float> depth_;
+    image<float> depth_;  ///< the first draw fills it
     frame<Labels> out_;
     seabed::heightfield field_;
     mesh bottom_;
@@ -16761,7 +16782,8 @@ class recorder {
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
     using options_type = record_options<Labels, Law, Equation>;
 
-    recorder(const scene& s, std::span<const ping> track, const Rig& rig, const options_type& options)
+    template <executor E>
+    recorder(const scene& s, std::span<const ping> track, const Rig& rig, const options_type& options, E& ex)
         : scene_(s), track_(track), rig_(rig), options_(options) {
         validate(rig);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
@@ -16772,8 +16794,8 @@ class recorder {
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
         for (const target& t : s.targets) targets_.emplace_back(t);
         const auto height = static_cast<int>(track.size());
-        out_.image = image<float>(rig.bins, height);
-        if constexpr (labelled) out_.labels = labels(rig.bins, height);
+        out_.image = filled(rig.bins, height, 0.0f, ex);
+        if constexpr (labelled) out_.labels = labels(rig.bins, height, ex);
     }
 
     template <executor E>
@@ -16965,7 +16987,7 @@ template <across_track Axis, class Labels = labels, backscatter_law Law = lamber
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 recording<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                          const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
-    auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options).record(ex);
+    auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
     if constexpr (std::is_same_v<Labels, labels>) describe_targets(out.labels, s.targets);
     return out;
 }
@@ -16985,7 +17007,7 @@ recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
         });
     std::vector<ping> track;
     for (int i = rig.pings - 1 + more; i >= -more; --i) track.push_back(ping_of(rig, i));
-    auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options).record(ex);
+    auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
     if (more > 0) out.image = detail::rows_of(out.image, more, rig.pings);
     if constexpr (std::is_same_v<Labels, labels>) {
         if (more > 0) {

@@ -1,7 +1,7 @@
 // What each pixel shows, for those who train and those who test: targets, seabed types, shadows and who cast them.
 #pragma once
 
-#include <insonify/core/image.hpp>
+#include <insonify/core/filled.hpp>
 #include <insonify/sonar/scene.hpp>
 
 #include <algorithm>
@@ -41,8 +41,11 @@ struct labels {
     std::vector<target_label> targets;
 
     labels() = default;
-    labels(int width, int height)
-        : instance(width, height, no_instance), shadow(width, height, is_lit), seabed(width, height, no_seabed) {}
+    template <executor_argument Executor = serial_executor>
+    labels(int width, int height, Executor&& ex = serial_executor{})
+        : instance(detail::filled(width, height, no_instance, ex)),
+          shadow(detail::filled(width, height, is_lit, ex)),
+          seabed(detail::filled(width, height, no_seabed, ex)) {}
 };
 
 /// 255 where a target is visible, 0 elsewhere.

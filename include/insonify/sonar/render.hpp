@@ -54,16 +54,16 @@ class overhead_painter {
   public:
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
-        : scene_(s), view_(rig), options_(options), depth_(rig.size.x, rig.size.y) {
+        : scene_(s), view_(rig), options_(options), depth_(rig.size.x, rig.size.y, unfilled{}) {
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
-        out_.image = image<float>(rig.size.x, rig.size.y);
+        out_.image = filled(rig.size.x, rig.size.y, 0.0f, ex);
         validate(options.shadow);
         if constexpr (!shadow::ray_policy<Shadow> && !std::is_same_v<Shadow, shadow::none>)
             require(!view_.has_near_light(), "overhead.light_distance", rig.light_distance,
                     "infinite, or shadow::exact or penumbra");
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
-        if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y);
+        if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y, ex);
         for (const target& t : s.targets)
             targets_.emplace_back(t.shape, bounds(t.shape, ex), view_.rig_from(to_world(t.placement)), t.is_solid);
         if (has_bottom()) sample_seabed(ex);
@@ -250,7 +250,7 @@ class overhead_painter {
     const scene& scene_;
     overhead_geometry view_;
     render_options<Shadow, Labels, Law> options_;
-    image<float> depth_;
+    image<float> depth_;  ///< the first draw fills it
     frame<Labels> out_;
     seabed::heightfield field_;
     mesh bottom_;

@@ -67,7 +67,8 @@ class recorder {
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
     using options_type = record_options<Labels, Law, Equation>;
 
-    recorder(const scene& s, std::span<const ping> track, const Rig& rig, const options_type& options)
+    template <executor E>
+    recorder(const scene& s, std::span<const ping> track, const Rig& rig, const options_type& options, E& ex)
         : scene_(s), track_(track), rig_(rig), options_(options) {
         validate(rig);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
@@ -78,8 +79,8 @@ class recorder {
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
         for (const target& t : s.targets) targets_.emplace_back(t);
         const auto height = static_cast<int>(track.size());
-        out_.image = image<float>(rig.bins, height);
-        if constexpr (labelled) out_.labels = labels(rig.bins, height);
+        out_.image = filled(rig.bins, height, 0.0f, ex);
+        if constexpr (labelled) out_.labels = labels(rig.bins, height, ex);
     }
 
     template <executor E>
@@ -271,7 +272,7 @@ template <across_track Axis, class Labels = labels, backscatter_law Law = lamber
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 recording<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                          const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
-    auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options).record(ex);
+    auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
     if constexpr (std::is_same_v<Labels, labels>) describe_targets(out.labels, s.targets);
     return out;
 }
@@ -291,7 +292,7 @@ recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
         });
     std::vector<ping> track;
     for (int i = rig.pings - 1 + more; i >= -more; --i) track.push_back(ping_of(rig, i));
-    auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options).record(ex);
+    auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
     if (more > 0) out.image = detail::rows_of(out.image, more, rig.pings);
     if constexpr (std::is_same_v<Labels, labels>) {
         if (more > 0) {
