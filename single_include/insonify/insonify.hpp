@@ -2883,7 +2883,8 @@ struct small_fill {
             drop = z_a + dy * drop;
             unroll<Size>([&](int column) INSONIFY_INLINE_LAMBDA {
                 const int pixel = row * block + column;
-                const ints bit = ints{} + (1 << pixel);
+                const std::int32_t own = 1 << pixel;
+                const ints bit = ints{} + own;
                 const ints outside = bc_x | ca_x | ab_x | (wide - column) | (tall - row);
                 found.covered |= outside >= 0 ? bit : ints{};
                 floats z;
