@@ -13,15 +13,15 @@
 #include <CLI/CLI.hpp>
 #include <malloc.h>
 
-// All memory goes through here, to be counted.
-void* operator new(std::size_t size) {
+// All memory goes through here, to be counted. Inlined, g++ sees only one half of the pair and takes it for a mistake.
+[[gnu::noinline]] void* operator new(std::size_t size) {
     void* const memory = std::malloc(size);
     if (memory == nullptr) throw std::bad_alloc();
     cost::allocated += malloc_usable_size(memory);
     cost::peak = std::max(cost::peak, cost::allocated);
     return memory;
 }
-void operator delete(void* memory) noexcept {
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
     if (memory != nullptr) cost::allocated -= malloc_usable_size(memory);
     std::free(memory);
 }
