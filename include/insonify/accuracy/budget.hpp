@@ -98,14 +98,15 @@ struct settings {
 /// The cheapest settings with which pictures of a seabed keep to a budget, as far as a probe can tell; where none does,
 /// those that are the least beyond it, and `expected` says how far off they are.
 ///
-/// Settings are found for a shadow policy: `settings_for<shadow::map>(...)`. One that has texels is given as few as
-/// will do.
+/// Settings are found for a shadow policy, exact shadows if none is named: these cost little more than others where the
+/// seabed's cells are the finest they need be. One that has texels, `settings_for<shadow::refined>(...)`, gets as few
+/// as will do.
 /// @param tolerated  each above 0
 /// @param bottom     the seabed; pictures of others of its kind have about the same errors
 /// @param rig        of the pictures
 /// @param ex         who runs it
 /// @throws invalid_input for a tolerated error that isn't above 0, a probe that can't be, and as `render`
-template <shadow::policy Shadow = shadow::refined, executor_argument E = serial_executor>
+template <shadow::policy Shadow = shadow::exact, executor_argument E = serial_executor>
 settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::any& bottom, const overhead& rig,
                               const probe& how = {}, E&& ex = {}) {
     using detail::require;
