@@ -95,8 +95,8 @@
 #define INSONIFY_DISPATCH 0
 #endif
 
-// Whether a kernel is one function, whatever it calls. 0 makes programs compile in half of the time and run several
-// times as long, to the same bytes; so do the sanitizers, under which it would compile for minutes.
+// Whether a kernel is one function, whatever it calls. With 0 programs compile in half of the time and run several
+// times as long, to the same bytes. The sanitizers choose 0, because what they add would compile for minutes.
 #if !defined(INSONIFY_WHOLE_KERNELS)
 #if defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define INSONIFY_WHOLE_KERNELS 1
