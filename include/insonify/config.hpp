@@ -66,8 +66,15 @@
 
 // Whether a kernel is one function, whatever it calls. With 0 programs compile in half of the time and run several
 // times as long, to the same bytes. The sanitizers choose 0, because what they add would compile for minutes.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define INSONIFY_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define INSONIFY_SANITIZED 1
+#endif
+#endif
 #if !defined(INSONIFY_WHOLE_KERNELS)
-#if defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GNUC__) && !defined(INSONIFY_SANITIZED)
 #define INSONIFY_WHOLE_KERNELS 1
 #else
 #define INSONIFY_WHOLE_KERNELS 0

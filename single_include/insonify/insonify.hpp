@@ -97,8 +97,15 @@
 
 // Whether a kernel is one function, whatever it calls. With 0 programs compile in half of the time and run several
 // times as long, to the same bytes. The sanitizers choose 0, because what they add would compile for minutes.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define INSONIFY_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define INSONIFY_SANITIZED 1
+#endif
+#endif
 #if !defined(INSONIFY_WHOLE_KERNELS)
-#if defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GNUC__) && !defined(INSONIFY_SANITIZED)
 #define INSONIFY_WHOLE_KERNELS 1
 #else
 #define INSONIFY_WHOLE_KERNELS 0
@@ -5470,7 +5477,8 @@ class box_tree {
         bulk_ranges(ex, boxes.size(), grain, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 const topped_box& b = boxes[i];
-                const auto step = [](double s) { return static_cast<std::uint32_t>((std::min)(s, 65535.0)); };
+                // In this order, because boxes that all have one centre make a NaN, which is not less than anything.
+                const auto step = [](double s) { return static_cast<std::uint32_t>((std::min)(65535.0, s)); };
                 const std::uint32_t u = step((centre(b.u_low, b.u_high) - all.u) * u_scale);
                 const std::uint32_t v = step((centre(b.v_low, b.v_high) - all.v) * v_scale);
                 keys[i] = std::uint64_t{spread(u) | spread(v) << 1} << 32 | i;

@@ -267,7 +267,8 @@ class box_tree {
         bulk_ranges(ex, boxes.size(), grain, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 const topped_box& b = boxes[i];
-                const auto step = [](double s) { return static_cast<std::uint32_t>((std::min)(s, 65535.0)); };
+                // In this order, because boxes that all have one centre make a NaN, which is not less than anything.
+                const auto step = [](double s) { return static_cast<std::uint32_t>((std::min)(65535.0, s)); };
                 const std::uint32_t u = step((centre(b.u_low, b.u_high) - all.u) * u_scale);
                 const std::uint32_t v = step((centre(b.v_low, b.v_high) - all.v) * v_scale);
                 keys[i] = std::uint64_t{spread(u) | spread(v) << 1} << 32 | i;
