@@ -3817,15 +3817,18 @@ inline constexpr std::size_t type_count = 16;
 /// alone, never accumulated, and parts of a row keep their origin: cutting a row changes no bit of it.
 struct scanline {
     double y = 0;
-    double origin = 0;      ///< x of sample 0 of the whole row
-    double spacing = 1;     ///< >= 0
-    std::size_t first = 0;  ///< which sample of the whole row is sample 0 here
+    double origin = 0;       ///< x of sample 0 of the whole row
+    double spacing = 1;      ///< >= 0
+    std::int64_t first = 0;  ///< which sample of the whole row is sample 0 here; any, below 0 too
     /// Metres between the vertices of the grid that the row is part of: relief that it can't carry fades out (see
     /// `carried`). 0: nothing does.
     double grid_spacing = 0;
 
-    double x(std::size_t i) const { return origin + spacing * static_cast<double>(first + i); }
-    scanline from(std::size_t i) const { return {y, origin, spacing, first + i, grid_spacing}; }
+    double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
+    scanline from(std::size_t i) const { return {y, origin, spacing, number(i), grid_spacing}; }
+
+  private:
+    std::int64_t number(std::size_t i) const { return first + static_cast<std::int64_t>(i); }
 };
 
 /// The share in [0, 1] of a wave's amplitude that a grid keeps: nothing of two samples a wave or fewer, which would
@@ -4281,10 +4284,11 @@ struct cell_facets {
 };
 
 /// A vertex of a heightfield as its mesh has it; one without data lies at z = 0.
-inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_t j) {
+inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_t j, glm::ivec2 first) {
     const float height = field.heights(static_cast<int>(i), static_cast<int>(j));
-    return {static_cast<float>(field.spacing * static_cast<double>(i)),
-            static_cast<float>(field.spacing * static_cast<double>(j)), numeric::is_finite(height) ? height : 0.0f};
+    return {static_cast<float>(field.spacing * (static_cast<double>(first.x) + static_cast<double>(i))),
+            static_cast<float>(field.spacing * (static_cast<double>(first.y) + static_cast<double>(j))),
+            numeric::is_finite(height) ? height : 0.0f};
 }
 
 }  // namespace detail
@@ -4295,9 +4299,11 @@ inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_
 /// Positions are relative to the heightfield's origin, x in [0, spacing (width - 1)], so that float holds them wherever
 /// the field lies: place the mesh at `field.origin`. Vertex (i, j) is number j width + i. Normals are those that
 /// `normals` gives. Vertices without data lie at z = 0 and belong to no triangle.
+/// @param first  what vertex (0, 0) counts as, in x and y: positions are spacing (first + (i, j)), and meshes of parts
+///               of one grid share their vertices to the last bit
 /// @throws invalid_input as `validate`, and for 2^32 vertices or more
 template <executor_argument Executor = serial_executor>
-mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}) {
+mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm::ivec2 first = {0, 0}) {
     validate(field);
     const image<float>& heights = field.heights;
     const auto width = static_cast<std::size_t>(heights.width()), height = static_cast<std::size_t>(heights.height());
@@ -4312,7 +4318,8 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}) {
     std::vector<std::size_t> first_triangle(height, 0);
     ex.bulk(height, [&](std::size_t j) {
         detail::row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
-        for (std::size_t i = 0; i < width; ++i) result.positions[j * width + i] = detail::position_at(field, i, j);
+        for (std::size_t i = 0; i < width; ++i)
+            result.positions[j * width + i] = detail::position_at(field, i, j, first);
         if (j + 1 == height) return;
         const float* const here = heights.row(static_cast<int>(j)).data();
         const float* const ahead = heights.row(static_cast<int>(j + 1)).data();
@@ -4702,9 +4709,11 @@ void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit)
 /// of two cells. Finding them takes several times as long as `tessellate` does.
 ///
 /// No two triangles that share a longest side could be replaced by the one that they are halves of.
+/// @param first  as for `tessellate`
 /// @throws invalid_input as `tessellate`, and for a negative or NaN leeway
 template <executor_argument Executor = serial_executor>
-adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Executor&& ex = serial_executor{}) {
+adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Executor&& ex = serial_executor{},
+                         glm::ivec2 first = {0, 0}) {
     validate(field);
     detail::require(allowed.height >= 0, "leeway.height", allowed.height, "metres, at least 0");
     detail::require(allowed.slope >= 0, "leeway.slope", allowed.slope, "a slope, at least 0");
@@ -4761,7 +4770,7 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
         std::size_t vertex = first_vertex[j];
         for (std::size_t i = 0; i < columns; ++i) {
             if (!is_corner(i, j) && !needed(static_cast<int>(i), static_cast<int>(j))) continue;
-            result.shape.positions[vertex] = detail::position_at(field, i, j);
+            result.shape.positions[vertex] = detail::position_at(field, i, j, first);
             result.shape.normals[vertex] = rises.normal(i, static_cast<float>(field.spacing));
             result.vertices[vertex++] = static_cast<std::uint32_t>(j * columns + i);
         }
@@ -4787,13 +4796,15 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
-/// Where to sample: vertex (i, j) at origin + spacing * (i, j), metres in the world.
+/// Where to sample: vertex (i, j) at origin + spacing * (first + (i, j)), metres in the world. Parts of one grid share
+/// their vertices to the last bit if they differ in `first` and not in the origin.
 struct grid {
     glm::dvec2 origin{0.0, 0.0};
     double spacing = 0.02;
     int width = 2, height = 2;  ///< vertices, at least 2
     bool band_limited =
         false;  ///< relief that the spacing can't carry fades out, instead of turning up as other relief
+    glm::ivec2 first{0, 0};
 };
 
 /// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
@@ -4823,8 +4834,9 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 template <preparable Recipe, executor_argument Executor = serial_executor>
 heightfield sample(const Recipe& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::unfilled unfilled;
-    heightfield result{
-        .heights = image<float>(where.width, where.height, unfilled), .origin = where.origin, .spacing = where.spacing};
+    heightfield result{.heights = image<float>(where.width, where.height, unfilled),
+                       .origin = where.origin + where.spacing * glm::dvec2(where.first),
+                       .spacing = where.spacing};
     if constexpr (single_typed<Recipe>) {
         result.fallback = source.kind;
     } else {
@@ -4835,9 +4847,10 @@ heightfield sample(const Recipe& source, const grid& where, Executor&& ex = seri
     const auto prepared = prepare(source);
     ex.bulk(static_cast<std::size_t>(where.height), [&](std::size_t row) {
         const int j = static_cast<int>(row);
-        const scanline line{.y = where.origin.y + where.spacing * j,
+        const scanline line{.y = where.origin.y + where.spacing * (static_cast<double>(where.first.y) + j),
                             .origin = where.origin.x,
                             .spacing = where.spacing,
+                            .first = where.first.x,
                             .grid_spacing = where.band_limited ? where.spacing : 0};
         prepared.row(line, result.heights.row(j), result.types.empty() ? std::span<type>{} : result.types.row(j));
     });
@@ -10341,11 +10354,7 @@ class overhead_painter {
         ground_box ground = shown_ground(view_, range);
         if constexpr (!std::is_same_v<Shadow, shadow::none>)
             ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
-        seabed::grid grid = grid_under(ground, spacing);
-        bottom_origin_ = grid.origin;
-        grid.origin += rig.position;
-        grid.band_limited = true;
-        field_ = seabed::sample(scene_.seabed, grid, ex);
+        field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
         out_.stats.seabed_samples = field_.heights.size();
         model_seabed(ex);
         for (const float height : field_.heights.pixels()) {
@@ -10362,7 +10371,7 @@ class overhead_painter {
     void model_seabed(E& ex) {
         const auto every = field_.types.pixels();
         if (options_.edge_error == 0) {
-            bottom_ = seabed::tessellate(field_, ex);
+            bottom_ = seabed::tessellate(field_, ex, bottom_first_);
             bottom_types_.assign(every.begin(), every.end());
             return;
         }
@@ -10373,37 +10382,37 @@ class overhead_painter {
                                                     {.height = forgiven / cot,
                                                      .slope = static_cast<double>(options_.slope_error),
                                                      .lean = forgiven * static_cast<double>(view_.rig().altitude),
-                                                     .nadir = -bottom_origin_},
-                                                    ex);
+                                                     .nadir = -field_.spacing * glm::dvec2(bottom_first_)},
+                                                    ex, bottom_first_);
         bottom_ = std::move(shape);
         if (every.empty()) return;
         bottom_types_.resize(vertices.size());
         std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
     }
 
-    /// The multiples of the spacing over a part of the ground: where a vertex is doesn't depend on what else is
-    /// sampled. They count from the rig's position, so that far from the world's origin no bit of it changes.
-    static seabed::grid grid_under(const ground_box& ground, double spacing) {
-        seabed::grid grid{.spacing = spacing};
+    /// The multiples of the spacing over a part of the ground, counted from the rig's position: where a vertex is
+    /// depends neither on what else is sampled nor on how far the world's origin is.
+    seabed::grid grid_under(const ground_box& ground, double spacing) {
+        seabed::grid grid{.origin = view_.rig().position, .spacing = spacing, .band_limited = true};
         const auto along = [&](int axis) {
             const double first = static_cast<double>(numeric::floor_to_int(ground.first[axis] / spacing + 1e-6));
             const double count = 1 - static_cast<double>(numeric::floor_to_int(-ground.last[axis] / spacing)) - first;
             require(count <= 1 << 20, "vertices of the seabed along an axis", count, "at most 2^20: less `reach`");
-            grid.origin[axis] = spacing * first;
+            bottom_first_[axis] = static_cast<int>(first);
             return static_cast<int>((std::max)(2.0, count));
         };
         grid.width = along(0);
         grid.height = along(1);
+        grid.first = bottom_first_;
         return grid;
     }
 
     placed_mesh bottom_in_rig() const {
         const affine under_rig = view_.rig_from({glm::dmat3(1), glm::dvec3(view_.rig().position, 0)});
-        const glm::dvec2 far_corner =
-            field_.spacing * glm::dvec2(field_.heights.width() - 1, field_.heights.height() - 1);
+        const glm::ivec2 last = bottom_first_ + glm::ivec2(field_.heights.width() - 1, field_.heights.height() - 1);
         return {bottom_,
-                {{0, 0, lowest_}, {far_corner, highest_}},
-                compose(under_rig, {glm::dmat3(1), glm::dvec3(bottom_origin_, 0)}),
+                {{field_.spacing * glm::dvec2(bottom_first_), lowest_}, {field_.spacing * glm::dvec2(last), highest_}},
+                under_rig,
                 true};
     }
 
@@ -10494,7 +10503,7 @@ class overhead_painter {
     seabed::heightfield field_;
     mesh bottom_;
     std::vector<seabed::type> bottom_types_;  ///< by vertex, or none where there is one type alone
-    glm::dvec2 bottom_origin_{};              ///< of the field, from the rig's position
+    glm::ivec2 bottom_first_{0, 0};           ///< of the field's vertices, counted from the rig's position
     float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum
     std::vector<placed_mesh> targets_;
 };

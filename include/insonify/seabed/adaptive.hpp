@@ -57,9 +57,11 @@ void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit)
 /// of two cells. Finding them takes several times as long as `tessellate` does.
 ///
 /// No two triangles that share a longest side could be replaced by the one that they are halves of.
+/// @param first  as for `tessellate`
 /// @throws invalid_input as `tessellate`, and for a negative or NaN leeway
 template <executor_argument Executor = serial_executor>
-adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Executor&& ex = serial_executor{}) {
+adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Executor&& ex = serial_executor{},
+                         glm::ivec2 first = {0, 0}) {
     validate(field);
     detail::require(allowed.height >= 0, "leeway.height", allowed.height, "metres, at least 0");
     detail::require(allowed.slope >= 0, "leeway.slope", allowed.slope, "a slope, at least 0");
@@ -116,7 +118,7 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
         std::size_t vertex = first_vertex[j];
         for (std::size_t i = 0; i < columns; ++i) {
             if (!is_corner(i, j) && !needed(static_cast<int>(i), static_cast<int>(j))) continue;
-            result.shape.positions[vertex] = detail::position_at(field, i, j);
+            result.shape.positions[vertex] = detail::position_at(field, i, j, first);
             result.shape.normals[vertex] = rises.normal(i, static_cast<float>(field.spacing));
             result.vertices[vertex++] = static_cast<std::uint32_t>(j * columns + i);
         }

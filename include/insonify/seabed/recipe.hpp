@@ -46,15 +46,18 @@ inline constexpr std::size_t type_count = 16;
 /// alone, never accumulated, and parts of a row keep their origin: cutting a row changes no bit of it.
 struct scanline {
     double y = 0;
-    double origin = 0;      ///< x of sample 0 of the whole row
-    double spacing = 1;     ///< >= 0
-    std::size_t first = 0;  ///< which sample of the whole row is sample 0 here
+    double origin = 0;       ///< x of sample 0 of the whole row
+    double spacing = 1;      ///< >= 0
+    std::int64_t first = 0;  ///< which sample of the whole row is sample 0 here; any, below 0 too
     /// Metres between the vertices of the grid that the row is part of: relief that it can't carry fades out (see
     /// `carried`). 0: nothing does.
     double grid_spacing = 0;
 
-    double x(std::size_t i) const { return origin + spacing * static_cast<double>(first + i); }
-    scanline from(std::size_t i) const { return {y, origin, spacing, first + i, grid_spacing}; }
+    double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
+    scanline from(std::size_t i) const { return {y, origin, spacing, number(i), grid_spacing}; }
+
+  private:
+    std::int64_t number(std::size_t i) const { return first + static_cast<std::int64_t>(i); }
 };
 
 /// The share in [0, 1] of a wave's amplitude that a grid keeps: nothing of two samples a wave or fewer, which would

@@ -8,13 +8,15 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
-/// Where to sample: vertex (i, j) at origin + spacing * (i, j), metres in the world.
+/// Where to sample: vertex (i, j) at origin + spacing * (first + (i, j)), metres in the world. Parts of one grid share
+/// their vertices to the last bit if they differ in `first` and not in the origin.
 struct grid {
     glm::dvec2 origin{0.0, 0.0};
     double spacing = 0.02;
     int width = 2, height = 2;  ///< vertices, at least 2
     bool band_limited =
         false;  ///< relief that the spacing can't carry fades out, instead of turning up as other relief
+    glm::ivec2 first{0, 0};
 };
 
 /// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
@@ -44,8 +46,9 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 template <preparable Recipe, executor_argument Executor = serial_executor>
 heightfield sample(const Recipe& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::unfilled unfilled;
-    heightfield result{
-        .heights = image<float>(where.width, where.height, unfilled), .origin = where.origin, .spacing = where.spacing};
+    heightfield result{.heights = image<float>(where.width, where.height, unfilled),
+                       .origin = where.origin + where.spacing * glm::dvec2(where.first),
+                       .spacing = where.spacing};
     if constexpr (single_typed<Recipe>) {
         result.fallback = source.kind;
     } else {
@@ -56,9 +59,10 @@ heightfield sample(const Recipe& source, const grid& where, Executor&& ex = seri
     const auto prepared = prepare(source);
     ex.bulk(static_cast<std::size_t>(where.height), [&](std::size_t row) {
         const int j = static_cast<int>(row);
-        const scanline line{.y = where.origin.y + where.spacing * j,
+        const scanline line{.y = where.origin.y + where.spacing * (static_cast<double>(where.first.y) + j),
                             .origin = where.origin.x,
                             .spacing = where.spacing,
+                            .first = where.first.x,
                             .grid_spacing = where.band_limited ? where.spacing : 0};
         prepared.row(line, result.heights.row(j), result.types.empty() ? std::span<type>{} : result.types.row(j));
     });

@@ -26,10 +26,11 @@ struct cell_facets {
 };
 
 /// A vertex of a heightfield as its mesh has it; one without data lies at z = 0.
-inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_t j) {
+inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_t j, glm::ivec2 first) {
     const float height = field.heights(static_cast<int>(i), static_cast<int>(j));
-    return {static_cast<float>(field.spacing * static_cast<double>(i)),
-            static_cast<float>(field.spacing * static_cast<double>(j)), numeric::is_finite(height) ? height : 0.0f};
+    return {static_cast<float>(field.spacing * (static_cast<double>(first.x) + static_cast<double>(i))),
+            static_cast<float>(field.spacing * (static_cast<double>(first.y) + static_cast<double>(j))),
+            numeric::is_finite(height) ? height : 0.0f};
 }
 
 }  // namespace detail
@@ -40,9 +41,11 @@ inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_
 /// Positions are relative to the heightfield's origin, x in [0, spacing (width - 1)], so that float holds them wherever
 /// the field lies: place the mesh at `field.origin`. Vertex (i, j) is number j width + i. Normals are those that
 /// `normals` gives. Vertices without data lie at z = 0 and belong to no triangle.
+/// @param first  what vertex (0, 0) counts as, in x and y: positions are spacing (first + (i, j)), and meshes of parts
+///               of one grid share their vertices to the last bit
 /// @throws invalid_input as `validate`, and for 2^32 vertices or more
 template <executor_argument Executor = serial_executor>
-mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}) {
+mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm::ivec2 first = {0, 0}) {
     validate(field);
     const image<float>& heights = field.heights;
     const auto width = static_cast<std::size_t>(heights.width()), height = static_cast<std::size_t>(heights.height());
@@ -57,7 +60,8 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}) {
     std::vector<std::size_t> first_triangle(height, 0);
     ex.bulk(height, [&](std::size_t j) {
         detail::row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
-        for (std::size_t i = 0; i < width; ++i) result.positions[j * width + i] = detail::position_at(field, i, j);
+        for (std::size_t i = 0; i < width; ++i)
+            result.positions[j * width + i] = detail::position_at(field, i, j, first);
         if (j + 1 == height) return;
         const float* const here = heights.row(static_cast<int>(j)).data();
         const float* const ahead = heights.row(static_cast<int>(j + 1)).data();

@@ -102,11 +102,7 @@ class overhead_painter {
         ground_box ground = shown_ground(view_, range);
         if constexpr (!std::is_same_v<Shadow, shadow::none>)
             ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
-        seabed::grid grid = grid_under(ground, spacing);
-        bottom_origin_ = grid.origin;
-        grid.origin += rig.position;
-        grid.band_limited = true;
-        field_ = seabed::sample(scene_.seabed, grid, ex);
+        field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
         out_.stats.seabed_samples = field_.heights.size();
         model_seabed(ex);
         for (const float height : field_.heights.pixels()) {
@@ -123,7 +119,7 @@ class overhead_painter {
     void model_seabed(E& ex) {
         const auto every = field_.types.pixels();
         if (options_.edge_error == 0) {
-            bottom_ = seabed::tessellate(field_, ex);
+            bottom_ = seabed::tessellate(field_, ex, bottom_first_);
             bottom_types_.assign(every.begin(), every.end());
             return;
         }
@@ -134,37 +130,37 @@ class overhead_painter {
                                                     {.height = forgiven / cot,
                                                      .slope = static_cast<double>(options_.slope_error),
                                                      .lean = forgiven * static_cast<double>(view_.rig().altitude),
-                                                     .nadir = -bottom_origin_},
-                                                    ex);
+                                                     .nadir = -field_.spacing * glm::dvec2(bottom_first_)},
+                                                    ex, bottom_first_);
         bottom_ = std::move(shape);
         if (every.empty()) return;
         bottom_types_.resize(vertices.size());
         std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
     }
 
-    /// The multiples of the spacing over a part of the ground: where a vertex is doesn't depend on what else is
-    /// sampled. They count from the rig's position, so that far from the world's origin no bit of it changes.
-    static seabed::grid grid_under(const ground_box& ground, double spacing) {
-        seabed::grid grid{.spacing = spacing};
+    /// The multiples of the spacing over a part of the ground, counted from the rig's position: where a vertex is
+    /// depends neither on what else is sampled nor on how far the world's origin is.
+    seabed::grid grid_under(const ground_box& ground, double spacing) {
+        seabed::grid grid{.origin = view_.rig().position, .spacing = spacing, .band_limited = true};
         const auto along = [&](int axis) {
             const double first = static_cast<double>(numeric::floor_to_int(ground.first[axis] / spacing + 1e-6));
             const double count = 1 - static_cast<double>(numeric::floor_to_int(-ground.last[axis] / spacing)) - first;
             require(count <= 1 << 20, "vertices of the seabed along an axis", count, "at most 2^20: less `reach`");
-            grid.origin[axis] = spacing * first;
+            bottom_first_[axis] = static_cast<int>(first);
             return static_cast<int>((std::max)(2.0, count));
         };
         grid.width = along(0);
         grid.height = along(1);
+        grid.first = bottom_first_;
         return grid;
     }
 
     placed_mesh bottom_in_rig() const {
         const affine under_rig = view_.rig_from({glm::dmat3(1), glm::dvec3(view_.rig().position, 0)});
-        const glm::dvec2 far_corner =
-            field_.spacing * glm::dvec2(field_.heights.width() - 1, field_.heights.height() - 1);
+        const glm::ivec2 last = bottom_first_ + glm::ivec2(field_.heights.width() - 1, field_.heights.height() - 1);
         return {bottom_,
-                {{0, 0, lowest_}, {far_corner, highest_}},
-                compose(under_rig, {glm::dmat3(1), glm::dvec3(bottom_origin_, 0)}),
+                {{field_.spacing * glm::dvec2(bottom_first_), lowest_}, {field_.spacing * glm::dvec2(last), highest_}},
+                under_rig,
                 true};
     }
 
@@ -255,7 +251,7 @@ class overhead_painter {
     seabed::heightfield field_;
     mesh bottom_;
     std::vector<seabed::type> bottom_types_;  ///< by vertex, or none where there is one type alone
-    glm::dvec2 bottom_origin_{};              ///< of the field, from the rig's position
+    glm::ivec2 bottom_first_{0, 0};           ///< of the field's vertices, counted from the rig's position
     float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum
     std::vector<placed_mesh> targets_;
 };
