@@ -63,12 +63,12 @@ class oracle {
 
     /// Compares a picture's mask with rays towards a light, parallel from `light` or, if it is near, starting there.
     scenes::difference compare(const in::labels& labels, const glm::dvec3& light, bool is_near = false) const {
-        // Slabs along the light, so that not all pixels ask all triangles. They are wide and overlap.
+        // Slabs along the light, so that not all pixels ask all triangles. They overlap by their width.
         const glm::dvec3 side = std::abs(light.x) + std::abs(light.y) > 0
                                     ? glm::normalize(glm::dvec3(-light.y, light.x, 0))
                                     : glm::dvec3(1, 0, 0);
-        const double slab = altitude_ / 16;
-        constexpr int slabs = 64;
+        const double slab = altitude_ / 64;
+        constexpr int slabs = 256;
         const auto slab_of = [&](const glm::dvec3& p) {
             return std::clamp(static_cast<int>(std::floor(glm::dot(p, side) / slab)) + slabs / 2, 0, slabs - 1);
         };
