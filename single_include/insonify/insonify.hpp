@@ -3147,7 +3147,8 @@ struct tile_kernel {
     }
 
   private:
-    /// Between tile and image; `ends(x, y)` are where to and where from.
+    /// Between tile and image; `ends(x, y)` are where to and where from. Adding zero leaves no minus zero, which one
+    /// way to a depth may make where another makes zero.
     template <int N, class Ends>
     INSONIFY_INLINE void copy(const Ends& ends) const {
         using floats = lanes<float, N>;
@@ -3157,11 +3158,11 @@ struct tile_kernel {
                 const auto [to, from] = ends(x, y);
                 floats z;
                 load(z, from);
-                store(to, floats(z * sign));
+                store(to, floats(z * sign + 0.0f));
             }
             for (; x <= box.x1; ++x) {
                 const auto [to, from] = ends(x, y);
-                *to = *from * sign;
+                *to = *from * sign + 0.0f;
             }
         }
     }
@@ -3493,7 +3494,7 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
                 const glm::dvec3 weights = t.weights_at(x, y, grid);
                 const fragment<varyings> f{x,
                                            y,
-                                           depth_sign * *tile.depth(x, y),
+                                           depth_sign * *tile.depth(x, y) + 0.0f,  // as in the image
                                            t.triangle,
                                            glm::vec3(weights),
                                            t.front,

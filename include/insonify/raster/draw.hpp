@@ -91,7 +91,7 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
                 const glm::dvec3 weights = t.weights_at(x, y, grid);
                 const fragment<varyings> f{x,
                                            y,
-                                           depth_sign * *tile.depth(x, y),
+                                           depth_sign * *tile.depth(x, y) + 0.0f,  // as in the image
                                            t.triangle,
                                            glm::vec3(weights),
                                            t.front,

@@ -141,7 +141,8 @@ struct tile_kernel {
     }
 
   private:
-    /// Between tile and image; `ends(x, y)` are where to and where from.
+    /// Between tile and image; `ends(x, y)` are where to and where from. Adding zero leaves no minus zero, which one
+    /// way to a depth may make where another makes zero.
     template <int N, class Ends>
     INSONIFY_INLINE void copy(const Ends& ends) const {
         using floats = lanes<float, N>;
@@ -151,11 +152,11 @@ struct tile_kernel {
                 const auto [to, from] = ends(x, y);
                 floats z;
                 load(z, from);
-                store(to, floats(z * sign));
+                store(to, floats(z * sign + 0.0f));
             }
             for (; x <= box.x1; ++x) {
                 const auto [to, from] = ends(x, y);
-                *to = *from * sign;
+                *to = *from * sign + 0.0f;
             }
         }
     }
