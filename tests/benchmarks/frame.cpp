@@ -57,12 +57,23 @@ int main(int argc, char** argv) {
                     in::shadow::height_map map(light, in::shadow::extent_of(bottom, place, light, pool), texel);
                     map.cast(bottom, place, pool);
                 }));
-    using bare = in::render_options<in::shadow::none, in::no_labels>;
-    using shaded = in::render_options<in::shadow::refined, in::no_labels>;
-    std::printf("  frame, no shadows       %7.1f ms\n",
-                median_ms([&] { in::render(scene, rig, bare{.cells = cells}, pool); }));
-    std::printf("  frame, shadows          %7.1f ms\n",
-                median_ms([&] { in::render(scene, rig, shaded{.cells = cells}, pool); }));
-    std::printf("  frame, shadows, labels  %7.1f ms\n",
-                median_ms([&] { in::render(scene, rig, in::render_options<>{.cells = cells}, pool); }));
+    const auto frame_ms = [&]<class Shadow, class Labels>(in::render_options<Shadow, Labels> options) {
+        options.cells = cells;
+        return median_ms([&] { in::render(scene, rig, options, pool); });
+    };
+    using in::render_options, in::no_labels;
+    namespace shadow = in::shadow;
+    std::printf("  frame, no shadows       %7.1f ms\n", frame_ms(render_options<shadow::none, no_labels>{}));
+    std::printf("  frame, shadows          %7.1f ms\n", frame_ms(render_options<shadow::refined, no_labels>{}));
+    std::printf("  frame, shadows, labels  %7.1f ms\n", frame_ms(render_options<>{}));
+    std::printf("  frame with labels, shadows by a map / refined / exact\n");
+    const auto by_policy = [&](const char* bottom_name) {
+        std::printf("    %-8s %7.1f / %.1f / %.1f ms\n", bottom_name, frame_ms(render_options<shadow::map>{}),
+                    frame_ms(render_options<shadow::refined>{}), frame_ms(render_options<shadow::exact>{}));
+    };
+    by_policy("ripples");
+    scene.seabed = in::seabed::mud{};
+    by_policy("mud");
+    scene.seabed = in::seabed::flat{};
+    by_policy("flat");
 }

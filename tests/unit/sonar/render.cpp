@@ -8,6 +8,9 @@
 
 #include <cmath>
 
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
 #include "../../catch.hpp"
 
 namespace in = insonify;
@@ -81,6 +84,43 @@ TEST_CASE("Level ground has one brightness: reflectivity x (intensity x sin(graz
         CHECK(squared.image(30, 20) == Approx(0.45 * (0.8 * sine * sine + 0.1)).epsilon(1e-5));
         for (const std::uint16_t v : lambert.labels.shadow.pixels()) CHECK(v == in::labels::is_lit);
     }
+}
+
+TEST_CASE("A pixel of a large facet shows the normal of the point that its ray meets") {
+    // From 0.5 to 4 m before the camera: halfway across the picture is not halfway across the facet.
+    const glm::dvec3 corner[3] = {{-3, -3, 0}, {3, -2.5, 0}, {0, 0.4, 3.5}};
+    const glm::dvec3 normal[3] = {{0, 0, 1}, {0.6, 0, 0.8}, {0, 0.6, 0.8}};
+    in::mesh facet;
+    for (int i = 0; i < 3; ++i) {
+        facet.positions.emplace_back(corner[i]);
+        facet.normals.emplace_back(normal[i]);
+    }
+    facet.triangles.emplace_back(0, 1, 2);
+    in::scene s;
+    s.seabed = in::seabed::none{};
+    s.add(facet, {}, "facet", {.reflectivity = 1});
+    const in::overhead rig{.altitude = 4,
+                           .field_of_view = 90_deg,
+                           .size = {200, 200},
+                           .grazing = 90_deg,
+                           .intensity = 1,
+                           .sky = 0,
+                           .ambient = 0};
+    const in::overhead_geometry view(rig);
+    const auto picture = in::render(s, rig, in::render_options<in::shadow::none>{});
+    const glm::dmat3 to_shares =
+        glm::inverse(glm::dmat3(corner[0] - view.eye(), corner[1] - view.eye(), corner[2] - view.eye()));
+    int shown = 0;
+    for (int y = 0; y < 200; ++y)
+        for (int x = 0; x < 200; ++x) {
+            if (picture.labels.instance(x, y) == in::labels::no_instance) continue;
+            glm::dvec3 share = to_shares * view.ray(x, y);
+            share /= share.x + share.y + share.z;
+            const glm::dvec3 there = share.x * normal[0] + share.y * normal[1] + share.z * normal[2];
+            CHECK(picture.image(x, y) == Approx(there.z / glm::length(there)).margin(1e-5));
+            ++shown;
+        }
+    CHECK(shown > 2000);
 }
 
 TEST_CASE("Labels say which target a pixel shows, who shades it, and what the bottom is") {
