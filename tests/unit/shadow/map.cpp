@@ -159,6 +159,22 @@ TEST_CASE("PCF softens an edge and leaves the rest") {
     CHECK(halfway);
 }
 
+TEST_CASE("PCF finds nothing in the way beyond the map's border") {
+    const shadow::light_frame light({radians(30), radians(45)});
+    shadow::map_extent extent;
+    extent.include({0, 0, 0});
+    extent.include({1, 1, 0.5});
+    const shadow::height_map map(light, extent, 0.05);  // nobody casts
+    const shadow::pcf soft{.radius = 3};
+    for (const double u : {-0.5, -0.1, -0.01, 0.01, 0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 1.5})
+        for (const double v : {-0.5, -0.1, -0.01, 0.01, 0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 1.5}) {
+            shadow::receiver at;
+            at.uvz = {u, v, 0};
+            CAPTURE(u, v);
+            CHECK(shadow::lit(map, at, soft) == 1);
+        }
+}
+
 TEST_CASE("A map is the same for any executor, and an empty one leaves everything lit") {
     const shadow::light_frame light({1, radians(10)});
     const in::mesh m = standing_cube();
