@@ -156,6 +156,31 @@ TEST_CASE("Labels say which target a pixel shows, who shades it, and what the bo
     CHECK(l.targets[0].area == Approx(in::numeric::pi * std::pow(0.25 / 2.74 * 150, 2)).epsilon(0.12));
 }
 
+TEMPLATE_TEST_CASE("What a label calls shadow is dark in the picture, and nothing else is", "", in::shadow::map,
+                   in::shadow::refined, in::shadow::exact) {
+    in::scene s = cube_on_plane(0.3);
+    s.add(in::sphere{.radius = 0.2f}, {.position = {0.8, 0.5, 0.2}}, "sphere");
+    const in::overhead rig{.altitude = 3,
+                           .field_of_view = 90_deg,
+                           .size = {300, 300},
+                           .grazing = 15_deg,
+                           .intensity = 1,
+                           .sky = 0,
+                           .ambient = 0};
+    const auto picture = in::render(s, rig, in::render_options<TestType>{});
+    int dark[3] = {};
+    for (int y = 0; y < 300; ++y)
+        for (int x = 0; x < 300; ++x) {
+            const std::uint16_t by = picture.labels.shadow(x, y);
+            // A rounded target's normals turn away from the light before its facets do.
+            if (by == in::labels::is_lit && picture.labels.instance(x, y) != in::labels::no_instance) continue;
+            CHECK((picture.image(x, y) > 0) == (by == in::labels::is_lit));
+            if (by == 1 || by == 2) ++dark[by];
+        }
+    CHECK(dark[1] > 500);
+    CHECK(dark[2] > 500);
+}
+
 TEST_CASE("Targets of one class share its number in the class map") {
     in::scene s;
     s.seabed = plane;
