@@ -6,6 +6,7 @@
 #include <insonify/geometry/sphere.hpp>
 #include <insonify/sonar/render.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -121,6 +122,39 @@ TEST_CASE("A pixel of a large facet shows the normal of the point that its ray m
             ++shown;
         }
     CHECK(shown > 2000);
+}
+
+/// Lambert's law, and the largest sine that it was asked for.
+struct watched_law {
+    float* largest;
+    float operator()(float s) const {
+        *largest = (std::max)(*largest, s);
+        return s;
+    }
+};
+
+TEST_CASE("A backscatter law is never asked for a sine above one, where rounding would make it so") {
+    float largest = 0;
+    for (int i = 0; i < 50; ++i) {
+        // A sheet across the light.
+        const in::overhead rig{.altitude = 4,
+                               .size = {16, 16},
+                               .grazing = (30 + static_cast<float>(i)) * 1_deg,
+                               .light_azimuth = static_cast<float>(7 * i) * 1_deg};
+        const glm::dvec3 n = in::overhead_geometry(rig).light().to_light();
+        const glm::dvec3 u = glm::normalize(glm::dvec3(-n.y, n.x, 0)), v = glm::cross(n, u);
+        in::mesh sheet;
+        for (const glm::dvec3& p : {-u - v, u - v, u + v, v - u}) {
+            sheet.positions.emplace_back(p);
+            sheet.normals.emplace_back(n);
+        }
+        sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+        in::scene s;
+        s.seabed = in::seabed::none{};
+        s.add(sheet, {}, "sheet");
+        in::render(s, rig, in::render_options<in::shadow::none, in::no_labels, watched_law>{.law = {&largest}});
+    }
+    CHECK(largest == 1);
 }
 
 TEST_CASE("Labels say which target a pixel shows, who shades it, and what the bottom is") {
