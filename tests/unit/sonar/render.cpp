@@ -215,6 +215,30 @@ TEMPLATE_TEST_CASE("What a label calls shadow is dark in the picture, and nothin
     CHECK(dark[2] > 500);
 }
 
+TEST_CASE("A pixel of the bottom has the type of the corner that weighs most where it lies") {
+    using in::seabed::type;
+    in::seabed::heightfield field{
+        .heights = in::image<float>(9, 9), .types = in::image<type>(9, 9), .origin = {-8, -8}, .spacing = 2};
+    for (int j = 0; j < 9; ++j)
+        for (int i = 0; i < 9; ++i) field.types(i, j) = i <= 4 ? type::sand : type::rock;  // rock from x = 2 m on
+    in::scene s;
+    s.seabed = field;
+    const in::overhead rig{.altitude = 4, .field_of_view = 90_deg, .size = {160, 160}};
+    const auto picture = in::render(s, rig, in::render_options<in::shadow::none>{.cells = 4});
+    const in::overhead_geometry view(rig);
+    for (int y = 0; y < 160; ++y)
+        for (int x = 0; x < 160; ++x) {
+            const glm::dvec3 ray = view.ray(x, y), at = view.eye() - view.eye().z / ray.z * ray;
+            const double u = at.x / 2, v = at.y / 2 - std::floor(at.y / 2);
+            // The cells between 0 and 2 m are cut from (0, 0) to (1, 1); right of u = 0 corners are of rock.
+            const double sand = v < u ? 1 - u : (std::max)(1 - v, v - u), rock = v < u ? (std::max)(u - v, v) : u;
+            const bool expected = u >= 1 || (u > 0 && rock > sand);
+            if (std::abs(rock - sand) < 1e-4 || std::abs(u - v) < 1e-4) continue;
+            CAPTURE(x, y);
+            CHECK(picture.labels.seabed(x, y) == static_cast<int>(expected ? type::rock : type::sand));
+        }
+}
+
 TEST_CASE("Targets of one class share its number in the class map") {
     in::scene s;
     s.seabed = plane;
