@@ -5851,6 +5851,8 @@ struct map_extent {
     double ceiling = -(std::numeric_limits<double>::max)();
 
     bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
+    /// How far from the frame's origin it goes along v and z, which a low light doesn't stretch.
+    double reach() const { return (std::max)({-lowest.y, highest.y, -floor, ceiling}); }
 
     void include(const glm::dvec3& uvz) {
         lowest = {(std::min)(lowest.x, uvz.x), (std::min)(lowest.y, uvz.y)};
@@ -6208,13 +6210,15 @@ class caster_map {
     /// @param to_world  from the mesh's frame to the one in which the light is described
     /// @param is_solid  nothing that can be asked about lies inside or below it
     /// @param extent    which rays, and between which heights
+    /// @param reach     how far from the frame's origin what is asked about lies, along v and z
     /// @param texel     metres, the same along u and v; grows if more than `largest` texels a side were needed
     /// @throws invalid_input as height_map does
     template <executor E>
     caster_map(const light_frame& frame, const mesh& m, const affine& to_world, bool is_solid, const map_extent& extent,
-               double texel, int largest, E& ex)
+               double reach, double texel, int largest, E& ex)
         : frame_(frame), mesh_(&m), grid_(extent, texel, largest) {
         if (grid_.empty()) return;
+        tolerance_ = static_cast<float>(0x1p-21 * reach);
         const std::size_t width = pitch(), height = static_cast<std::size_t>(grid_.rows) + 2;
         heights_ = std::make_unique_for_overwrite<float[]>(width * height);
         names_ = std::make_unique_for_overwrite<std::uint32_t[]>(width * height);
@@ -6367,21 +6371,20 @@ class caster_map {
             const ints covered = (ints(a >= 0.0f) & ints(b >= 0.0f) & ints(c >= 0.0f)) |
                                  (ints(a <= 0.0f) & ints(b <= 0.0f) & ints(c <= 0.0f));
             const floats height = (a * z[0] + b * z[1] + c * z[2]) / (a + b + c);
-            all.is_behind |= any(ints(covered & ints(height > tolerance)));
+            all.is_behind |= any(ints(covered & ints(height > tolerance_)));
             for (int k = 0; k < N; ++k) all.above += lane(height, k) > 0 ? 1 : 0;
         }
         return all;
     }
-    /// Metres; what lies no higher touches. Floats hold what is close to the point to that.
-    static constexpr float tolerance = 1e-5f;
 
     light_frame frame_;
     const mesh* mesh_ = nullptr;
     affine to_light_;  ///< from the mesh to (u, v, z)
     glm::mat3 axes_;   ///< its linear part
     map_grid grid_;
-    glm::vec3 to_map_[3], start_;             ///< from positions to column, row and height
-    std::unique_ptr<float[]> heights_;        ///< with the frame of empty texels
+    float tolerance_ = 0;               ///< metres that floats hold places to; what lies no higher than that touches
+    glm::vec3 to_map_[3], start_;       ///< from positions to column, row and height
+    std::unique_ptr<float[]> heights_;  ///< with the frame of empty texels
     std::unique_ptr<std::uint32_t[]> names_;  ///< the same texels
 };
 
@@ -9876,7 +9879,8 @@ class shadow_maps {
     caster_map cast(const placed_mesh& caster, const shadow::map_extent& receivers, double texel, E& ex) const {
         const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(receivers);
         if constexpr (refined) {
-            return {light_, *caster.shape, caster.to_rig, caster.is_solid, own, texel, policy_.largest, ex};
+            return caster_map(light_, *caster.shape, caster.to_rig, caster.is_solid, own, receivers.reach(), texel,
+                              policy_.largest, ex);
         } else {
             shadow::height_map map(light_, own, texel, policy_.largest);
             map.cast(*caster.shape, caster.to_rig, ex);

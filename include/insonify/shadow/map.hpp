@@ -10,6 +10,7 @@
 #include <insonify/raster/draw.hpp>
 #include <insonify/shadow/light.hpp>
 
+#include <algorithm>
 #include <limits>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -24,6 +25,8 @@ struct map_extent {
     double ceiling = -(std::numeric_limits<double>::max)();
 
     bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
+    /// How far from the frame's origin it goes along v and z, which a low light doesn't stretch.
+    double reach() const { return (std::max)({-lowest.y, highest.y, -floor, ceiling}); }
 
     void include(const glm::dvec3& uvz) {
         lowest = {(std::min)(lowest.x, uvz.x), (std::min)(lowest.y, uvz.y)};

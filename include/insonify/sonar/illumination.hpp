@@ -135,7 +135,8 @@ class shadow_maps {
     caster_map cast(const placed_mesh& caster, const shadow::map_extent& receivers, double texel, E& ex) const {
         const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(receivers);
         if constexpr (refined) {
-            return {light_, *caster.shape, caster.to_rig, caster.is_solid, own, texel, policy_.largest, ex};
+            return caster_map(light_, *caster.shape, caster.to_rig, caster.is_solid, own, receivers.reach(), texel,
+                              policy_.largest, ex);
         } else {
             shadow::height_map map(light_, own, texel, policy_.largest);
             map.cast(*caster.shape, caster.to_rig, ex);

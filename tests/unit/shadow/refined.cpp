@@ -57,7 +57,8 @@ std::vector<bool> ask(const shadow::caster_map& map, const std::vector<glm::vec3
 template <class E = in::serial_executor>
 shadow::caster_map map_of(const in::mesh& m, const shadow::light_frame& light, double texel, bool is_solid = true,
                           E&& ex = {}) {
-    return {light, m, {}, is_solid, shadow::extent_of(in::bounds(m), {}, light), texel, 16384, ex};
+    const shadow::map_extent extent = shadow::extent_of(in::bounds(m), {}, light);
+    return {light, m, {}, is_solid, extent, extent.reach(), texel, 16384, ex};
 }
 
 in::mesh standing_cube() {
