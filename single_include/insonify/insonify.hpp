@@ -738,8 +738,9 @@ INSONIFY_ARITHMETIC_END
 //
 // A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
 // values go through it at a time. Its arithmetic is the same in every lane at every N, and products are never fused
-// with sums, so all levels give the same bytes; N = 1 is plain scalar code. Kernels that gain by 16 values at a time
-// say so with `static constexpr int widest = 16`; others stay at 8.
+// with sums, so all levels give the same bytes; N = 1 is plain scalar code. Kernels that gain by AVX-512 say how many
+// values at a time are best there, `static constexpr int widest = 16` (or 8, for its registers alone); others stay at
+// AVX2.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -831,6 +832,14 @@ template <class T>
 INSONIFY_INLINE glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::vec<3, T>& v) {
     return {m[0].x * v.x + m[1].x * v.y + m[2].x * v.z, m[0].y * v.x + m[1].y * v.y + m[2].y * v.z,
             m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
+}
+
+/// The same of three coordinates, which may be lanes.
+template <class Floats>
+INSONIFY_INLINE void product(Floats* into, const glm::mat3& m, const Floats* v) {
+    into[0] = m[0].x * v[0] + m[1].x * v[1] + m[2].x * v[2];
+    into[1] = m[0].y * v[0] + m[1].y * v[1] + m[2].y * v[2];
+    into[2] = m[0].z * v[0] + m[1].z * v[1] + m[2].z * v[2];
 }
 
 /// a b: first b, then a.
@@ -1172,19 +1181,26 @@ class run_reader {
     bool empty() const { return runs_.empty(); }
 
     /// The next small triangles, `most` of them or as many as come before one that isn't small.
-    /// @returns how many
-    int take_small(std::uint32_t* names, int most) {
-        int count = 0;
+    /// @param room  for `most` names, which only those of several runs need
+    std::span<const std::uint32_t> take_small(std::uint32_t* room, std::size_t most) {
+        if (!runs_.empty() && runs_.front().is_small) {
+            const std::span<const std::uint32_t> left = runs_.front().names.subspan(taken_);
+            if (left.size() > most) {
+                taken_ += most;
+                return left.first(most);
+            }
+        }
+        std::size_t count = 0;
         while (!runs_.empty() && runs_.front().is_small && count < most) {
             const std::span<const std::uint32_t> left = runs_.front().names.subspan(taken_);
-            const auto some = (std::min)(left.size(), static_cast<std::size_t>(most - count));
-            std::copy_n(left.data(), some, names + count);
-            count += static_cast<int>(some);
+            const std::size_t some = (std::min)(left.size(), most - count);
+            for (std::size_t i = 0; i < some; ++i) room[count + i] = left[i];
+            count += some;
             taken_ += some;
             if (some < left.size()) break;
             next();
         }
-        return count;
+        return {room, count};
     }
     /// The next run.
     std::span<const std::uint32_t> take_run() {
@@ -1672,17 +1688,31 @@ INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N
 }
 #endif
 
-/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 4, 8 or 16.
+#if INSONIFY_SIMD
+/// Four rows of three floats, one after another, as three columns.
+INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* rows) {
+    lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
+    load(a, rows), load(b, rows + 4), load(c, rows + 8);
+    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
+                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
+    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
+    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
+    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
+}
+#endif
+
+/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 1, 4, 8 or 16.
 template <int N, class Rows>
 INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
 #if INSONIFY_SIMD
-    // Four lanes of many lie side by side with the other fours and go the same way.
-    lanes<float, N> row[4];
-    unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
-    transpose_fours<N>(into, row);
-#else
-    std::memcpy(into, rows(0), 4 * sizeof(float));
+    if constexpr (N > 1) {
+        // Four lanes of many lie side by side with the other fours and go the same way.
+        lanes<float, N> row[4];
+        unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
+        transpose_fours<N>(into, row);
+    } else
 #endif
+        std::memcpy(into, rows(0), 4 * sizeof(float));
 }
 
 /// 0, 1, ... N - 1.
@@ -1966,6 +1996,80 @@ class screen_polygon {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/core/unfilled.hpp ----------------------------------------------------------------
+// Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
+// many will.
+//
+// The system hands memory out page by page, as each is touched first. By pages of 4 kB that takes a tenth of the time
+// of a large picture, so for large memory it is asked for pages of 2 MB, where it has them.
+
+#include <memory>
+#include <new>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// For constructors: leave the elements unset.
+struct unfilled {};
+
+/// Makes values that nobody gave as `T value;` does, not as `T value{};`.
+template <class T>
+class unfilled_allocator {
+  public:
+    using value_type = T;
+
+    unfilled_allocator() = default;
+    template <class U>
+    unfilled_allocator(const unfilled_allocator<U>&) {}
+
+    T* allocate(std::size_t count) {
+        if (!is_large(count)) return std::allocator<T>().allocate(count);
+        const std::size_t bytes = count * sizeof(T);
+        void* const memory = ::operator new (bytes, std::align_val_t{page});
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+        ::madvise(memory, bytes / page * page, MADV_HUGEPAGE);  // refused, it is memory all the same
+#endif
+        return static_cast<T*>(memory);
+    }
+    void deallocate(T* memory, std::size_t count) {
+        if (is_large(count))
+            ::operator delete (memory, std::align_val_t{page});
+        else
+            std::allocator<T>().deallocate(memory, count);
+    }
+
+    template <class U>
+    void construct(U* at) {
+        ::new (static_cast<void*>(at)) U;
+    }
+    template <class U, class... From>
+    void construct(U* at, From&&... from) {
+        std::construct_at(at, std::forward<From>(from)...);
+    }
+
+    friend bool operator==(const unfilled_allocator&, const unfilled_allocator&) {
+        return true;
+    }
+
+  private:
+    static constexpr std::size_t page = std::size_t{1} << 21;
+    static_assert(alignof(T) <= page);
+
+    /// At least two pages, of which the first and the last waste one at most.
+    static bool is_large(std::size_t count) {
+        return count >= 2 * page / sizeof(T);
+    }
+};
+
+/// Elements stay unset until somebody sets them.
+template <class T>
+using unfilled_vector = std::vector<T, unfilled_allocator<T>>;
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
 // ------------ insonify/raster/shader.hpp ----------------------------------------------------------------
 // What people bring to a draw: a callable that places vertices, and one that is asked for each visible pixel.
 //
@@ -2030,6 +2134,13 @@ template <class Varyings>
 INSONIFY_INLINE glm::vec4 position_of(const placed_vertex<Varyings>& placed) {
     return placed.clip;
 }
+
+/// A vertex callable that takes several vertices at a time, too: `shader(clip, varyings, position, normal)` sets the
+/// first two, float by float, and they are the same bits that `shader(vertex)` gives.
+template <class S, class Floats>
+concept lane_shader = vertex_shader<S> && requires(const S& shader, Floats (&four)[4], const Floats (&three)[3]) {
+    shader(four, &four[0], three, three);
+};
 
 template <vertex_shader S>
 INSONIFY_INLINE glm::vec4 clip_position(const S& shader, const vertex& v) {
@@ -2108,12 +2219,12 @@ struct corner_lanes {
     ints ax, ay, bx, by, cx, cy;
     ints west, north, east, south;
 
-    /// @param corner  corner(k, i): where the place of corner i of triangle k is kept
-    template <class Corner>
-    INSONIFY_INLINE explicit corner_lanes(const Corner& corner) {
-        gather_pairs<N>(ax, ay, [&](int k) { return &corner(k, 0).x; });
-        gather_pairs<N>(bx, by, [&](int k) { return &corner(k, 1).x; });
-        gather_pairs<N>(cx, cy, [&](int k) { return &corner(k, 2).x; });
+    /// @param read  read(i, x, y): sets where corner i of each triangle lies
+    template <class Read>
+    INSONIFY_INLINE explicit corner_lanes(const Read& read) {
+        read(0, ax, ay);
+        read(1, bx, by);
+        read(2, cx, cy);
         extend(west, east, ax, bx, cx);
         extend(north, south, ay, by, cy);
     }
@@ -2200,27 +2311,62 @@ INSONIFY_ARITHMETIC_END
 // Vertices on the screen: placed by the vertex callable one by one, divided by w and rounded to the grid several at a
 // time.
 
-#include <memory>
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
+
+/// A vertex on the screen, as millions of them are kept: sixteen bytes, which a lane takes in one load.
+template <class Real>
+struct kept_vertex;
+template <>
+struct kept_vertex<float> {
+    grid_place place;
+    float depth;
+    float inverse_w;
+};
+template <>
+struct kept_vertex<double> {
+    grid_place place;
+    double depth;
+};
 
 /// Vertices on the screen. Those that aren't compact are marked and seen to triangle by triangle.
 /// They are left as memory comes until they are set, every one.
 template <class Real>
 struct screen_vertices {
-    std::unique_ptr<grid_place[]> places;
-    std::unique_ptr<Real[]> depths;
-    std::unique_ptr<double[]> inverse_w;  ///< where weights_at will be asked for
+    unfilled_vector<kept_vertex<Real>> kept;
+    unfilled_vector<double> inverse_w;  ///< where weights_at will be asked for
 
-    screen_vertices(std::size_t count, bool weighed)
-        : places(std::make_unique_for_overwrite<grid_place[]>(count)),
-          depths(std::make_unique_for_overwrite<Real[]>(count)),
-          inverse_w(weighed ? std::make_unique_for_overwrite<double[]>(count) : nullptr) {}
+    screen_vertices(std::size_t count, bool weighed) : kept(count), inverse_w(weighed ? count : 0) {}
 
     screen_vertex operator[](std::size_t i) const {
-        return {places[i].x, places[i].y, static_cast<double>(depths[i]), inverse_w ? inverse_w[i] : 1};
+        const kept_vertex<Real>& v = kept[i];
+        return {v.place.x, v.place.y, static_cast<double>(v.depth), inverse_w.empty() ? 1 : inverse_w[i]};
+    }
+};
+
+/// N vertices on the screen, one per lane.
+template <int N, class Real>
+struct kept_lanes {
+    lanes<std::int32_t, N> x, y;
+    lanes<Real, N> depth;
+    lanes<float, N> inverse_w;  ///< of quick depths
+
+    /// @param vertex  vertex(k): the kept vertex of lane k
+    template <class Vertex>
+    INSONIFY_INLINE explicit kept_lanes(const Vertex& vertex) {
+        if constexpr (std::is_same_v<Real, float>) {
+            static_assert(sizeof(kept_vertex<float>) == 4 * sizeof(float));
+            lanes<float, N> column[4];
+            transpose<N>(column, [&](int k) { return reinterpret_cast<const float*>(&vertex(k)); });
+            std::memcpy(&x, &column[0], sizeof x);
+            std::memcpy(&y, &column[1], sizeof y);
+            depth = column[2];
+            inverse_w = column[3];
+        } else {
+            gather_pairs<N>(x, y, [&](int k) { return &vertex(k).place.x; });
+            gather<N>(depth, [&](int k) { return vertex(k).depth; });
+        }
     }
 };
 
@@ -2228,12 +2374,25 @@ inline vertex mesh_vertex(const mesh& m, std::uint32_t index) {
     return {m.positions[index], m.normals.empty() ? glm::vec3(0) : m.normals[index], index};
 }
 
-/// Places a range of a mesh's vertices; `keep(index, placed)` is told what the vertex callable gives.
-template <class Shader, class Keep, class Real>
+/// What pixels read of a vertex: its varyings, float by float, filled up to whole vectors of four.
+template <class Varyings>
+struct alignas((sizeof(Varyings) + 15) / 16 == 2 ? 32 : 16) vertex_record {
+    static constexpr int blocks = (static_cast<int>(sizeof(Varyings) / sizeof(float)) + 3) / 4;
+    float values[static_cast<unsigned>(4 * blocks)];
+
+    void set(const Varyings& varyings) { std::memcpy(values, &varyings, sizeof varyings); }
+};
+
+/// Nothing of that.
+struct no_record {};
+inline constexpr no_record* no_records = nullptr;
+
+/// Places a range of a mesh's vertices; what the vertex callable gives beside the place goes into the records.
+template <class Shader, class Record, class Real>
 struct placement_kernel {
     const mesh& m;
     const Shader& shader;
-    const Keep& keep;
+    Record* records;
     const projection& screen;
     screen_vertices<Real>& vertices;
     std::size_t first, last;
@@ -2245,43 +2404,89 @@ struct placement_kernel {
     }
 
   private:
+    static constexpr bool quick = std::is_same_v<Real, float>, recorded = !std::is_same_v<Record, no_record>;
+
     template <int N>
     INSONIFY_INLINE void place(std::size_t start, std::size_t count) const {
-        using doubles = lanes<double, N>;
-        float clip[4][static_cast<unsigned>(N)];
+        lanes<float, N> clip[4];
+        bool asked = false;
+        if constexpr (N == 4 && lane_shader<Shader, lanes<float, N>>) {
+            asked = count == N;
+            if (asked) ask_in_lanes(clip, start);
+        }
+        if (!asked) ask_one_by_one<N>(clip, start, count);
+
+        lanes<double, N> p[4], z, inverse_w;
+        for (int axis = 0; axis < 4; ++axis) convert(p[axis], clip[axis]);
+        lanes<std::int64_t, N> x, y;
+        screen.template to_screen<N>(p, x, y, z, inverse_w);
+        if constexpr (N == 4 && quick) {
+            if (count == N) return keep_four(start, x, y, z, inverse_w);
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            const int i = static_cast<int>(k);
+            kept_vertex<Real>& kept = vertices.kept[start + k];
+            kept.place = {static_cast<std::int32_t>(lane(x, i)), static_cast<std::int32_t>(lane(y, i))};
+            kept.depth = static_cast<Real>(lane(z, i));
+            if constexpr (quick) kept.inverse_w = static_cast<float>(lane(inverse_w, i));
+            if (!vertices.inverse_w.empty()) vertices.inverse_w[start + k] = lane(inverse_w, i);
+        }
+    }
+
+    template <int N>
+    INSONIFY_INLINE void ask_one_by_one(lanes<float, N> (&clip)[4], std::size_t start, std::size_t count) const {
+        float values[4][static_cast<unsigned>(N)];
         for (std::size_t k = 0; k < std::size_t{N}; ++k) {
             const std::size_t i = start + (k < count ? k : 0);
             const auto placed = shader(mesh_vertex(m, static_cast<std::uint32_t>(i)));
-            if (k < count) keep(i, placed);
+            if constexpr (recorded) records[i].set(placed.varyings);
             const glm::vec4 position = position_of(placed);
-            for (int axis = 0; axis < 4; ++axis) clip[axis][k] = position[axis];
+            for (int axis = 0; axis < 4; ++axis) values[axis][k] = position[axis];
         }
-        doubles p[4];
-        for (int axis = 0; axis < 4; ++axis) {
-            lanes<float, N> narrow;
-            load(narrow, clip[axis]);
-            convert(p[axis], narrow);
-        }
-        lanes<std::int64_t, N> x, y;
-        doubles z, inverse_w;
-        screen.template to_screen<N>(p, x, y, z, inverse_w);
-
-        std::int64_t columns[static_cast<unsigned>(N)], rows[static_cast<unsigned>(N)];
-        store(columns, x);
-        store(rows, y);
-        lanes<Real, N> depth;
-        convert(depth, z);
-        Real depths[static_cast<unsigned>(N)];
-        store(depths, depth);
-        for (std::size_t k = 0; k < count; ++k) {
-            vertices.places[start + k] = {static_cast<std::int32_t>(columns[k]), static_cast<std::int32_t>(rows[k])};
-            vertices.depths[start + k] = depths[k];
-        }
-        if (!vertices.inverse_w) return;
-        double inverses[static_cast<unsigned>(N)];
-        store(inverses, inverse_w);
-        for (std::size_t k = 0; k < count; ++k) vertices.inverse_w[start + k] = inverses[k];
+        for (int axis = 0; axis < 4; ++axis) load(clip[axis], values[axis]);
     }
+
+#if INSONIFY_SIMD
+    using floats = lanes<float, 4>;
+
+    INSONIFY_INLINE void ask_in_lanes(floats (&clip)[4], std::size_t start) const {
+        floats position[3], normal[3] = {};
+        transpose_threes(position, &m.positions[start].x);
+        if constexpr (!recorded) {
+            floats none;
+            shader(clip, &none, position, normal);
+        } else {
+            if (!m.normals.empty()) transpose_threes(normal, &m.normals[start].x);
+            floats varyings[static_cast<unsigned>(4 * Record::blocks)] = {};
+            shader(clip, varyings, position, normal);
+            unroll<Record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
+                const auto& four = reinterpret_cast<const floats(&)[4]>(varyings[4 * block]);
+                store_rows(four, [&](std::size_t k) { return records[start + k].values + 4 * block; });
+            });
+        }
+    }
+
+    INSONIFY_INLINE void keep_four(std::size_t start, const lanes<std::int64_t, 4>& x, const lanes<std::int64_t, 4>& y,
+                                   const lanes<double, 4>& z, const lanes<double, 4>& inverse_w) const {
+        lanes<std::int32_t, 4> place;
+        floats four[4];
+        convert(place, x);
+        std::memcpy(&four[0], &place, sizeof place);
+        convert(place, y);
+        std::memcpy(&four[1], &place, sizeof place);
+        convert(four[2], z);
+        convert(four[3], inverse_w);
+        store_rows(four, [&](std::size_t k) { return reinterpret_cast<float*>(&vertices.kept[start + k]); });
+    }
+
+    /// Lane k of the four goes to row(k), one after another.
+    template <class Row>
+    INSONIFY_INLINE static void store_rows(const floats (&four)[4], const Row& row) {
+        floats rows[4];
+        transpose_fours<4>(rows, four);
+        for (std::size_t k = 0; k < 4; ++k) store(row(k), rows[k]);
+    }
+#endif
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
@@ -2387,6 +2592,25 @@ struct assembled_chunk {
     std::optional<std::uint32_t> bad_index;
 };
 
+/// The largest of some indices.
+struct largest_index_kernel {
+    const std::uint32_t* indices;
+    std::size_t count;
+    std::uint32_t& largest;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        lanes<std::uint32_t, N> most{}, some;
+        std::size_t i = 0;
+        for (; i + N <= count; i += N) {
+            load(some, indices + i);
+            most = some > most ? some : most;
+        }
+        for (int k = 0; k < N; ++k) largest = (std::max)(largest, lane(most, k));
+        for (; i < count; ++i) largest = (std::max)(largest, indices[i]);
+    }
+};
+
 template <class Screen, class Shader>
 struct assembly_kernel;
 
@@ -2396,10 +2620,10 @@ template <class Real>
 class screen_mesh {
   public:
     /// @param weighed  whether weights_at will be asked for
-    /// @param keep     keep(index, placed): takes what the vertex callable gives
-    template <vertex_shader Shader, class Keep, executor E>
+    /// @param records  one for each vertex, to be set; or null and no_record
+    template <vertex_shader Shader, class Record, executor E>
     screen_mesh(const mesh& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
-                const draw_options& options, bool weighed, const Keep& keep, E& ex)
+                const draw_options& options, bool weighed, Record* records, E& ex)
         : mesh_(m),
           indices_(m.triangles.data()),
           whole_(static_cast<std::uint32_t>(m.triangles.size())),
@@ -2408,14 +2632,14 @@ class screen_mesh {
           cull_(options.cull),
           vertices_(m.positions.size(), weighed) {
         bulk_ranges(ex, m.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
-            dispatch(placement_kernel<Shader, Keep, Real>{m, shader, keep, projection_, vertices_, first, last},
+            dispatch(placement_kernel<Shader, Record, Real>{m, shader, records, projection_, vertices_, first, last},
                      options.level);
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (m.triangles.size() / 64 + 16) / 16 * 16);
         std::vector<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
         bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
             assembled_chunk& chunk = chunks[first / grain];
-            chunk.bad_index = bad_index(first, last);
+            chunk.bad_index = bad_index(first, last, options.level);
             if (chunk.bad_index) return;
             chunk.stats.triangles = last - first;
             chunk.runs.reserve(last - first);
@@ -2463,15 +2687,12 @@ class screen_mesh {
         return is_compact(name) ? name : wide_[name - whole()].triangle;
     }
     const glm::uvec3& indices(std::uint32_t triangle) const { return indices_[triangle]; }
-    const grid_place* places() const { return vertices_.places.get(); }
+    const kept_vertex<Real>* vertices() const { return vertices_.kept.data(); }
     std::uint32_t compact_names() const { return whole_; }
 
     /// Of a triangle that isn't wide, corner by corner in the mesh's order.
-    INSONIFY_INLINE const grid_place& place(std::size_t triangle, int corner) const {
-        return vertices_.places[indices_[triangle][corner]];
-    }
-    INSONIFY_INLINE Real depth(std::size_t triangle, int corner) const {
-        return vertices_.depths[indices_[triangle][corner]];
+    INSONIFY_INLINE const kept_vertex<Real>& corner(std::size_t triangle, int i) const {
+        return vertices_.kept[indices_[triangle][i]];
     }
 
   private:
@@ -2481,11 +2702,14 @@ class screen_mesh {
     std::uint32_t whole() const { return whole_; }
 
     /// The first index without a position among some triangles.
-    std::optional<std::uint32_t> bad_index(std::size_t first, std::size_t last) const {
+    std::optional<std::uint32_t> bad_index(std::size_t first, std::size_t last, isa level) const {
         const std::size_t vertices = mesh_.positions.size();
+        std::uint32_t largest = 0;
+        dispatch(largest_index_kernel{&indices_[first].x, 3 * (last - first), largest}, level);
+        if (largest < vertices) return std::nullopt;
         for (std::size_t i = first; i < last; ++i) {
             const glm::uvec3& t = mesh_.triangles[i];
-            const std::uint32_t largest = (std::max)({t.x, t.y, t.z});
+            largest = (std::max)({t.x, t.y, t.z});
             if (largest >= vertices) return largest;
         }
         return std::nullopt;
@@ -2513,7 +2737,7 @@ class screen_mesh {
     fate assemble(const Shader& shader, std::size_t triangle, const tile_grid& tiles, assembled_chunk& out) const {
         const auto name = static_cast<std::uint32_t>(triangle);
         for (int corner = 0; corner < 3; ++corner)
-            if (place(triangle, corner).is_off_grid()) return assemble_wide(shader, name, tiles, out);
+            if (this->corner(triangle, corner).place.is_off_grid()) return assemble_wide(shader, name, tiles, out);
         const glm::uvec3& index = mesh_.triangles[triangle];
         const screen_vertex a = vertices_[index.x], b = vertices_[index.y], c = vertices_[index.z];
         const std::int64_t area = compact_area(a, b, c);
@@ -2600,8 +2824,9 @@ struct assembly_kernel {
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle) const {
         using ints = lanes<std::int32_t, N>;
-        const corner_lanes<N> at([&](int k, int corner) -> const grid_place& {
-            return screen.place(triangle + static_cast<std::size_t>(k), corner);
+        const corner_lanes<N> at([&](int corner, ints& x, ints& y) INSONIFY_INLINE_LAMBDA {
+            gather_pairs<N>(
+                x, y, [&](int k) { return &screen.corner(triangle + static_cast<std::size_t>(k), corner).place.x; });
         });
         if (!at.are_small()) return false;
         const pixel_box picture{0, 0, screen.grid_.width - 1, screen.grid_.height - 1};
@@ -3137,11 +3362,9 @@ struct tile_kernel {
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
         run_reader left(triangles.runs());
         while (!left.empty()) {
-            std::uint32_t names[static_cast<unsigned>(N)];
-            if (const int count = left.take_small(names, N))
-                draw_small<N>(names, count);
-            else
-                for (const std::uint32_t name : left.take_run()) draw_one<N>(name);
+            draw_small_ones<N>(left);
+            if (left.empty()) break;
+            for (const std::uint32_t name : left.take_run()) draw_one<N>(name);
         }
         copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
     }
@@ -3177,15 +3400,44 @@ struct tile_kernel {
             fill<N, std::int64_t, Winners, exact>(t, tile, name, nearest);
     }
 
+    /// As many as come before one that isn't small. A tile's triangles lie far apart in the mesh, in rows of a few: so
+    /// while a group of them is drawn, the next one's corners and the indices of the one after that are on their way.
+    template <int N>
+    INSONIFY_INLINE void draw_small_ones(run_reader& left) const {
+        struct group {
+            std::uint32_t room[static_cast<unsigned>(N)];
+            std::span<const std::uint32_t> names;
+        };
+        group groups[3];
+        const auto take = [&](int i) {
+            group& g = groups[i % 3];
+            g.names = left.take_small(g.room, std::size_t{N});
+            for (const std::uint32_t name : g.names) triangles.prefetch_indices(name);
+        };
+        const auto approach = [&](int i) {
+            for (const std::uint32_t name : groups[i % 3].names) triangles.prefetch_corners(name);
+        };
+        take(0);
+        take(1);
+        approach(0);
+        for (int i = 0; !groups[i % 3].names.empty(); ++i) {
+            take(i + 2);
+            approach(i + 1);
+            draw_small<N>(groups[i % 3].names.data(), static_cast<int>(groups[i % 3].names.size()));
+        }
+    }
+
     template <int N>
     INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count) const {
         using reals = lanes<Real, N>;
         const auto name = [&](int k) { return names[k < count ? k : 0]; };
-        corner_lanes<N> at([&](int k, int corner) -> const grid_place& { return triangles.place(name(k), corner); });
-        reals az, bz, cz;
-        gather<N>(az, [&](int k) { return triangles.depth(name(k), 0); });
-        gather<N>(bz, [&](int k) { return triangles.depth(name(k), 1); });
-        gather<N>(cz, [&](int k) { return triangles.depth(name(k), 2); });
+        reals z[3];
+        corner_lanes<N> at([&](int i, auto& x, auto& y) INSONIFY_INLINE_LAMBDA {
+            const kept_lanes<N, Real> corner([&](int k) -> const auto& { return triangles.corner(name(k), i); });
+            x = corner.x;
+            y = corner.y;
+            z[i] = corner.depth;
+        });
         // Corners in clockwise order: b and c are exchanged where the front is seen.
         lanes<std::int32_t, N> area, front;
         at.area(area);
@@ -3195,10 +3447,9 @@ struct tile_kernel {
         exchange(front, at.by, at.cy);
         lanes<std::conditional_t<exact, std::int64_t, std::int32_t>, N> real_front;
         convert(real_front, front);
-        exchange(real_front, bz, cz);
+        exchange(real_front, z[1], z[2]);
         const small_setup<N> t(at, triangles.grid(), box);
-        const small_planes<N, Real> planes(at, area, az, bz, cz);
-        for (int k = 0; k < count; ++k) triangles.prefetch(names[k]);
+        const small_planes<N, Real> planes(at, area, z[0], z[1], z[2]);
         small_fill<N, Real, Winners>{t, planes, static_cast<int>(triangles.grid().unit()), tile, names, count}(
             [&](int k, int x, int y) { return triangles.nearest_depth(names[k], x, y); });
     }
@@ -3225,19 +3476,6 @@ INSONIFY_ARITHMETIC_END
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
-
-/// What pixels read of a vertex: its varyings, float by float, and 1 / w; filled up to whole vectors of four.
-template <class Varyings>
-struct alignas((sizeof(Varyings) + sizeof(float) + 15) / 16 == 2 ? 32 : 16) vertex_record {
-    static constexpr int count = static_cast<int>(sizeof(Varyings) / sizeof(float));
-    static constexpr int blocks = (count + 1 + 3) / 4;
-    float values[static_cast<unsigned>(4 * blocks)];
-
-    void set(const Varyings& varyings, float inverse_w) {
-        std::memcpy(values, &varyings, sizeof varyings);
-        values[count] = inverse_w;
-    }
-};
 
 /// N neighbouring pixels of a row.
 template <int N, class Varyings>
@@ -3266,9 +3504,7 @@ class fragment_lanes {
             std::memcpy(triangles, names, sizeof triangles);
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(names[k]); });
             read_corners(records, corners);
-            const grid_place* const places = screen.places();
-            weigh(screen.grid(),
-                  corner_lanes<N>([&](int k, int i) -> const grid_place& { return places[(*corners[k])[i]]; }));
+            weigh(screen.grid(), screen.vertices(), corners);
         } else {
             for (int k = 0; k < N; ++k) {
                 triangles[k] = screen.triangle(names[k]);
@@ -3292,21 +3528,25 @@ class fragment_lanes {
     /// @param corners  of the lanes' triangles
     INSONIFY_INLINE void read_corners(const record* records, const glm::uvec3* const (&corners)[count]) {
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            if constexpr (N == 1) {
-                std::memcpy(values_[i], records[(*corners[0])[i]].values, sizeof values_[i]);
-            } else {
-                const float* from[count];
-                unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { from[k] = records[(*corners[k])[i]].values; });
-                unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
-                    transpose<N>(values_[i] + 4 * block, [&](int k) { return from[k] + 4 * block; });
-                });
-            }
+            const float* from[count];
+            unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { from[k] = records[(*corners[k])[i]].values; });
+            unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
+                transpose<N>(values_[i] + 4 * block, [&](int k) { return from[k] + 4 * block; });
+            });
         });
     }
 
     /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out. In float a
     /// share is off by 2^-24 of the triangle's length squared.
-    INSONIFY_INLINE void weigh(const pixel_grid& grid, const corner_lanes<N>& at) {
+    INSONIFY_INLINE void weigh(const pixel_grid& grid, const kept_vertex<float>* vertices,
+                               const glm::uvec3* const (&corners)[count]) {
+        floats inverse_w[3];
+        const corner_lanes<N> at([&](int i, ints& right, ints& down) INSONIFY_INLINE_LAMBDA {
+            const kept_lanes<N, float> corner([&](int k) -> const auto& { return vertices[(*corners[k])[i]]; });
+            right = corner.x;
+            down = corner.y;
+            inverse_w[i] = corner.inverse_w;
+        });
         ints column;
         count_up<std::int32_t, N>(column);
         const ints px = ((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half());
@@ -3323,7 +3563,7 @@ class fragment_lanes {
         weights[1] = cx * ay - cy * ax;
         weights[2] = ax * by - ay * bx;
         front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * values_[i][record::count]; });
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * inverse_w[i]; });
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * scale; });
     }
@@ -3361,6 +3601,7 @@ class fragment_lanes {
 /// Hands the pixels of one tile that this draw has won to `shader(fragment_lanes)`.
 template <class Screen, class Varyings, class Shader>
 struct shading_kernel {
+    static constexpr int widest = 8;  // of AVX-512 its registers help, wider vectors don't
     const Screen& screen;
     const vertex_record<Varyings>* records;
     tile_buffer<true>& tile;
@@ -3433,19 +3674,20 @@ struct tile_triangles {
     const screen_mesh<Real>& screen;
     std::span<const triangle_run> bin;
     pixel_box box;
-    const void* records = nullptr;  ///< of vertices, which shading will read soon
-    std::size_t record_size = 0;
+    const void* records;  ///< of vertices, which shading will read soon; or null
+    std::size_t record_size;
 
     std::span<const triangle_run> runs() const { return bin; }
     const pixel_grid& grid() const { return screen.grid(); }
-    INSONIFY_INLINE const grid_place& place(std::uint32_t name, int corner) const { return screen.place(name, corner); }
-    INSONIFY_INLINE Real depth(std::uint32_t name, int corner) const { return screen.depth(name, corner); }
+    INSONIFY_INLINE const kept_vertex<Real>& corner(std::uint32_t name, int i) const { return screen.corner(name, i); }
 
-    INSONIFY_INLINE void prefetch(std::uint32_t name) const {
-        if (records == nullptr) return;
+    INSONIFY_INLINE void prefetch_indices(std::uint32_t name) const { prefetch(&screen.indices(name)); }
+    INSONIFY_INLINE void prefetch_corners(std::uint32_t name) const {
         const glm::uvec3& index = screen.indices(name);
-        for (int i = 0; i < 3; ++i)
-            detail::prefetch(static_cast<const char*>(records) + std::size_t{index[i]} * record_size);
+        for (int i = 0; i < 3; ++i) {
+            prefetch(&screen.corner(name, i));
+            if (records != nullptr) prefetch(static_cast<const char*>(records) + std::size_t{index[i]} * record_size);
+        }
     }
 
     INSONIFY_INLINE triangle_setup setup(std::uint32_t name) const {
@@ -3476,9 +3718,9 @@ struct corner_varyings {
 };
 
 /// Calls the fragment callable for every pixel of a tile that shows a triangle of this draw.
-template <class Target, class Real, class VertexShader, class FragmentShader>
+template <class Target, class Triangles, class VertexShader, class FragmentShader>
 std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShader& shader, const Target& target,
-                    const tile_triangles<Real>& triangles, tile_buffer<true>& tile, float depth_sign) {
+                    const Triangles& triangles, tile_buffer<true>& tile, float depth_sign) {
     using varyings = varyings_of<VertexShader>;
     const pixel_grid& grid = triangles.screen.grid();
     std::uint64_t shaded = 0;
@@ -3513,18 +3755,17 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
 }
 
 /// Everything but the shading, which `finish(tile triangles, tile buffer, depth sign)` does; it returns the pixels that
-/// it shaded. `keep(index, placed)` takes what the vertex callable gives.
-template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Keep, class Finish>
+/// it shaded. What the vertex callable gives goes into `records`, one for each vertex, if there are any.
+template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Record, class Finish>
 draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float> depth, const draw_options& options,
-                      E& ex, const Keep& keep_vertex, Finish&& finish, const void* records = nullptr,
-                      std::size_t record_size = 0) {
+                      E& ex, Record* records, Finish&& finish) {
     check(options, depth);
     require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
             "0 or one per position");
     if (depth.empty()) return {};
     const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
     const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));
-    const screen_mesh<Real> screen(m, place, grid, tiles, options, Winners && std::is_same_v<Real, double>, keep_vertex,
+    const screen_mesh<Real> screen(m, place, grid, tiles, options, Winners && std::is_same_v<Real, double>, records,
                                    ex);
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
@@ -3538,7 +3779,7 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
             const int y = static_cast<int>(tile / static_cast<std::size_t>(tiles.columns)) * options.tile;
             const pixel_box box =
                 intersect({x, y, x + options.tile - 1, y + options.tile - 1}, {0, 0, grid.width - 1, grid.height - 1});
-            const tile_triangles<Real> triangles{screen, screen.bin(tile), box, records, record_size};
+            const tile_triangles<Real> triangles{screen, screen.bin(tile), box, records, sizeof(Record)};
             const bool keep = options.load == depth_load::keep;
             if (triangles.bin.empty() && keep) continue;
             dispatch(tile_kernel<tile_triangles<Real>, Winners, Real>{triangles, buffer, depth, box, sign, keep},
@@ -3556,18 +3797,15 @@ template <varying_shader VertexShader, class LaneShader, executor E>
 draw_stats draw_lanes(const mesh& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
                       const draw_options& options, E& ex) {
     using varyings = varyings_of<VertexShader>;
-    const auto records = std::make_unique_for_overwrite<vertex_record<varyings>[]>(m.positions.size());
+    unfilled_vector<vertex_record<varyings>> records(m.positions.size());
     return draw_tiles<true, float>(
-        m, place, depth, options, ex,
-        [&](std::size_t i, const placed_vertex<varyings>& v) { records[i].set(v.varyings, 1 / v.clip.w); },
-        [&](const auto& triangles, tile_buffer<true>& tile, float) {
+        m, place, depth, options, ex, records.data(), [&](const auto& triangles, tile_buffer<true>& tile, float) {
             std::uint64_t shaded = 0;
-            dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.get(), tile,
+            dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.data(), tile,
                                                                               triangles.box, shader, shaded},
                      options.level);
             return shaded;
-        },
-        records.get(), sizeof(vertex_record<varyings>));
+        });
 }
 
 /// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle; where nothing is, the
@@ -3575,20 +3813,19 @@ draw_stats draw_lanes(const mesh& m, const VertexShader& place, const LaneShader
 template <vertex_shader VertexShader, executor E>
 draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float> depth,
                       image_view<std::uint32_t> names, const draw_options& options, E& ex) {
-    return draw_tiles<true, float>(
-        m, place, depth, options, ex, [](auto&&...) {},
-        [&](const auto& triangles, tile_buffer<true>& tile, float) {
-            const pixel_box& box = triangles.box;
-            for (int y = box.y0; y <= box.y1; ++y) {
-                const std::uint32_t* const winner = tile.winner(box.x0, y);
-                std::uint32_t* const to = names.data() + y * names.stride() + box.x0;
-                std::memcpy(to, winner, static_cast<std::size_t>(box.width()) * sizeof *to);
-                if (!triangles.screen.has_wide()) continue;
-                for (int x = 0; x < box.width(); ++x)
-                    if (to[x] != tile_buffer<true>::nobody) to[x] = triangles.screen.triangle(to[x]);
-            }
-            return std::uint64_t{0};
-        });
+    const auto copy_names = [&](const auto& triangles, tile_buffer<true>& tile, float) {
+        const pixel_box& box = triangles.box;
+        for (int y = box.y0; y <= box.y1; ++y) {
+            const std::uint32_t* const winner = tile.winner(box.x0, y);
+            std::uint32_t* const to = names.data() + y * names.stride() + box.x0;
+            std::memcpy(to, winner, static_cast<std::size_t>(box.width()) * sizeof *to);
+            if (!triangles.screen.has_wide()) continue;
+            for (int x = 0; x < box.width(); ++x)
+                if (to[x] != tile_buffer<true>::nobody) to[x] = triangles.screen.triangle(to[x]);
+        }
+        return std::uint64_t{0};
+    };
+    return draw_tiles<true, float>(m, place, depth, options, ex, no_records, copy_names);
 }
 
 }  // namespace detail
@@ -3606,16 +3843,16 @@ draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh& m, const VertexShader& place, const depth_target& target, const draw_options& options = {},
                 E&& ex = {}) {
-    return detail::draw_tiles<false, double>(
-        m, place, target.depth, options, ex, [](auto&&...) {}, [](auto&&...) { return std::uint64_t{0}; });
+    return detail::draw_tiles<false, double>(m, place, target.depth, options, ex, detail::no_records,
+                                             [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// The same with quick depths.
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh& m, const VertexShader& place, const quick_depth_target& target,
                 const draw_options& options = {}, E&& ex = {}) {
-    return detail::draw_tiles<false, float>(
-        m, place, target.depth, options, ex, [](auto&&...) {}, [](auto&&...) { return std::uint64_t{0}; });
+    return detail::draw_tiles<false, float>(m, place, target.depth, options, ex, detail::no_records,
+                                            [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// Draws depth and shades every pixel that this draw won, once.
@@ -3633,11 +3870,10 @@ draw_stats draw(const mesh& m, const VertexShader& place, const FragmentShader& 
         detail::require(target.color.height() == target.depth.height(), "color height", target.color.height(),
                         "the depth image's");
     }
-    return detail::draw_tiles<true, double>(
-        m, place, target.depth, options, ex, [](auto&&...) {},
-        [&](const auto& triangles, auto& tile, float sign) {
-            return detail::shade(m, place, shader, target, triangles, tile, sign);
-        });
+    const auto shade = [&](const auto& triangles, auto& tile, float sign) {
+        return detail::shade(m, place, shader, target, triangles, tile, sign);
+    };
+    return detail::draw_tiles<true, double>(m, place, target.depth, options, ex, detail::no_records, shade);
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
@@ -3648,7 +3884,6 @@ INSONIFY_ARITHMETIC_END
 // Pixels that own their memory.
 
 #include <initializer_list>
-#include <new>
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -3659,30 +3894,6 @@ struct rgb {
     friend bool operator==(const rgb&, const rgb&) = default;
 };
 using rgb8 = rgb<std::uint8_t>;
-
-namespace detail {
-
-/// For images whose pixels are all about to be written: not to be written twice, nor by one thread what many will.
-struct unfilled {};
-
-/// Makes values that nobody gave as `T value;` does, not as `T value{};`.
-template <class T>
-struct unfilled_allocator : std::allocator<T> {
-    template <class U>
-    struct rebind {
-        using other = unfilled_allocator<U>;
-    };
-    template <class U>
-    void construct(U* at) {
-        ::new (static_cast<void*>(at)) U;
-    }
-    template <class U, class... From>
-    void construct(U* at, From&&... from) {
-        std::construct_at(at, std::forward<From>(from)...);
-    }
-};
-
-}  // namespace detail
 
 /// Owning row-major image without padding; row 0 is at the top, pixel (x, y) covers [x, x+1) x [y, y+1).
 template <class T>
@@ -3759,7 +3970,7 @@ class image {
 
     int width_ = 0;
     int height_ = 0;
-    std::vector<T, detail::unfilled_allocator<T>> pixels_;
+    detail::unfilled_vector<T> pixels_;
 };
 
 /// The image with every pixel replaced by `fn(pixel)`; the size stays, the type is what `fn` returns.
@@ -5139,6 +5350,14 @@ class overhead_geometry {
     glm::vec4 clip(const glm::vec3& p) const {
         return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
     }
+    /// The same of three coordinates in lanes.
+    template <class Floats>
+    INSONIFY_INLINE void clip(Floats (&into)[4], const Floats* p) const {
+        into[0] = p[0] * clip_scale_.x;
+        into[1] = p[1] * clip_scale_.y;
+        into[2] = Floats{} + 1e-3f * rig_.altitude;
+        into[3] = rig_.altitude - p[2];
+    }
 
     glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
     /// From the camera through a pixel's centre to 1 m below it.
@@ -5897,6 +6116,22 @@ map_extent extent_of(const mesh& m, const affine& to_world, const light_frame& f
     return whole;
 }
 
+/// The vertex callable of maps: from a mesh's own coordinates to clip space, where w is one.
+struct map_placement {
+    glm::mat3 axes;
+    glm::vec3 start;
+
+    glm::vec4 operator()(const vertex& v) const { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); }
+    /// See lane_shader.
+    template <class Floats>
+    INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats*, const Floats (&position)[3],
+                                    const Floats (&)[3]) const {
+        numeric::product(clip, axes, position);
+        for (int i = 0; i < 3; ++i) clip[i] = clip[i] + start[i];
+        clip[3] = Floats{} + 1.0f;
+    }
+};
+
 /// A grid of rays: where its texels lie in the light's frame, and between which heights it tells things apart.
 struct map_grid {
     glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
@@ -5940,8 +6175,7 @@ struct map_grid {
         const glm::dvec3 zero = to_clip(frame(to_world.offset));
         glm::mat3 axes;
         for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame(to_world.offset + to_world.linear[i])) - zero);
-        const glm::vec3 start(zero);
-        return [=](const vertex& v) { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); };
+        return map_placement{axes, glm::vec3(zero)};
     }
 };
 
@@ -6220,12 +6454,12 @@ class caster_map {
         if (grid_.empty()) return;
         tolerance_ = static_cast<float>(0x1p-21 * reach);
         const std::size_t width = pitch(), height = static_cast<std::size_t>(grid_.rows) + 2;
-        heights_ = std::make_unique_for_overwrite<float[]>(width * height);
-        names_ = std::make_unique_for_overwrite<std::uint32_t[]>(width * height);
+        heights_.resize(width * height);
+        names_.resize(width * height);
         // A frame of empty texels around it all saves asking whether a neighbour is on the map.
         const float nothing = empty_depth(keep_depth::larger);
-        std::fill_n(heights_.get(), width, nothing);
-        std::fill_n(heights_.get() + (height - 1) * width, width, nothing);
+        std::fill_n(heights_.begin(), width, nothing);
+        std::fill_n(heights_.end() - static_cast<std::ptrdiff_t>(width), width, nothing);
         for (std::size_t row = 1; row + 1 < height; ++row)
             heights_[row * width] = heights_[(row + 1) * width - 1] = nothing;
 
@@ -6245,9 +6479,9 @@ class caster_map {
         const cull_mode lit_side = mirrored ? cull_mode::front : cull_mode::back;  // see map_grid::placing
         insonify::detail::draw_names(
             m, grid_.placing(frame, to_world),
-            image_view<float>(heights_.get() + width + 1, grid_.columns, grid_.rows,
+            image_view<float>(heights_.data() + width + 1, grid_.columns, grid_.rows,
                               static_cast<std::ptrdiff_t>(width)),
-            image_view<std::uint32_t>(names_.get() + width + 1, grid_.columns, grid_.rows,
+            image_view<std::uint32_t>(names_.data() + width + 1, grid_.columns, grid_.rows,
                                       static_cast<std::ptrdiff_t>(width)),
             {.cull = is_solid ? lit_side : cull_mode::none, .keep = keep_depth::larger, .load = depth_load::clear}, ex);
     }
@@ -6281,7 +6515,7 @@ class caster_map {
         const auto width = static_cast<std::int32_t>(pitch());
         const ints first = first_row * width + first_column;
         floats h[4];
-        const float* const heights = heights_.get();
+        const float* const heights = heights_.data();
         gather_pairs<N>(h[0], h[1], [&](int k) { return heights + lane(first, k); });
         gather_pairs<N>(h[2], h[3], [&](int k) { return heights + lane(first, k) + width; });
         floats low = h[0], high = h[0];
@@ -6382,10 +6616,10 @@ class caster_map {
     affine to_light_;  ///< from the mesh to (u, v, z)
     glm::mat3 axes_;   ///< its linear part
     map_grid grid_;
-    float tolerance_ = 0;               ///< metres that floats hold places to; what lies no higher than that touches
-    glm::vec3 to_map_[3], start_;       ///< from positions to column, row and height
-    std::unique_ptr<float[]> heights_;  ///< with the frame of empty texels
-    std::unique_ptr<std::uint32_t[]> names_;  ///< the same texels
+    float tolerance_ = 0;          ///< metres that floats hold places to; what lies no higher than that touches
+    glm::vec3 to_map_[3], start_;  ///< from positions to column, row and height
+    insonify::detail::unfilled_vector<float> heights_;        ///< with the frame of empty texels
+    insonify::detail::unfilled_vector<std::uint32_t> names_;  ///< the same texels
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow
@@ -10092,6 +10326,31 @@ struct surface_varyings {
     glm::vec3 normal;
 };
 
+/// Places the vertices of an object in the rig's frame and in its picture.
+struct surface_placement {
+    const overhead_geometry& view;
+    glm::mat3 linear;
+    glm::vec3 offset;
+    glm::mat3 normals;
+
+    surface_placement(const overhead_geometry& rig, const placed_mesh& shape)
+        : view(rig), linear(shape.to_rig.linear), offset(shape.to_rig.offset), normals(shape.normals) {}
+
+    placed_vertex<surface_varyings> operator()(const vertex& v) const {
+        const glm::vec3 position = numeric::product(linear, v.position) + offset;
+        return {view.clip(position), {position, numeric::product(normals, v.normal)}};
+    }
+    /// See lane_shader.
+    template <class Floats>
+    INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats* varyings, const Floats (&position)[3],
+                                    const Floats (&normal)[3]) const {
+        numeric::product(varyings, linear, position);
+        for (int i = 0; i < 3; ++i) varyings[i] = varyings[i] + offset[i];
+        numeric::product(varyings + 3, normals, normal);
+        view.clip(clip, varyings);
+    }
+};
+
 /// What is the same all over an object: one material, one name.
 struct whole_object {
     material surface;
@@ -10482,16 +10741,9 @@ class overhead_painter {
     template <class Shadows, class Object, executor E>
     draw_stats draw_one(const placed_mesh& shape, depth_load load, const Shadows& shadows, const Object& object,
                         E& ex) {
-        const glm::mat3 linear(shape.to_rig.linear);
-        const glm::vec3 offset(shape.to_rig.offset);
-        const auto place = [&, linear, offset](const vertex& v) {
-            const glm::vec3 position = numeric::product(linear, v.position) + offset;
-            return placed_vertex<surface_varyings>{view_.clip(position),
-                                                   {position, numeric::product(shape.normals, v.normal)}};
-        };
         const surface_shader<Shadows, Labels, Law, Object> shader(view_, options_.law, shadows, object, out_.image,
                                                                   out_.labels);
-        return draw_lanes(*shape.shape, place, shader, depth_,
+        return draw_lanes(*shape.shape, surface_placement(view_, shape), shader, depth_,
                           {.keep = keep_depth::larger,
                            .load = load,
                            .subpixel_bits = options_.subpixel_bits,

@@ -2,8 +2,9 @@
 //
 // A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
 // values go through it at a time. Its arithmetic is the same in every lane at every N, and products are never fused
-// with sums, so all levels give the same bytes; N = 1 is plain scalar code. Kernels that gain by 16 values at a time
-// say so with `static constexpr int widest = 16`; others stay at 8.
+// with sums, so all levels give the same bytes; N = 1 is plain scalar code. Kernels that gain by AVX-512 say how many
+// values at a time are best there, `static constexpr int widest = 16` (or 8, for its registers alone); others stay at
+// AVX2.
 #pragma once
 
 #include <insonify/core/error.hpp>

@@ -2,14 +2,12 @@
 #pragma once
 
 #include <insonify/core/image_view.hpp>
+#include <insonify/core/unfilled.hpp>
 
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
-#include <memory>
-#include <new>
 #include <utility>
-#include <vector>
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -20,30 +18,6 @@ struct rgb {
     friend bool operator==(const rgb&, const rgb&) = default;
 };
 using rgb8 = rgb<std::uint8_t>;
-
-namespace detail {
-
-/// For images whose pixels are all about to be written: not to be written twice, nor by one thread what many will.
-struct unfilled {};
-
-/// Makes values that nobody gave as `T value;` does, not as `T value{};`.
-template <class T>
-struct unfilled_allocator : std::allocator<T> {
-    template <class U>
-    struct rebind {
-        using other = unfilled_allocator<U>;
-    };
-    template <class U>
-    void construct(U* at) {
-        ::new (static_cast<void*>(at)) U;
-    }
-    template <class U, class... From>
-    void construct(U* at, From&&... from) {
-        std::construct_at(at, std::forward<From>(from)...);
-    }
-};
-
-}  // namespace detail
 
 /// Owning row-major image without padding; row 0 is at the top, pixel (x, y) covers [x, x+1) x [y, y+1).
 template <class T>
@@ -120,7 +94,7 @@ class image {
 
     int width_ = 0;
     int height_ = 0;
-    std::vector<T, detail::unfilled_allocator<T>> pixels_;
+    detail::unfilled_vector<T> pixels_;
 };
 
 /// The image with every pixel replaced by `fn(pixel)`; the size stays, the type is what `fn` returns.

@@ -222,17 +222,31 @@ INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N
 }
 #endif
 
-/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 4, 8 or 16.
+#if INSONIFY_SIMD
+/// Four rows of three floats, one after another, as three columns.
+INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* rows) {
+    lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
+    load(a, rows), load(b, rows + 4), load(c, rows + 8);
+    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
+                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
+    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
+    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
+    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
+}
+#endif
+
+/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 1, 4, 8 or 16.
 template <int N, class Rows>
 INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
 #if INSONIFY_SIMD
-    // Four lanes of many lie side by side with the other fours and go the same way.
-    lanes<float, N> row[4];
-    unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
-    transpose_fours<N>(into, row);
-#else
-    std::memcpy(into, rows(0), 4 * sizeof(float));
+    if constexpr (N > 1) {
+        // Four lanes of many lie side by side with the other fours and go the same way.
+        lanes<float, N> row[4];
+        unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
+        transpose_fours<N>(into, row);
+    } else
 #endif
+        std::memcpy(into, rows(0), 4 * sizeof(float));
 }
 
 /// 0, 1, ... N - 1.

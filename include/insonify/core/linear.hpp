@@ -28,6 +28,14 @@ INSONIFY_INLINE glm::vec<3, T> product(const glm::mat<3, 3, T>& m, const glm::ve
             m[0].z * v.x + m[1].z * v.y + m[2].z * v.z};
 }
 
+/// The same of three coordinates, which may be lanes.
+template <class Floats>
+INSONIFY_INLINE void product(Floats* into, const glm::mat3& m, const Floats* v) {
+    into[0] = m[0].x * v[0] + m[1].x * v[1] + m[2].x * v[2];
+    into[1] = m[0].y * v[0] + m[1].y * v[1] + m[2].y * v[2];
+    into[2] = m[0].z * v[0] + m[1].z * v[1] + m[2].z * v[2];
+}
+
 /// a b: first b, then a.
 template <class T>
 glm::mat<3, 3, T> product(const glm::mat<3, 3, T>& a, const glm::mat<3, 3, T>& b) {

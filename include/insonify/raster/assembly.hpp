@@ -105,6 +105,25 @@ struct assembled_chunk {
     std::optional<std::uint32_t> bad_index;
 };
 
+/// The largest of some indices.
+struct largest_index_kernel {
+    const std::uint32_t* indices;
+    std::size_t count;
+    std::uint32_t& largest;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        lanes<std::uint32_t, N> most{}, some;
+        std::size_t i = 0;
+        for (; i + N <= count; i += N) {
+            load(some, indices + i);
+            most = some > most ? some : most;
+        }
+        for (int k = 0; k < N; ++k) largest = (std::max)(largest, lane(most, k));
+        for (; i < count; ++i) largest = (std::max)(largest, indices[i]);
+    }
+};
+
 template <class Screen, class Shader>
 struct assembly_kernel;
 
@@ -114,10 +133,10 @@ template <class Real>
 class screen_mesh {
   public:
     /// @param weighed  whether weights_at will be asked for
-    /// @param keep     keep(index, placed): takes what the vertex callable gives
-    template <vertex_shader Shader, class Keep, executor E>
+    /// @param records  one for each vertex, to be set; or null and no_record
+    template <vertex_shader Shader, class Record, executor E>
     screen_mesh(const mesh& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
-                const draw_options& options, bool weighed, const Keep& keep, E& ex)
+                const draw_options& options, bool weighed, Record* records, E& ex)
         : mesh_(m),
           indices_(m.triangles.data()),
           whole_(static_cast<std::uint32_t>(m.triangles.size())),
@@ -126,14 +145,14 @@ class screen_mesh {
           cull_(options.cull),
           vertices_(m.positions.size(), weighed) {
         bulk_ranges(ex, m.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
-            dispatch(placement_kernel<Shader, Keep, Real>{m, shader, keep, projection_, vertices_, first, last},
+            dispatch(placement_kernel<Shader, Record, Real>{m, shader, records, projection_, vertices_, first, last},
                      options.level);
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (m.triangles.size() / 64 + 16) / 16 * 16);
         std::vector<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
         bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
             assembled_chunk& chunk = chunks[first / grain];
-            chunk.bad_index = bad_index(first, last);
+            chunk.bad_index = bad_index(first, last, options.level);
             if (chunk.bad_index) return;
             chunk.stats.triangles = last - first;
             chunk.runs.reserve(last - first);
@@ -181,15 +200,12 @@ class screen_mesh {
         return is_compact(name) ? name : wide_[name - whole()].triangle;
     }
     const glm::uvec3& indices(std::uint32_t triangle) const { return indices_[triangle]; }
-    const grid_place* places() const { return vertices_.places.get(); }
+    const kept_vertex<Real>* vertices() const { return vertices_.kept.data(); }
     std::uint32_t compact_names() const { return whole_; }
 
     /// Of a triangle that isn't wide, corner by corner in the mesh's order.
-    INSONIFY_INLINE const grid_place& place(std::size_t triangle, int corner) const {
-        return vertices_.places[indices_[triangle][corner]];
-    }
-    INSONIFY_INLINE Real depth(std::size_t triangle, int corner) const {
-        return vertices_.depths[indices_[triangle][corner]];
+    INSONIFY_INLINE const kept_vertex<Real>& corner(std::size_t triangle, int i) const {
+        return vertices_.kept[indices_[triangle][i]];
     }
 
   private:
@@ -199,11 +215,14 @@ class screen_mesh {
     std::uint32_t whole() const { return whole_; }
 
     /// The first index without a position among some triangles.
-    std::optional<std::uint32_t> bad_index(std::size_t first, std::size_t last) const {
+    std::optional<std::uint32_t> bad_index(std::size_t first, std::size_t last, isa level) const {
         const std::size_t vertices = mesh_.positions.size();
+        std::uint32_t largest = 0;
+        dispatch(largest_index_kernel{&indices_[first].x, 3 * (last - first), largest}, level);
+        if (largest < vertices) return std::nullopt;
         for (std::size_t i = first; i < last; ++i) {
             const glm::uvec3& t = mesh_.triangles[i];
-            const std::uint32_t largest = (std::max)({t.x, t.y, t.z});
+            largest = (std::max)({t.x, t.y, t.z});
             if (largest >= vertices) return largest;
         }
         return std::nullopt;
@@ -231,7 +250,7 @@ class screen_mesh {
     fate assemble(const Shader& shader, std::size_t triangle, const tile_grid& tiles, assembled_chunk& out) const {
         const auto name = static_cast<std::uint32_t>(triangle);
         for (int corner = 0; corner < 3; ++corner)
-            if (place(triangle, corner).is_off_grid()) return assemble_wide(shader, name, tiles, out);
+            if (this->corner(triangle, corner).place.is_off_grid()) return assemble_wide(shader, name, tiles, out);
         const glm::uvec3& index = mesh_.triangles[triangle];
         const screen_vertex a = vertices_[index.x], b = vertices_[index.y], c = vertices_[index.z];
         const std::int64_t area = compact_area(a, b, c);
@@ -318,8 +337,9 @@ struct assembly_kernel {
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle) const {
         using ints = lanes<std::int32_t, N>;
-        const corner_lanes<N> at([&](int k, int corner) -> const grid_place& {
-            return screen.place(triangle + static_cast<std::size_t>(k), corner);
+        const corner_lanes<N> at([&](int corner, ints& x, ints& y) INSONIFY_INLINE_LAMBDA {
+            gather_pairs<N>(
+                x, y, [&](int k) { return &screen.corner(triangle + static_cast<std::size_t>(k), corner).place.x; });
         });
         if (!at.are_small()) return false;
         const pixel_box picture{0, 0, screen.grid_.width - 1, screen.grid_.height - 1};

@@ -65,19 +65,26 @@ class run_reader {
     bool empty() const { return runs_.empty(); }
 
     /// The next small triangles, `most` of them or as many as come before one that isn't small.
-    /// @returns how many
-    int take_small(std::uint32_t* names, int most) {
-        int count = 0;
+    /// @param room  for `most` names, which only those of several runs need
+    std::span<const std::uint32_t> take_small(std::uint32_t* room, std::size_t most) {
+        if (!runs_.empty() && runs_.front().is_small) {
+            const std::span<const std::uint32_t> left = runs_.front().names.subspan(taken_);
+            if (left.size() > most) {
+                taken_ += most;
+                return left.first(most);
+            }
+        }
+        std::size_t count = 0;
         while (!runs_.empty() && runs_.front().is_small && count < most) {
             const std::span<const std::uint32_t> left = runs_.front().names.subspan(taken_);
-            const auto some = (std::min)(left.size(), static_cast<std::size_t>(most - count));
-            std::copy_n(left.data(), some, names + count);
-            count += static_cast<int>(some);
+            const std::size_t some = (std::min)(left.size(), most - count);
+            for (std::size_t i = 0; i < some; ++i) room[count + i] = left[i];
+            count += some;
             taken_ += some;
             if (some < left.size()) break;
             next();
         }
-        return count;
+        return {room, count};
     }
     /// The next run.
     std::span<const std::uint32_t> take_run() {

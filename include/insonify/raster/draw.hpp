@@ -30,19 +30,20 @@ struct tile_triangles {
     const screen_mesh<Real>& screen;
     std::span<const triangle_run> bin;
     pixel_box box;
-    const void* records = nullptr;  ///< of vertices, which shading will read soon
-    std::size_t record_size = 0;
+    const void* records;  ///< of vertices, which shading will read soon; or null
+    std::size_t record_size;
 
     std::span<const triangle_run> runs() const { return bin; }
     const pixel_grid& grid() const { return screen.grid(); }
-    INSONIFY_INLINE const grid_place& place(std::uint32_t name, int corner) const { return screen.place(name, corner); }
-    INSONIFY_INLINE Real depth(std::uint32_t name, int corner) const { return screen.depth(name, corner); }
+    INSONIFY_INLINE const kept_vertex<Real>& corner(std::uint32_t name, int i) const { return screen.corner(name, i); }
 
-    INSONIFY_INLINE void prefetch(std::uint32_t name) const {
-        if (records == nullptr) return;
+    INSONIFY_INLINE void prefetch_indices(std::uint32_t name) const { prefetch(&screen.indices(name)); }
+    INSONIFY_INLINE void prefetch_corners(std::uint32_t name) const {
         const glm::uvec3& index = screen.indices(name);
-        for (int i = 0; i < 3; ++i)
-            detail::prefetch(static_cast<const char*>(records) + std::size_t{index[i]} * record_size);
+        for (int i = 0; i < 3; ++i) {
+            prefetch(&screen.corner(name, i));
+            if (records != nullptr) prefetch(static_cast<const char*>(records) + std::size_t{index[i]} * record_size);
+        }
     }
 
     INSONIFY_INLINE triangle_setup setup(std::uint32_t name) const {
@@ -73,9 +74,9 @@ struct corner_varyings {
 };
 
 /// Calls the fragment callable for every pixel of a tile that shows a triangle of this draw.
-template <class Target, class Real, class VertexShader, class FragmentShader>
+template <class Target, class Triangles, class VertexShader, class FragmentShader>
 std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShader& shader, const Target& target,
-                    const tile_triangles<Real>& triangles, tile_buffer<true>& tile, float depth_sign) {
+                    const Triangles& triangles, tile_buffer<true>& tile, float depth_sign) {
     using varyings = varyings_of<VertexShader>;
     const pixel_grid& grid = triangles.screen.grid();
     std::uint64_t shaded = 0;
@@ -110,18 +111,17 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
 }
 
 /// Everything but the shading, which `finish(tile triangles, tile buffer, depth sign)` does; it returns the pixels that
-/// it shaded. `keep(index, placed)` takes what the vertex callable gives.
-template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Keep, class Finish>
+/// it shaded. What the vertex callable gives goes into `records`, one for each vertex, if there are any.
+template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Record, class Finish>
 draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float> depth, const draw_options& options,
-                      E& ex, const Keep& keep_vertex, Finish&& finish, const void* records = nullptr,
-                      std::size_t record_size = 0) {
+                      E& ex, Record* records, Finish&& finish) {
     check(options, depth);
     require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
             "0 or one per position");
     if (depth.empty()) return {};
     const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
     const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));
-    const screen_mesh<Real> screen(m, place, grid, tiles, options, Winners && std::is_same_v<Real, double>, keep_vertex,
+    const screen_mesh<Real> screen(m, place, grid, tiles, options, Winners && std::is_same_v<Real, double>, records,
                                    ex);
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
@@ -135,7 +135,7 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
             const int y = static_cast<int>(tile / static_cast<std::size_t>(tiles.columns)) * options.tile;
             const pixel_box box =
                 intersect({x, y, x + options.tile - 1, y + options.tile - 1}, {0, 0, grid.width - 1, grid.height - 1});
-            const tile_triangles<Real> triangles{screen, screen.bin(tile), box, records, record_size};
+            const tile_triangles<Real> triangles{screen, screen.bin(tile), box, records, sizeof(Record)};
             const bool keep = options.load == depth_load::keep;
             if (triangles.bin.empty() && keep) continue;
             dispatch(tile_kernel<tile_triangles<Real>, Winners, Real>{triangles, buffer, depth, box, sign, keep},
@@ -153,18 +153,15 @@ template <varying_shader VertexShader, class LaneShader, executor E>
 draw_stats draw_lanes(const mesh& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
                       const draw_options& options, E& ex) {
     using varyings = varyings_of<VertexShader>;
-    const auto records = std::make_unique_for_overwrite<vertex_record<varyings>[]>(m.positions.size());
+    unfilled_vector<vertex_record<varyings>> records(m.positions.size());
     return draw_tiles<true, float>(
-        m, place, depth, options, ex,
-        [&](std::size_t i, const placed_vertex<varyings>& v) { records[i].set(v.varyings, 1 / v.clip.w); },
-        [&](const auto& triangles, tile_buffer<true>& tile, float) {
+        m, place, depth, options, ex, records.data(), [&](const auto& triangles, tile_buffer<true>& tile, float) {
             std::uint64_t shaded = 0;
-            dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.get(), tile,
+            dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.data(), tile,
                                                                               triangles.box, shader, shaded},
                      options.level);
             return shaded;
-        },
-        records.get(), sizeof(vertex_record<varyings>));
+        });
 }
 
 /// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle; where nothing is, the
@@ -172,20 +169,19 @@ draw_stats draw_lanes(const mesh& m, const VertexShader& place, const LaneShader
 template <vertex_shader VertexShader, executor E>
 draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float> depth,
                       image_view<std::uint32_t> names, const draw_options& options, E& ex) {
-    return draw_tiles<true, float>(
-        m, place, depth, options, ex, [](auto&&...) {},
-        [&](const auto& triangles, tile_buffer<true>& tile, float) {
-            const pixel_box& box = triangles.box;
-            for (int y = box.y0; y <= box.y1; ++y) {
-                const std::uint32_t* const winner = tile.winner(box.x0, y);
-                std::uint32_t* const to = names.data() + y * names.stride() + box.x0;
-                std::memcpy(to, winner, static_cast<std::size_t>(box.width()) * sizeof *to);
-                if (!triangles.screen.has_wide()) continue;
-                for (int x = 0; x < box.width(); ++x)
-                    if (to[x] != tile_buffer<true>::nobody) to[x] = triangles.screen.triangle(to[x]);
-            }
-            return std::uint64_t{0};
-        });
+    const auto copy_names = [&](const auto& triangles, tile_buffer<true>& tile, float) {
+        const pixel_box& box = triangles.box;
+        for (int y = box.y0; y <= box.y1; ++y) {
+            const std::uint32_t* const winner = tile.winner(box.x0, y);
+            std::uint32_t* const to = names.data() + y * names.stride() + box.x0;
+            std::memcpy(to, winner, static_cast<std::size_t>(box.width()) * sizeof *to);
+            if (!triangles.screen.has_wide()) continue;
+            for (int x = 0; x < box.width(); ++x)
+                if (to[x] != tile_buffer<true>::nobody) to[x] = triangles.screen.triangle(to[x]);
+        }
+        return std::uint64_t{0};
+    };
+    return draw_tiles<true, float>(m, place, depth, options, ex, no_records, copy_names);
 }
 
 }  // namespace detail
@@ -203,16 +199,16 @@ draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh& m, const VertexShader& place, const depth_target& target, const draw_options& options = {},
                 E&& ex = {}) {
-    return detail::draw_tiles<false, double>(
-        m, place, target.depth, options, ex, [](auto&&...) {}, [](auto&&...) { return std::uint64_t{0}; });
+    return detail::draw_tiles<false, double>(m, place, target.depth, options, ex, detail::no_records,
+                                             [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// The same with quick depths.
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh& m, const VertexShader& place, const quick_depth_target& target,
                 const draw_options& options = {}, E&& ex = {}) {
-    return detail::draw_tiles<false, float>(
-        m, place, target.depth, options, ex, [](auto&&...) {}, [](auto&&...) { return std::uint64_t{0}; });
+    return detail::draw_tiles<false, float>(m, place, target.depth, options, ex, detail::no_records,
+                                            [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// Draws depth and shades every pixel that this draw won, once.
@@ -230,11 +226,10 @@ draw_stats draw(const mesh& m, const VertexShader& place, const FragmentShader& 
         detail::require(target.color.height() == target.depth.height(), "color height", target.color.height(),
                         "the depth image's");
     }
-    return detail::draw_tiles<true, double>(
-        m, place, target.depth, options, ex, [](auto&&...) {},
-        [&](const auto& triangles, auto& tile, float sign) {
-            return detail::shade(m, place, shader, target, triangles, tile, sign);
-        });
+    const auto shade = [&](const auto& triangles, auto& tile, float sign) {
+        return detail::shade(m, place, shader, target, triangles, tile, sign);
+    };
+    return detail::draw_tiles<true, double>(m, place, target.depth, options, ex, detail::no_records, shade);
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

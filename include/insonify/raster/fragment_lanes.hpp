@@ -8,24 +8,9 @@
 #include <insonify/raster/assembly.hpp>
 #include <insonify/raster/tile.hpp>
 
-#include <memory>
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
-
-/// What pixels read of a vertex: its varyings, float by float, and 1 / w; filled up to whole vectors of four.
-template <class Varyings>
-struct alignas((sizeof(Varyings) + sizeof(float) + 15) / 16 == 2 ? 32 : 16) vertex_record {
-    static constexpr int count = static_cast<int>(sizeof(Varyings) / sizeof(float));
-    static constexpr int blocks = (count + 1 + 3) / 4;
-    float values[static_cast<unsigned>(4 * blocks)];
-
-    void set(const Varyings& varyings, float inverse_w) {
-        std::memcpy(values, &varyings, sizeof varyings);
-        values[count] = inverse_w;
-    }
-};
 
 /// N neighbouring pixels of a row.
 template <int N, class Varyings>
@@ -54,9 +39,7 @@ class fragment_lanes {
             std::memcpy(triangles, names, sizeof triangles);
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(names[k]); });
             read_corners(records, corners);
-            const grid_place* const places = screen.places();
-            weigh(screen.grid(),
-                  corner_lanes<N>([&](int k, int i) -> const grid_place& { return places[(*corners[k])[i]]; }));
+            weigh(screen.grid(), screen.vertices(), corners);
         } else {
             for (int k = 0; k < N; ++k) {
                 triangles[k] = screen.triangle(names[k]);
@@ -80,21 +63,25 @@ class fragment_lanes {
     /// @param corners  of the lanes' triangles
     INSONIFY_INLINE void read_corners(const record* records, const glm::uvec3* const (&corners)[count]) {
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            if constexpr (N == 1) {
-                std::memcpy(values_[i], records[(*corners[0])[i]].values, sizeof values_[i]);
-            } else {
-                const float* from[count];
-                unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { from[k] = records[(*corners[k])[i]].values; });
-                unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
-                    transpose<N>(values_[i] + 4 * block, [&](int k) { return from[k] + 4 * block; });
-                });
-            }
+            const float* from[count];
+            unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { from[k] = records[(*corners[k])[i]].values; });
+            unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
+                transpose<N>(values_[i] + 4 * block, [&](int k) { return from[k] + 4 * block; });
+            });
         });
     }
 
     /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out. In float a
     /// share is off by 2^-24 of the triangle's length squared.
-    INSONIFY_INLINE void weigh(const pixel_grid& grid, const corner_lanes<N>& at) {
+    INSONIFY_INLINE void weigh(const pixel_grid& grid, const kept_vertex<float>* vertices,
+                               const glm::uvec3* const (&corners)[count]) {
+        floats inverse_w[3];
+        const corner_lanes<N> at([&](int i, ints& right, ints& down) INSONIFY_INLINE_LAMBDA {
+            const kept_lanes<N, float> corner([&](int k) -> const auto& { return vertices[(*corners[k])[i]]; });
+            right = corner.x;
+            down = corner.y;
+            inverse_w[i] = corner.inverse_w;
+        });
         ints column;
         count_up<std::int32_t, N>(column);
         const ints px = ((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half());
@@ -111,7 +98,7 @@ class fragment_lanes {
         weights[1] = cx * ay - cy * ax;
         weights[2] = ax * by - ay * bx;
         front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * values_[i][record::count]; });
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * inverse_w[i]; });
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * scale; });
     }
@@ -149,6 +136,7 @@ class fragment_lanes {
 /// Hands the pixels of one tile that this draw has won to `shader(fragment_lanes)`.
 template <class Screen, class Varyings, class Shader>
 struct shading_kernel {
+    static constexpr int widest = 8;  // of AVX-512 its registers help, wider vectors don't
     const Screen& screen;
     const vertex_record<Varyings>* records;
     tile_buffer<true>& tile;

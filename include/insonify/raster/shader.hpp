@@ -75,6 +75,13 @@ INSONIFY_INLINE glm::vec4 position_of(const placed_vertex<Varyings>& placed) {
     return placed.clip;
 }
 
+/// A vertex callable that takes several vertices at a time, too: `shader(clip, varyings, position, normal)` sets the
+/// first two, float by float, and they are the same bits that `shader(vertex)` gives.
+template <class S, class Floats>
+concept lane_shader = vertex_shader<S> && requires(const S& shader, Floats (&four)[4], const Floats (&three)[3]) {
+    shader(four, &four[0], three, three);
+};
+
 template <vertex_shader S>
 INSONIFY_INLINE glm::vec4 clip_position(const S& shader, const vertex& v) {
     return position_of(shader(v));

@@ -21,12 +21,12 @@ struct corner_lanes {
     ints ax, ay, bx, by, cx, cy;
     ints west, north, east, south;
 
-    /// @param corner  corner(k, i): where the place of corner i of triangle k is kept
-    template <class Corner>
-    INSONIFY_INLINE explicit corner_lanes(const Corner& corner) {
-        gather_pairs<N>(ax, ay, [&](int k) { return &corner(k, 0).x; });
-        gather_pairs<N>(bx, by, [&](int k) { return &corner(k, 1).x; });
-        gather_pairs<N>(cx, cy, [&](int k) { return &corner(k, 2).x; });
+    /// @param read  read(i, x, y): sets where corner i of each triangle lies
+    template <class Read>
+    INSONIFY_INLINE explicit corner_lanes(const Read& read) {
+        read(0, ax, ay);
+        read(1, bx, by);
+        read(2, cx, cy);
         extend(west, east, ax, bx, cx);
         extend(north, south, ay, by, cy);
     }

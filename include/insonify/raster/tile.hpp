@@ -5,6 +5,7 @@
 #include <insonify/core/image_view.hpp>
 #include <insonify/raster/binning.hpp>
 #include <insonify/raster/depth.hpp>
+#include <insonify/raster/placement.hpp>
 #include <insonify/raster/small_fill.hpp>
 
 #include <algorithm>
@@ -131,11 +132,9 @@ struct tile_kernel {
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
         run_reader left(triangles.runs());
         while (!left.empty()) {
-            std::uint32_t names[static_cast<unsigned>(N)];
-            if (const int count = left.take_small(names, N))
-                draw_small<N>(names, count);
-            else
-                for (const std::uint32_t name : left.take_run()) draw_one<N>(name);
+            draw_small_ones<N>(left);
+            if (left.empty()) break;
+            for (const std::uint32_t name : left.take_run()) draw_one<N>(name);
         }
         copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
     }
@@ -171,15 +170,44 @@ struct tile_kernel {
             fill<N, std::int64_t, Winners, exact>(t, tile, name, nearest);
     }
 
+    /// As many as come before one that isn't small. A tile's triangles lie far apart in the mesh, in rows of a few: so
+    /// while a group of them is drawn, the next one's corners and the indices of the one after that are on their way.
+    template <int N>
+    INSONIFY_INLINE void draw_small_ones(run_reader& left) const {
+        struct group {
+            std::uint32_t room[static_cast<unsigned>(N)];
+            std::span<const std::uint32_t> names;
+        };
+        group groups[3];
+        const auto take = [&](int i) {
+            group& g = groups[i % 3];
+            g.names = left.take_small(g.room, std::size_t{N});
+            for (const std::uint32_t name : g.names) triangles.prefetch_indices(name);
+        };
+        const auto approach = [&](int i) {
+            for (const std::uint32_t name : groups[i % 3].names) triangles.prefetch_corners(name);
+        };
+        take(0);
+        take(1);
+        approach(0);
+        for (int i = 0; !groups[i % 3].names.empty(); ++i) {
+            take(i + 2);
+            approach(i + 1);
+            draw_small<N>(groups[i % 3].names.data(), static_cast<int>(groups[i % 3].names.size()));
+        }
+    }
+
     template <int N>
     INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count) const {
         using reals = lanes<Real, N>;
         const auto name = [&](int k) { return names[k < count ? k : 0]; };
-        corner_lanes<N> at([&](int k, int corner) -> const grid_place& { return triangles.place(name(k), corner); });
-        reals az, bz, cz;
-        gather<N>(az, [&](int k) { return triangles.depth(name(k), 0); });
-        gather<N>(bz, [&](int k) { return triangles.depth(name(k), 1); });
-        gather<N>(cz, [&](int k) { return triangles.depth(name(k), 2); });
+        reals z[3];
+        corner_lanes<N> at([&](int i, auto& x, auto& y) INSONIFY_INLINE_LAMBDA {
+            const kept_lanes<N, Real> corner([&](int k) -> const auto& { return triangles.corner(name(k), i); });
+            x = corner.x;
+            y = corner.y;
+            z[i] = corner.depth;
+        });
         // Corners in clockwise order: b and c are exchanged where the front is seen.
         lanes<std::int32_t, N> area, front;
         at.area(area);
@@ -189,10 +217,9 @@ struct tile_kernel {
         exchange(front, at.by, at.cy);
         lanes<std::conditional_t<exact, std::int64_t, std::int32_t>, N> real_front;
         convert(real_front, front);
-        exchange(real_front, bz, cz);
+        exchange(real_front, z[1], z[2]);
         const small_setup<N> t(at, triangles.grid(), box);
-        const small_planes<N, Real> planes(at, area, az, bz, cz);
-        for (int k = 0; k < count; ++k) triangles.prefetch(names[k]);
+        const small_planes<N, Real> planes(at, area, z[0], z[1], z[2]);
         small_fill<N, Real, Winners>{t, planes, static_cast<int>(triangles.grid().unit()), tile, names, count}(
             [&](int k, int x, int y) { return triangles.nearest_depth(names[k], x, y); });
     }

@@ -71,6 +71,22 @@ map_extent extent_of(const mesh& m, const affine& to_world, const light_frame& f
     return whole;
 }
 
+/// The vertex callable of maps: from a mesh's own coordinates to clip space, where w is one.
+struct map_placement {
+    glm::mat3 axes;
+    glm::vec3 start;
+
+    glm::vec4 operator()(const vertex& v) const { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); }
+    /// See lane_shader.
+    template <class Floats>
+    INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats*, const Floats (&position)[3],
+                                    const Floats (&)[3]) const {
+        numeric::product(clip, axes, position);
+        for (int i = 0; i < 3; ++i) clip[i] = clip[i] + start[i];
+        clip[3] = Floats{} + 1.0f;
+    }
+};
+
 /// A grid of rays: where its texels lie in the light's frame, and between which heights it tells things apart.
 struct map_grid {
     glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
@@ -114,8 +130,7 @@ struct map_grid {
         const glm::dvec3 zero = to_clip(frame(to_world.offset));
         glm::mat3 axes;
         for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame(to_world.offset + to_world.linear[i])) - zero);
-        const glm::vec3 start(zero);
-        return [=](const vertex& v) { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); };
+        return map_placement{axes, glm::vec3(zero)};
     }
 };
 

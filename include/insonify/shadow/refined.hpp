@@ -7,10 +7,9 @@
 #pragma once
 
 #include <insonify/core/lanes.hpp>
+#include <insonify/core/unfilled.hpp>
 #include <insonify/raster/draw.hpp>
 #include <insonify/shadow/map.hpp>
-
-#include <memory>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -37,12 +36,12 @@ class caster_map {
         if (grid_.empty()) return;
         tolerance_ = static_cast<float>(0x1p-21 * reach);
         const std::size_t width = pitch(), height = static_cast<std::size_t>(grid_.rows) + 2;
-        heights_ = std::make_unique_for_overwrite<float[]>(width * height);
-        names_ = std::make_unique_for_overwrite<std::uint32_t[]>(width * height);
+        heights_.resize(width * height);
+        names_.resize(width * height);
         // A frame of empty texels around it all saves asking whether a neighbour is on the map.
         const float nothing = empty_depth(keep_depth::larger);
-        std::fill_n(heights_.get(), width, nothing);
-        std::fill_n(heights_.get() + (height - 1) * width, width, nothing);
+        std::fill_n(heights_.begin(), width, nothing);
+        std::fill_n(heights_.end() - static_cast<std::ptrdiff_t>(width), width, nothing);
         for (std::size_t row = 1; row + 1 < height; ++row)
             heights_[row * width] = heights_[(row + 1) * width - 1] = nothing;
 
@@ -62,9 +61,9 @@ class caster_map {
         const cull_mode lit_side = mirrored ? cull_mode::front : cull_mode::back;  // see map_grid::placing
         insonify::detail::draw_names(
             m, grid_.placing(frame, to_world),
-            image_view<float>(heights_.get() + width + 1, grid_.columns, grid_.rows,
+            image_view<float>(heights_.data() + width + 1, grid_.columns, grid_.rows,
                               static_cast<std::ptrdiff_t>(width)),
-            image_view<std::uint32_t>(names_.get() + width + 1, grid_.columns, grid_.rows,
+            image_view<std::uint32_t>(names_.data() + width + 1, grid_.columns, grid_.rows,
                                       static_cast<std::ptrdiff_t>(width)),
             {.cull = is_solid ? lit_side : cull_mode::none, .keep = keep_depth::larger, .load = depth_load::clear}, ex);
     }
@@ -98,7 +97,7 @@ class caster_map {
         const auto width = static_cast<std::int32_t>(pitch());
         const ints first = first_row * width + first_column;
         floats h[4];
-        const float* const heights = heights_.get();
+        const float* const heights = heights_.data();
         gather_pairs<N>(h[0], h[1], [&](int k) { return heights + lane(first, k); });
         gather_pairs<N>(h[2], h[3], [&](int k) { return heights + lane(first, k) + width; });
         floats low = h[0], high = h[0];
@@ -199,10 +198,10 @@ class caster_map {
     affine to_light_;  ///< from the mesh to (u, v, z)
     glm::mat3 axes_;   ///< its linear part
     map_grid grid_;
-    float tolerance_ = 0;               ///< metres that floats hold places to; what lies no higher than that touches
-    glm::vec3 to_map_[3], start_;       ///< from positions to column, row and height
-    std::unique_ptr<float[]> heights_;  ///< with the frame of empty texels
-    std::unique_ptr<std::uint32_t[]> names_;  ///< the same texels
+    float tolerance_ = 0;          ///< metres that floats hold places to; what lies no higher than that touches
+    glm::vec3 to_map_[3], start_;  ///< from positions to column, row and height
+    insonify::detail::unfilled_vector<float> heights_;        ///< with the frame of empty texels
+    insonify::detail::unfilled_vector<std::uint32_t> names_;  ///< the same texels
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow

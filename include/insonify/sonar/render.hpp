@@ -225,16 +225,9 @@ class overhead_painter {
     template <class Shadows, class Object, executor E>
     draw_stats draw_one(const placed_mesh& shape, depth_load load, const Shadows& shadows, const Object& object,
                         E& ex) {
-        const glm::mat3 linear(shape.to_rig.linear);
-        const glm::vec3 offset(shape.to_rig.offset);
-        const auto place = [&, linear, offset](const vertex& v) {
-            const glm::vec3 position = numeric::product(linear, v.position) + offset;
-            return placed_vertex<surface_varyings>{view_.clip(position),
-                                                   {position, numeric::product(shape.normals, v.normal)}};
-        };
         const surface_shader<Shadows, Labels, Law, Object> shader(view_, options_.law, shadows, object, out_.image,
                                                                   out_.labels);
-        return draw_lanes(*shape.shape, place, shader, depth_,
+        return draw_lanes(*shape.shape, surface_placement(view_, shape), shader, depth_,
                           {.keep = keep_depth::larger,
                            .load = load,
                            .subpixel_bits = options_.subpixel_bits,

@@ -112,6 +112,14 @@ class overhead_geometry {
     glm::vec4 clip(const glm::vec3& p) const {
         return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
     }
+    /// The same of three coordinates in lanes.
+    template <class Floats>
+    INSONIFY_INLINE void clip(Floats (&into)[4], const Floats* p) const {
+        into[0] = p[0] * clip_scale_.x;
+        into[1] = p[1] * clip_scale_.y;
+        into[2] = Floats{} + 1e-3f * rig_.altitude;
+        into[3] = rig_.altitude - p[2];
+    }
 
     glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
     /// From the camera through a pixel's centre to 1 m below it.

@@ -21,6 +21,31 @@ struct surface_varyings {
     glm::vec3 normal;
 };
 
+/// Places the vertices of an object in the rig's frame and in its picture.
+struct surface_placement {
+    const overhead_geometry& view;
+    glm::mat3 linear;
+    glm::vec3 offset;
+    glm::mat3 normals;
+
+    surface_placement(const overhead_geometry& rig, const placed_mesh& shape)
+        : view(rig), linear(shape.to_rig.linear), offset(shape.to_rig.offset), normals(shape.normals) {}
+
+    placed_vertex<surface_varyings> operator()(const vertex& v) const {
+        const glm::vec3 position = numeric::product(linear, v.position) + offset;
+        return {view.clip(position), {position, numeric::product(normals, v.normal)}};
+    }
+    /// See lane_shader.
+    template <class Floats>
+    INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats* varyings, const Floats (&position)[3],
+                                    const Floats (&normal)[3]) const {
+        numeric::product(varyings, linear, position);
+        for (int i = 0; i < 3; ++i) varyings[i] = varyings[i] + offset[i];
+        numeric::product(varyings + 3, normals, normal);
+        view.clip(clip, varyings);
+    }
+};
+
 /// What is the same all over an object: one material, one name.
 struct whole_object {
     material surface;
