@@ -82,10 +82,21 @@ INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<Winners>& tile, s
 
     for (int y = t.box.y0; y <= t.box.y1; ++y) {
         const double row_z = t.depth.row(y);
+        float* const depths = tile.depth(t.box.x0, y);
+        std::uint32_t* const winners = tile.winner(t.box.x0, y);
         ints bc = row_bc, ca = row_ca, ab = row_ab;
+        bool entered = false;
         for (int x = t.box.x0; x <= t.box.x1; x += N) {
             masks covered;
             convert(covered, ints((bc | ca | ab) >= 0));
+            bc += static_cast<Int>(N * t.bc.dx);
+            ca += static_cast<Int>(N * t.ca.dx);
+            ab += static_cast<Int>(N * t.ab.dx);
+            if (!any(covered)) {
+                if (entered) break;  // a row of a triangle is one run
+                continue;
+            }
+            entered = true;
             const doubles plane = row_z + t.depth.dx * (column_x + (static_cast<double>(x) - t.depth.x));
             floats z;
             convert(z, plane);
@@ -100,10 +111,8 @@ INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<Winners>& tile, s
             }
             z = z > lowest ? z : lowest;
             z = z < highest ? z : highest;
-            keep_nearer<N, Winners>(tile.depth(x, y), tile.winner(x, y), covered, z, drawn);
-            bc += static_cast<Int>(N * t.bc.dx);
-            ca += static_cast<Int>(N * t.ca.dx);
-            ab += static_cast<Int>(N * t.ab.dx);
+            const std::ptrdiff_t at = x - t.box.x0;
+            keep_nearer<N, Winners>(depths + at, Winners ? winners + at : nullptr, covered, z, drawn);
         }
         row_bc += static_cast<Int>(t.bc.dy);
         row_ca += static_cast<Int>(t.ca.dy);
