@@ -22,6 +22,7 @@
 #include <insonify/core/quantize.hpp>
 #include <insonify/core/random.hpp>
 #include <insonify/core/random_lanes.hpp>
+#include <insonify/core/spare_memory.hpp>
 #include <insonify/core/unfilled.hpp>
 #include <insonify/filter/colormap.hpp>
 #include <insonify/filter/concept.hpp>

@@ -1996,19 +1996,134 @@ class screen_polygon {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/core/unfilled.hpp ----------------------------------------------------------------
-// Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
-// many will.
+// ------------ insonify/core/spare_memory.hpp ------------------------------------------------------------
+// Large memory that was given back, for who asks for as much next.
 //
-// The system hands memory out page by page, as each is touched first. By pages of 4 kB that takes a tenth of the time
-// of a large picture, so for large memory it is asked for pages of 2 MB, where it has them.
+// The system clears every page before it hands it out. Where pictures are made one after another, in new memory each
+// time, that is up to a third of the time. So a thread holds on to the large blocks that it gives back; together with
+// what it has in use, never to more than it has had in use at once.
 
-#include <memory>
 #include <new>
 
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+/// The blocks that one thread keeps.
+class spare_memory {
+  public:
+    static constexpr std::size_t page = std::size_t{1} << 21;  ///< a large one: the system clears it in one go
+
+    /// The calling thread's, or null at its end.
+    static spare_memory* mine() {
+        static thread_local bool is_over = false;
+        struct keeper {
+            spare_memory memory;
+            bool& over;
+            ~keeper() {
+                over = true;
+                memory.release();
+            }
+        };
+        if (is_over) return nullptr;
+        static thread_local keeper kept{{}, is_over};
+        return &kept.memory;
+    }
+
+    /// Memory for so many bytes, at the beginning of a large page.
+    /// @throws std::bad_alloc
+    void* take(std::size_t bytes) {
+        const std::size_t size = rounded(bytes);
+        void* memory = nullptr;
+        for (int i = 0; i < count_ && memory == nullptr; ++i)
+            if (blocks_[i].size == size) memory = drop(i);
+        if (memory == nullptr) {
+            most_ = (std::max)(most_, in_use_ + size);
+            while (count_ > 0 && kept_ + in_use_ + size > most_) free(drop(0));
+            memory = fresh(size);
+        }
+        in_use_ += size;
+        return memory;
+    }
+
+    /// Takes back what `take`, of any thread, gave for as many bytes.
+    void give(void* memory, std::size_t bytes) noexcept {
+        const std::size_t size = rounded(bytes);
+        in_use_ -= (std::min)(in_use_, size);
+        if (count_ == most_blocks || kept_ + in_use_ + size > most_) return free(memory);
+        blocks_[count_++] = {memory, size};
+        kept_ += size;
+    }
+
+    /// Bytes that are waiting.
+    std::size_t kept() const { return kept_; }
+
+    void release() noexcept {
+        while (count_ > 0) free(drop(0));
+        most_ = in_use_;
+    }
+
+    /// New memory, and its end.
+    static void* fresh(std::size_t bytes) {
+        void* const memory = ::operator new (bytes, std::align_val_t{page});
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+        ::madvise(memory, bytes / page * page, MADV_HUGEPAGE);  // refused, it is memory all the same
+#endif
+        return memory;
+    }
+    static void free(void* memory) noexcept {
+        ::operator delete (memory, std::align_val_t{page});
+    }
+
+    /// Sizes that differ by less than an eighth count as the same; what nobody touches of a page costs nothing.
+    static std::size_t rounded(std::size_t bytes) {
+        const std::size_t step = (std::max)(page, std::bit_floor(bytes) / 8);
+        return (bytes + step - 1) / step * step;
+    }
+
+  private:
+    struct block {
+        void* memory;
+        std::size_t size;
+    };
+
+    void* drop(int i) {
+        const block dropped = blocks_[i];
+        blocks_[i] = blocks_[--count_];
+        kept_ -= dropped.size;
+        return dropped.memory;
+    }
+
+    static constexpr int most_blocks = 32;
+    block blocks_[most_blocks]{};
+    int count_ = 0;
+    std::size_t kept_ = 0;    ///< bytes of all blocks
+    std::size_t in_use_ = 0;  ///< taken by this thread and not given back to it
+    std::size_t most_ = 0;    ///< that was in use at once
+};
+
+}  // namespace detail
+
+/// Gives back to the system what the calling thread has kept of large memory for its next picture. A thread keeps
+/// blocks of 4 MB and more, together with what it has in use never more than it has had in use at once; its end
+/// releases them, too.
+inline void release_memory() noexcept {
+    if (detail::spare_memory* const spare = detail::spare_memory::mine()) spare->release();
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+// ------------ insonify/core/unfilled.hpp ----------------------------------------------------------------
+// Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
+// many will.
+//
+// Large memory comes in whole large pages, and stays with the thread for the next that is as large.
+
+#include <memory>
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
@@ -2028,17 +2143,15 @@ class unfilled_allocator {
     T* allocate(std::size_t count) {
         if (!is_large(count)) return std::allocator<T>().allocate(count);
         const std::size_t bytes = count * sizeof(T);
-        void* const memory = ::operator new (bytes, std::align_val_t{page});
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-        ::madvise(memory, bytes / page * page, MADV_HUGEPAGE);  // refused, it is memory all the same
-#endif
-        return static_cast<T*>(memory);
+        spare_memory* const spare = spare_memory::mine();
+        return static_cast<T*>(spare != nullptr ? spare->take(bytes) : spare_memory::fresh(bytes));
     }
     void deallocate(T* memory, std::size_t count) {
-        if (is_large(count))
-            ::operator delete (memory, std::align_val_t{page});
+        if (!is_large(count)) return std::allocator<T>().deallocate(memory, count);
+        if (spare_memory* const spare = spare_memory::mine())
+            spare->give(memory, count * sizeof(T));
         else
-            std::allocator<T>().deallocate(memory, count);
+            spare_memory::free(memory);
     }
 
     template <class U>
@@ -2050,18 +2163,13 @@ class unfilled_allocator {
         std::construct_at(at, std::forward<From>(from)...);
     }
 
-    friend bool operator==(const unfilled_allocator&, const unfilled_allocator&) {
-        return true;
-    }
+    friend bool operator==(const unfilled_allocator&, const unfilled_allocator&) { return true; }
 
   private:
-    static constexpr std::size_t page = std::size_t{1} << 21;
-    static_assert(alignof(T) <= page);
+    static_assert(alignof(T) <= spare_memory::page);
 
     /// At least two pages, of which the first and the last waste one at most.
-    static bool is_large(std::size_t count) {
-        return count >= 2 * page / sizeof(T);
-    }
+    static bool is_large(std::size_t count) { return count >= 2 * spare_memory::page / sizeof(T); }
 };
 
 /// Elements stay unset until somebody sets them.
@@ -6144,31 +6252,34 @@ struct map_placement {
 /// A grid of rays: where its texels lie in the light's frame, and between which heights it tells things apart.
 struct map_grid {
     glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
-    double texel = 1;     ///< metres
+    glm::dvec2 texel{1};  ///< metres along u and v
     double floor = 0, relief = 1;
     int columns = 0, rows = 0;
 
     map_grid() = default;
 
-    /// @param texel_length  metres, the same along u and v; grows if more than `largest` texels a side were needed
+    /// @param texel_length  metres along v; grows if more than `largest` texels a side were needed
+    /// @param stretch       how much longer texels are along u
     /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
-    map_grid(const map_extent& extent, double texel_length, int largest) : origin(extent.lowest), floor(extent.floor) {
+    map_grid(const map_extent& extent, double texel_length, int largest, double stretch = 1)
+        : origin(extent.lowest), floor(extent.floor) {
         detail::require(texel_length > 0 && numeric::is_finite(texel_length), "texel", texel_length,
                         "a positive length");
         detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
         if (extent.empty()) return;
         const glm::dvec2 size = extent.highest - extent.lowest;
-        texel = (std::max)(texel_length, (std::max)(size.x, size.y) / (largest - 0.5));
-        const auto texels = [&](double length) {
-            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(length / texel)) + 1);
+        const double longer_side = (std::max)(size.x / stretch, size.y);
+        texel = (std::max)(texel_length, longer_side / (largest - 0.5)) * glm::dvec2(stretch, 1);
+        const auto texels = [&](int axis) {
+            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(size[axis] / texel[axis])) + 1);
         };
         // A little room below and above, so that rounding can't clip the highest caster away.
         const double height = extent.ceiling - extent.floor;
         const double room = 1e-3 * height + 1e-6;
         floor -= room;
         relief = height + 2 * room;
-        columns = texels(size.x);
-        rows = texels(size.y);
+        columns = texels(0);
+        rows = texels(1);
     }
 
     bool empty() const { return columns == 0; }
@@ -6176,7 +6287,7 @@ struct map_grid {
     /// The vertex callable that puts a mesh on the grid. The whole way from mesh to clip space is one affine map; it is
     /// made in double and small when narrowed. Row 0 is where v is smallest, so triangles appear mirrored.
     auto placing(const light_frame& frame, const affine& to_world) const {
-        const glm::dvec2 scale{2 / (texel * columns), 2 / (texel * rows)};
+        const glm::dvec2 scale{2 / (texel.x * columns), 2 / (texel.y * rows)};
         const auto to_clip = [&](const glm::dvec3& uvz) {
             return glm::dvec3((uvz.x - origin.x) * scale.x - 1, 1 - (uvz.y - origin.y) * scale.y,
                               (uvz.z - floor) / relief);
@@ -6226,16 +6337,16 @@ class height_map {
     int columns() const { return heights_.width(); }
     int rows() const { return heights_.height(); }
     /// Metres between texels.
-    double texel() const { return grid_.texel; }
+    double texel() const { return grid_.texel.y; }
 
     /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
     /// and its height as the map stores heights.
     glm::vec3 on_map(const glm::dvec3& uvz) const {
-        return glm::vec3((uvz.x - grid_.origin.x) / grid_.texel, (uvz.y - grid_.origin.y) / grid_.texel,
+        return glm::vec3((uvz.x - grid_.origin.x) / grid_.texel.x, (uvz.y - grid_.origin.y) / grid_.texel.y,
                          (uvz.z - grid_.floor) / grid_.relief);
     }
     /// A slope dz / du in stored heights per texel.
-    float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel / grid_.relief)); }
+    float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel.y / grid_.relief)); }
     /// What a texel's ray meets first: a stored height, minus infinity for nothing.
     float operator()(int column, int row) const { return heights_(column, row); }
 
@@ -6459,7 +6570,7 @@ class caster_map {
     template <executor E>
     caster_map(const light_frame& frame, const mesh& m, const affine& to_world, bool is_solid, const map_extent& extent,
                double reach, double texel, int largest, E& ex)
-        : frame_(frame), mesh_(&m), grid_(extent, texel, largest) {
+        : frame_(frame), mesh_(&m), grid_(extent, texel, largest, stretch(frame)) {
         if (grid_.empty()) return;
         tolerance_ = static_cast<float>(0x1p-21 * reach);
         const std::size_t width = pitch(), height = static_cast<std::size_t>(grid_.rows) + 2;
@@ -6472,12 +6583,13 @@ class caster_map {
         for (std::size_t row = 1; row + 1 < height; ++row)
             heights_[row * width] = heights_[(row + 1) * width - 1] = nothing;
 
-        const double texels = 1 / grid_.texel;
+        const glm::dvec2 texels = 1.0 / grid_.texel;
         const glm::dvec2& travel = frame.travel();
-        to_map_[0] = glm::vec3(texels * glm::dvec3(travel.x, travel.y, frame.cot_elevation()));
-        to_map_[1] = glm::vec3(texels * glm::dvec3(-travel.y, travel.x, 0));
+        to_map_[0] = glm::vec3(texels.x * glm::dvec3(travel.x, travel.y, frame.cot_elevation()));
+        to_map_[1] = glm::vec3(texels.y * glm::dvec3(-travel.y, travel.x, 0));
         to_map_[2] = {0, 0, static_cast<float>(1 / grid_.relief)};
-        start_ = glm::vec3(0.5 - texels * grid_.origin.x, 0.5 - texels * grid_.origin.y, -grid_.floor / grid_.relief);
+        start_ =
+            glm::vec3(0.5 - texels.x * grid_.origin.x, 0.5 - texels.y * grid_.origin.y, -grid_.floor / grid_.relief);
 
         to_light_.offset = frame(to_world.offset);
         for (int i = 0; i < 3; ++i)
@@ -6532,10 +6644,10 @@ class caster_map {
             low = h[i + 1] < low ? h[i + 1] : low;
             high = h[i + 1] > high ? h[i + 1] : high;
         });
-        // All four below by more than they differ, or above by as much: that is how far a surface may go on changing.
+        // All four below; or all four above by more than they differ, which is how far a surface may go on changing.
         // Nothing is minus infinity: beside something, it makes the difference infinite.
         const floats spread = high - low;
-        const ints is_lit = ints(height > high + spread) | ints(high < 0.0f);
+        const ints is_lit = (ints(height > high) & ints(low >= 0.0f)) | ints(high < 0.0f);
         const ints is_dark = ints(height < low - spread);
         dark = on_map & is_dark;
         const ints doubtful = on_map & ints(ints(is_lit | is_dark) == 0);
@@ -6549,12 +6661,14 @@ class caster_map {
     }
 
   private:
+    /// How much longer than wide a texel is: low light spreads heights so far along u that it still tells them apart.
+    static double stretch(const light_frame& frame) { return (std::min)((std::max)(frame.cot_elevation(), 1.0), 1.5); }
+
     std::size_t pitch() const { return static_cast<std::size_t>(grid_.columns) + 2; }
 
     /// Asks the triangles that the four texels from `first` on name. One that covers the point decides if it is above.
-    /// Else the point lies between them, inside of a surface if all four pass above; or at its edge, where triangles
-    /// are thin under grazing light and may have met no texel's centre: there their neighbours in the mesh are asked
-    /// too.
+    /// Else, if any of their planes passes above, the point may lie between them or at an edge, where triangles are
+    /// thin under grazing light and may have met no texel's centre: there their neighbours in the mesh are asked too.
     INSONIFY_RARE bool is_behind_one_of(std::size_t first, const glm::dvec3& uvz) const {
         const glm::vec3 start(to_light_.offset - uvz);
         std::uint32_t names[4];
@@ -6564,28 +6678,22 @@ class caster_map {
         if (count == 0) return false;
         const sight named = see(start, [&](int k) { return names[(std::min)(k, count - 1)]; });
         if (named.is_behind) return true;
-        if (count == 4 && named.above == 4) return true;
-        if (named.above == 0) return false;
+        if (!named.is_above) return false;
 
-        // Meshes are mostly written such that neighbours come after one another.
-        const auto last = static_cast<std::uint32_t>(mesh_->triangles.size() - 1);
-        for (int i = 0; i < count; ++i) {
-            if (i > 0 && names[i] == names[i - 1]) continue;
-            const auto before = [&](int k) {
-                return names[i] - (std::min)(names[i], static_cast<std::uint32_t>(k + 1));
-            };
-            const auto after = [&](int k) {
-                return names[i] + (std::min)(last - names[i], static_cast<std::uint32_t>(k + 1));
-            };
-            if (see(start, before).is_behind || see(start, after).is_behind) return true;
-        }
+        neighbourhood around{*this, start};
+        for (int i = 0; i < count; ++i)
+            if (around.is_behind(names[i])) return true;
+        for (int i = 0; i < count; ++i)
+            if (around.is_behind(before(names[i], strip(names[i]))) ||
+                around.is_behind(after(names[i], strip(names[i]))))
+                return true;
         return false;
     }
 
     /// Four triangles, as the light sees them at a point.
     struct sight {
         bool is_behind;  ///< one of them covers the point and passes above
-        int above;       ///< how many of their planes pass above
+        bool is_above;   ///< the plane of one of them does
     };
     /// @param start  from the point to the mesh's origin, in the light's frame
     /// @param name   name(k): the triangles
@@ -6595,7 +6703,7 @@ class caster_map {
         constexpr int N = INSONIFY_SIMD ? 4 : 1;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
-        sight all{false, 0};
+        sight all{false, false};
         for (int first = 0; first < 4; first += N) {
             floats u[3], v[3], z[3];
             for (int i = 0; i < 3; ++i) {
@@ -6603,8 +6711,7 @@ class caster_map {
                     return mesh_->positions[mesh_->triangles[name(first + k)][i]];
                 };
                 floats px, py, pz;
-                gather<N>(px, [&](int k) { return corner(k).x; });
-                gather<N>(py, [&](int k) { return corner(k).y; });
+                gather_pairs<N>(px, py, [&](int k) { return &corner(k).x; });
                 gather<N>(pz, [&](int k) { return corner(k).z; });
                 u[i] = px * axes_[0].x + py * axes_[1].x + pz * axes_[2].x + start.x;
                 v[i] = px * axes_[0].y + py * axes_[1].y + pz * axes_[2].y + start.y;
@@ -6615,10 +6722,39 @@ class caster_map {
                                  (ints(a <= 0.0f) & ints(b <= 0.0f) & ints(c <= 0.0f));
             const floats height = (a * z[0] + b * z[1] + c * z[2]) / (a + b + c);
             all.is_behind |= any(ints(covered & ints(height > tolerance_)));
-            for (int k = 0; k < N; ++k) all.above += lane(height, k) > 0 ? 1 : 0;
+            all.is_above |= any(ints(height > 0.0f));
         }
         return all;
     }
+
+    /// Meshes are mostly written such that neighbours come after one another; grids, strip by strip. How many triangles
+    /// a grid's strip has shows in the indices of each: its corners lie in two rows of vertices.
+    std::uint32_t strip(std::uint32_t name) const {
+        const glm::uvec3& t = mesh_->triangles[name];
+        return 2 * ((std::max)({t.x, t.y, t.z}) - (std::min)({t.x, t.y, t.z}) - 1);
+    }
+    std::uint32_t before(std::uint32_t name, std::uint32_t steps) const { return name - (std::min)(name, steps); }
+    std::uint32_t after(std::uint32_t name, std::uint32_t steps) const {
+        return name + (std::min)(static_cast<std::uint32_t>(mesh_->triangles.size() - 1) - name, steps);
+    }
+
+    /// What has been asked around a point.
+    struct neighbourhood {
+        const caster_map& map;
+        const glm::vec3& start;
+        std::uint32_t asked[12]{};
+        int count = 0;
+
+        /// Whether one of the four triangles before a name or of the four after it is in the way, and news.
+        bool is_behind(std::uint32_t name) {
+            for (int i = 0; i < count; ++i)
+                if (name - asked[i] + 2 <= 4) return false;  // as good as asked
+            asked[count++] = name;
+            const auto steps = [](int k) { return static_cast<std::uint32_t>(k + 1); };
+            return map.see(start, [&](int k) { return map.before(name, steps(k)); }).is_behind ||
+                   map.see(start, [&](int k) { return map.after(name, steps(k)); }).is_behind;
+        }
+    };
 
     light_frame frame_;
     const mesh* mesh_ = nullptr;

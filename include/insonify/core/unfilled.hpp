@@ -1,21 +1,16 @@
 // Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
 // many will.
 //
-// The system hands memory out page by page, as each is touched first. By pages of 4 kB that takes a tenth of the time
-// of a large picture, so for large memory it is asked for pages of 2 MB, where it has them.
+// Large memory comes in whole large pages, and stays with the thread for the next that is as large.
 #pragma once
 
-#include <insonify/config.hpp>
+#include <insonify/core/spare_memory.hpp>
 
 #include <cstddef>
 #include <memory>
 #include <new>
 #include <utility>
 #include <vector>
-
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
@@ -35,17 +30,15 @@ class unfilled_allocator {
     T* allocate(std::size_t count) {
         if (!is_large(count)) return std::allocator<T>().allocate(count);
         const std::size_t bytes = count * sizeof(T);
-        void* const memory = ::operator new (bytes, std::align_val_t{page});
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-        ::madvise(memory, bytes / page * page, MADV_HUGEPAGE);  // refused, it is memory all the same
-#endif
-        return static_cast<T*>(memory);
+        spare_memory* const spare = spare_memory::mine();
+        return static_cast<T*>(spare != nullptr ? spare->take(bytes) : spare_memory::fresh(bytes));
     }
     void deallocate(T* memory, std::size_t count) {
-        if (is_large(count))
-            ::operator delete (memory, std::align_val_t{page});
+        if (!is_large(count)) return std::allocator<T>().deallocate(memory, count);
+        if (spare_memory* const spare = spare_memory::mine())
+            spare->give(memory, count * sizeof(T));
         else
-            std::allocator<T>().deallocate(memory, count);
+            spare_memory::free(memory);
     }
 
     template <class U>
@@ -57,18 +50,13 @@ class unfilled_allocator {
         std::construct_at(at, std::forward<From>(from)...);
     }
 
-    friend bool operator==(const unfilled_allocator&, const unfilled_allocator&) {
-        return true;
-    }
+    friend bool operator==(const unfilled_allocator&, const unfilled_allocator&) { return true; }
 
   private:
-    static constexpr std::size_t page = std::size_t{1} << 21;
-    static_assert(alignof(T) <= page);
+    static_assert(alignof(T) <= spare_memory::page);
 
     /// At least two pages, of which the first and the last waste one at most.
-    static bool is_large(std::size_t count) {
-        return count >= 2 * page / sizeof(T);
-    }
+    static bool is_large(std::size_t count) { return count >= 2 * spare_memory::page / sizeof(T); }
 };
 
 /// Elements stay unset until somebody sets them.

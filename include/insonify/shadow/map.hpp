@@ -90,31 +90,34 @@ struct map_placement {
 /// A grid of rays: where its texels lie in the light's frame, and between which heights it tells things apart.
 struct map_grid {
     glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
-    double texel = 1;     ///< metres
+    glm::dvec2 texel{1};  ///< metres along u and v
     double floor = 0, relief = 1;
     int columns = 0, rows = 0;
 
     map_grid() = default;
 
-    /// @param texel_length  metres, the same along u and v; grows if more than `largest` texels a side were needed
+    /// @param texel_length  metres along v; grows if more than `largest` texels a side were needed
+    /// @param stretch       how much longer texels are along u
     /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
-    map_grid(const map_extent& extent, double texel_length, int largest) : origin(extent.lowest), floor(extent.floor) {
+    map_grid(const map_extent& extent, double texel_length, int largest, double stretch = 1)
+        : origin(extent.lowest), floor(extent.floor) {
         detail::require(texel_length > 0 && numeric::is_finite(texel_length), "texel", texel_length,
                         "a positive length");
         detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
         if (extent.empty()) return;
         const glm::dvec2 size = extent.highest - extent.lowest;
-        texel = (std::max)(texel_length, (std::max)(size.x, size.y) / (largest - 0.5));
-        const auto texels = [&](double length) {
-            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(length / texel)) + 1);
+        const double longer_side = (std::max)(size.x / stretch, size.y);
+        texel = (std::max)(texel_length, longer_side / (largest - 0.5)) * glm::dvec2(stretch, 1);
+        const auto texels = [&](int axis) {
+            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(size[axis] / texel[axis])) + 1);
         };
         // A little room below and above, so that rounding can't clip the highest caster away.
         const double height = extent.ceiling - extent.floor;
         const double room = 1e-3 * height + 1e-6;
         floor -= room;
         relief = height + 2 * room;
-        columns = texels(size.x);
-        rows = texels(size.y);
+        columns = texels(0);
+        rows = texels(1);
     }
 
     bool empty() const { return columns == 0; }
@@ -122,7 +125,7 @@ struct map_grid {
     /// The vertex callable that puts a mesh on the grid. The whole way from mesh to clip space is one affine map; it is
     /// made in double and small when narrowed. Row 0 is where v is smallest, so triangles appear mirrored.
     auto placing(const light_frame& frame, const affine& to_world) const {
-        const glm::dvec2 scale{2 / (texel * columns), 2 / (texel * rows)};
+        const glm::dvec2 scale{2 / (texel.x * columns), 2 / (texel.y * rows)};
         const auto to_clip = [&](const glm::dvec3& uvz) {
             return glm::dvec3((uvz.x - origin.x) * scale.x - 1, 1 - (uvz.y - origin.y) * scale.y,
                               (uvz.z - floor) / relief);
@@ -172,16 +175,16 @@ class height_map {
     int columns() const { return heights_.width(); }
     int rows() const { return heights_.height(); }
     /// Metres between texels.
-    double texel() const { return grid_.texel; }
+    double texel() const { return grid_.texel.y; }
 
     /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
     /// and its height as the map stores heights.
     glm::vec3 on_map(const glm::dvec3& uvz) const {
-        return glm::vec3((uvz.x - grid_.origin.x) / grid_.texel, (uvz.y - grid_.origin.y) / grid_.texel,
+        return glm::vec3((uvz.x - grid_.origin.x) / grid_.texel.x, (uvz.y - grid_.origin.y) / grid_.texel.y,
                          (uvz.z - grid_.floor) / grid_.relief);
     }
     /// A slope dz / du in stored heights per texel.
-    float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel / grid_.relief)); }
+    float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel.y / grid_.relief)); }
     /// What a texel's ray meets first: a stored height, minus infinity for nothing.
     float operator()(int column, int row) const { return heights_(column, row); }
 

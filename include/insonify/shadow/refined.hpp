@@ -32,7 +32,7 @@ class caster_map {
     template <executor E>
     caster_map(const light_frame& frame, const mesh& m, const affine& to_world, bool is_solid, const map_extent& extent,
                double reach, double texel, int largest, E& ex)
-        : frame_(frame), mesh_(&m), grid_(extent, texel, largest) {
+        : frame_(frame), mesh_(&m), grid_(extent, texel, largest, stretch(frame)) {
         if (grid_.empty()) return;
         tolerance_ = static_cast<float>(0x1p-21 * reach);
         const std::size_t width = pitch(), height = static_cast<std::size_t>(grid_.rows) + 2;
@@ -45,12 +45,13 @@ class caster_map {
         for (std::size_t row = 1; row + 1 < height; ++row)
             heights_[row * width] = heights_[(row + 1) * width - 1] = nothing;
 
-        const double texels = 1 / grid_.texel;
+        const glm::dvec2 texels = 1.0 / grid_.texel;
         const glm::dvec2& travel = frame.travel();
-        to_map_[0] = glm::vec3(texels * glm::dvec3(travel.x, travel.y, frame.cot_elevation()));
-        to_map_[1] = glm::vec3(texels * glm::dvec3(-travel.y, travel.x, 0));
+        to_map_[0] = glm::vec3(texels.x * glm::dvec3(travel.x, travel.y, frame.cot_elevation()));
+        to_map_[1] = glm::vec3(texels.y * glm::dvec3(-travel.y, travel.x, 0));
         to_map_[2] = {0, 0, static_cast<float>(1 / grid_.relief)};
-        start_ = glm::vec3(0.5 - texels * grid_.origin.x, 0.5 - texels * grid_.origin.y, -grid_.floor / grid_.relief);
+        start_ =
+            glm::vec3(0.5 - texels.x * grid_.origin.x, 0.5 - texels.y * grid_.origin.y, -grid_.floor / grid_.relief);
 
         to_light_.offset = frame(to_world.offset);
         for (int i = 0; i < 3; ++i)
@@ -105,10 +106,10 @@ class caster_map {
             low = h[i + 1] < low ? h[i + 1] : low;
             high = h[i + 1] > high ? h[i + 1] : high;
         });
-        // All four below by more than they differ, or above by as much: that is how far a surface may go on changing.
+        // All four below; or all four above by more than they differ, which is how far a surface may go on changing.
         // Nothing is minus infinity: beside something, it makes the difference infinite.
         const floats spread = high - low;
-        const ints is_lit = ints(height > high + spread) | ints(high < 0.0f);
+        const ints is_lit = (ints(height > high) & ints(low >= 0.0f)) | ints(high < 0.0f);
         const ints is_dark = ints(height < low - spread);
         dark = on_map & is_dark;
         const ints doubtful = on_map & ints(ints(is_lit | is_dark) == 0);
@@ -122,12 +123,14 @@ class caster_map {
     }
 
   private:
+    /// How much longer than wide a texel is: low light spreads heights so far along u that it still tells them apart.
+    static double stretch(const light_frame& frame) { return (std::min)((std::max)(frame.cot_elevation(), 1.0), 1.5); }
+
     std::size_t pitch() const { return static_cast<std::size_t>(grid_.columns) + 2; }
 
     /// Asks the triangles that the four texels from `first` on name. One that covers the point decides if it is above.
-    /// Else the point lies between them, inside of a surface if all four pass above; or at its edge, where triangles
-    /// are thin under grazing light and may have met no texel's centre: there their neighbours in the mesh are asked
-    /// too.
+    /// Else, if any of their planes passes above, the point may lie between them or at an edge, where triangles are
+    /// thin under grazing light and may have met no texel's centre: there their neighbours in the mesh are asked too.
     INSONIFY_RARE bool is_behind_one_of(std::size_t first, const glm::dvec3& uvz) const {
         const glm::vec3 start(to_light_.offset - uvz);
         std::uint32_t names[4];
@@ -137,28 +140,22 @@ class caster_map {
         if (count == 0) return false;
         const sight named = see(start, [&](int k) { return names[(std::min)(k, count - 1)]; });
         if (named.is_behind) return true;
-        if (count == 4 && named.above == 4) return true;
-        if (named.above == 0) return false;
+        if (!named.is_above) return false;
 
-        // Meshes are mostly written such that neighbours come after one another.
-        const auto last = static_cast<std::uint32_t>(mesh_->triangles.size() - 1);
-        for (int i = 0; i < count; ++i) {
-            if (i > 0 && names[i] == names[i - 1]) continue;
-            const auto before = [&](int k) {
-                return names[i] - (std::min)(names[i], static_cast<std::uint32_t>(k + 1));
-            };
-            const auto after = [&](int k) {
-                return names[i] + (std::min)(last - names[i], static_cast<std::uint32_t>(k + 1));
-            };
-            if (see(start, before).is_behind || see(start, after).is_behind) return true;
-        }
+        neighbourhood around{*this, start};
+        for (int i = 0; i < count; ++i)
+            if (around.is_behind(names[i])) return true;
+        for (int i = 0; i < count; ++i)
+            if (around.is_behind(before(names[i], strip(names[i]))) ||
+                around.is_behind(after(names[i], strip(names[i]))))
+                return true;
         return false;
     }
 
     /// Four triangles, as the light sees them at a point.
     struct sight {
         bool is_behind;  ///< one of them covers the point and passes above
-        int above;       ///< how many of their planes pass above
+        bool is_above;   ///< the plane of one of them does
     };
     /// @param start  from the point to the mesh's origin, in the light's frame
     /// @param name   name(k): the triangles
@@ -168,7 +165,7 @@ class caster_map {
         constexpr int N = INSONIFY_SIMD ? 4 : 1;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
-        sight all{false, 0};
+        sight all{false, false};
         for (int first = 0; first < 4; first += N) {
             floats u[3], v[3], z[3];
             for (int i = 0; i < 3; ++i) {
@@ -176,8 +173,7 @@ class caster_map {
                     return mesh_->positions[mesh_->triangles[name(first + k)][i]];
                 };
                 floats px, py, pz;
-                gather<N>(px, [&](int k) { return corner(k).x; });
-                gather<N>(py, [&](int k) { return corner(k).y; });
+                gather_pairs<N>(px, py, [&](int k) { return &corner(k).x; });
                 gather<N>(pz, [&](int k) { return corner(k).z; });
                 u[i] = px * axes_[0].x + py * axes_[1].x + pz * axes_[2].x + start.x;
                 v[i] = px * axes_[0].y + py * axes_[1].y + pz * axes_[2].y + start.y;
@@ -188,10 +184,39 @@ class caster_map {
                                  (ints(a <= 0.0f) & ints(b <= 0.0f) & ints(c <= 0.0f));
             const floats height = (a * z[0] + b * z[1] + c * z[2]) / (a + b + c);
             all.is_behind |= any(ints(covered & ints(height > tolerance_)));
-            for (int k = 0; k < N; ++k) all.above += lane(height, k) > 0 ? 1 : 0;
+            all.is_above |= any(ints(height > 0.0f));
         }
         return all;
     }
+
+    /// Meshes are mostly written such that neighbours come after one another; grids, strip by strip. How many triangles
+    /// a grid's strip has shows in the indices of each: its corners lie in two rows of vertices.
+    std::uint32_t strip(std::uint32_t name) const {
+        const glm::uvec3& t = mesh_->triangles[name];
+        return 2 * ((std::max)({t.x, t.y, t.z}) - (std::min)({t.x, t.y, t.z}) - 1);
+    }
+    std::uint32_t before(std::uint32_t name, std::uint32_t steps) const { return name - (std::min)(name, steps); }
+    std::uint32_t after(std::uint32_t name, std::uint32_t steps) const {
+        return name + (std::min)(static_cast<std::uint32_t>(mesh_->triangles.size() - 1) - name, steps);
+    }
+
+    /// What has been asked around a point.
+    struct neighbourhood {
+        const caster_map& map;
+        const glm::vec3& start;
+        std::uint32_t asked[12]{};
+        int count = 0;
+
+        /// Whether one of the four triangles before a name or of the four after it is in the way, and news.
+        bool is_behind(std::uint32_t name) {
+            for (int i = 0; i < count; ++i)
+                if (name - asked[i] + 2 <= 4) return false;  // as good as asked
+            asked[count++] = name;
+            const auto steps = [](int k) { return static_cast<std::uint32_t>(k + 1); };
+            return map.see(start, [&](int k) { return map.before(name, steps(k)); }).is_behind ||
+                   map.see(start, [&](int k) { return map.after(name, steps(k)); }).is_behind;
+        }
+    };
 
     light_frame frame_;
     const mesh* mesh_ = nullptr;

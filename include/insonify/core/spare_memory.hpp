@@ -1,0 +1,125 @@
+// Large memory that was given back, for who asks for as much next.
+//
+// The system clears every page before it hands it out. Where pictures are made one after another, in new memory each
+// time, that is up to a third of the time. So a thread holds on to the large blocks that it gives back; together with
+// what it has in use, never to more than it has had in use at once.
+#pragma once
+
+#include <insonify/config.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <new>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+/// The blocks that one thread keeps.
+class spare_memory {
+  public:
+    static constexpr std::size_t page = std::size_t{1} << 21;  ///< a large one: the system clears it in one go
+
+    /// The calling thread's, or null at its end.
+    static spare_memory* mine() {
+        static thread_local bool is_over = false;
+        struct keeper {
+            spare_memory memory;
+            bool& over;
+            ~keeper() {
+                over = true;
+                memory.release();
+            }
+        };
+        if (is_over) return nullptr;
+        static thread_local keeper kept{{}, is_over};
+        return &kept.memory;
+    }
+
+    /// Memory for so many bytes, at the beginning of a large page.
+    /// @throws std::bad_alloc
+    void* take(std::size_t bytes) {
+        const std::size_t size = rounded(bytes);
+        void* memory = nullptr;
+        for (int i = 0; i < count_ && memory == nullptr; ++i)
+            if (blocks_[i].size == size) memory = drop(i);
+        if (memory == nullptr) {
+            most_ = (std::max)(most_, in_use_ + size);
+            while (count_ > 0 && kept_ + in_use_ + size > most_) free(drop(0));
+            memory = fresh(size);
+        }
+        in_use_ += size;
+        return memory;
+    }
+
+    /// Takes back what `take`, of any thread, gave for as many bytes.
+    void give(void* memory, std::size_t bytes) noexcept {
+        const std::size_t size = rounded(bytes);
+        in_use_ -= (std::min)(in_use_, size);
+        if (count_ == most_blocks || kept_ + in_use_ + size > most_) return free(memory);
+        blocks_[count_++] = {memory, size};
+        kept_ += size;
+    }
+
+    /// Bytes that are waiting.
+    std::size_t kept() const { return kept_; }
+
+    void release() noexcept {
+        while (count_ > 0) free(drop(0));
+        most_ = in_use_;
+    }
+
+    /// New memory, and its end.
+    static void* fresh(std::size_t bytes) {
+        void* const memory = ::operator new (bytes, std::align_val_t{page});
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+        ::madvise(memory, bytes / page * page, MADV_HUGEPAGE);  // refused, it is memory all the same
+#endif
+        return memory;
+    }
+    static void free(void* memory) noexcept {
+        ::operator delete (memory, std::align_val_t{page});
+    }
+
+    /// Sizes that differ by less than an eighth count as the same; what nobody touches of a page costs nothing.
+    static std::size_t rounded(std::size_t bytes) {
+        const std::size_t step = (std::max)(page, std::bit_floor(bytes) / 8);
+        return (bytes + step - 1) / step * step;
+    }
+
+  private:
+    struct block {
+        void* memory;
+        std::size_t size;
+    };
+
+    void* drop(int i) {
+        const block dropped = blocks_[i];
+        blocks_[i] = blocks_[--count_];
+        kept_ -= dropped.size;
+        return dropped.memory;
+    }
+
+    static constexpr int most_blocks = 32;
+    block blocks_[most_blocks]{};
+    int count_ = 0;
+    std::size_t kept_ = 0;    ///< bytes of all blocks
+    std::size_t in_use_ = 0;  ///< taken by this thread and not given back to it
+    std::size_t most_ = 0;    ///< that was in use at once
+};
+
+}  // namespace detail
+
+/// Gives back to the system what the calling thread has kept of large memory for its next picture. A thread keeps
+/// blocks of 4 MB and more, together with what it has in use never more than it has had in use at once; its end
+/// releases them, too.
+inline void release_memory() noexcept {
+    if (detail::spare_memory* const spare = detail::spare_memory::mine()) spare->release();
+}
+
+}  // namespace insonify::inline INSONIFY_ABI

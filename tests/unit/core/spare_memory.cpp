@@ -1,0 +1,100 @@
+// Large memory given back waits for who asks for as much next; a thread holds no more than it has had in use at once.
+#include <insonify/core/spare_memory.hpp>
+#include <insonify/core/unfilled.hpp>
+
+#include <bit>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+using in::detail::spare_memory;
+
+namespace {
+
+constexpr std::size_t page = spare_memory::page;
+
+}  // namespace
+
+TEST_CASE("What was given back comes again, to who asks for about as much") {
+    spare_memory spare;
+    void* const first = spare.take(5 * page);
+    CHECK(std::bit_cast<std::uintptr_t>(first) % page == 0);
+    spare.give(first, 5 * page);
+    CHECK(spare.kept() == 5 * page);
+    void* const again = spare.take(4 * page + 1);
+    CHECK(again == first);
+    CHECK(spare.kept() == 0);
+    spare.give(again, 4 * page + 1);
+    spare.release();
+    CHECK(spare.kept() == 0);
+}
+
+TEST_CASE("Pictures of one size, made one after another, share their memory") {
+    const std::size_t floats = 3 * page / sizeof(float);
+    const float* seen = nullptr;
+    for (int i = 0; i < 3; ++i) {
+        const in::detail::unfilled_vector<float> picture(floats);
+        if (i > 0) CHECK(picture.data() == seen);
+        seen = picture.data();
+    }
+    CHECK(spare_memory::mine()->kept() >= 3 * page);
+    in::release_memory();
+    CHECK(spare_memory::mine()->kept() == 0);
+}
+
+TEST_CASE("Kept and in use together stay within what has been in use at once") {
+    spare_memory spare;
+    std::vector<void*> taken;
+    for (int i = 0; i < 4; ++i) taken.push_back(spare.take(2 * page));
+    for (void* const memory : taken) spare.give(memory, 2 * page);
+    CHECK(spare.kept() == 8 * page);
+    // Six pages fit beside one of the four blocks only.
+    void* const larger = spare.take(6 * page);
+    CHECK(spare.kept() == 2 * page);
+    spare.give(larger, 6 * page);
+    CHECK(spare.kept() == 8 * page);
+    spare.release();
+}
+
+TEST_CASE("A thread that frees what others took keeps no more than it has had itself") {
+    spare_memory maker, taker;
+    for (int i = 0; i < 3; ++i) taker.give(maker.take(2 * page), 2 * page);
+    CHECK(taker.kept() == 0);
+    void* const own = taker.take(2 * page);
+    taker.give(maker.take(2 * page), 2 * page);
+    taker.give(own, 2 * page);
+    CHECK(taker.kept() == 2 * page);
+    taker.release();
+}
+
+TEST_CASE("However many blocks are given back, few are kept") {
+    spare_memory spare;
+    std::vector<void*> taken;
+    for (int i = 0; i < 40; ++i) taken.push_back(spare.take(2 * page));
+    for (void* const memory : taken) spare.give(memory, 2 * page);
+    CHECK(spare.kept() == 32 * 2 * page);
+    spare.release();
+}
+
+TEST_CASE("Sizes count as the same if they differ by less than an eighth") {
+    CHECK(spare_memory::rounded(1) == page);
+    CHECK(spare_memory::rounded(2 * page) == 2 * page);
+    CHECK(spare_memory::rounded(2 * page + 1) == 3 * page);
+    for (std::size_t bytes = page; bytes < 100 * page; bytes += page / 3 + 1) {
+        CHECK(spare_memory::rounded(bytes) >= bytes);
+        CHECK(spare_memory::rounded(bytes) <= bytes + bytes / 8 + page);
+        CHECK(spare_memory::rounded(bytes) % page == 0);
+    }
+}
+
+TEST_CASE("Memory may be given back on another thread, and after the thread's own end") {
+    in::detail::unfilled_vector<char> picture;
+    std::thread([&] { picture.resize(4 * page, 'x'); }).join();
+    CHECK(picture.back() == 'x');
+    std::thread([last = std::move(picture)]() mutable { last = {}; }).join();
+    static const in::detail::unfilled_vector<char> until_the_end(2 * page);
+    CHECK(until_the_end.size() == 2 * page);
+}
