@@ -5,11 +5,12 @@
 // what it has in use, never to more than it has had in use at once.
 #pragma once
 
-#include <insonify/config.hpp>
+#include <insonify/core/error.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <new>
 
 #if defined(__linux__)
@@ -20,11 +21,48 @@ namespace insonify::inline INSONIFY_ABI {
 
 namespace detail {
 
+/// Blocks of whole large pages, as they come from the system and go back to it.
+struct large_pages {
+    static constexpr std::size_t page = std::size_t{1} << 21;  ///< the system clears it in one go
+
+    /// How much a block for so many bytes holds. Sizes that differ by less than an eighth get the same; what nobody
+    /// touches of a page costs nothing.
+    static std::size_t rounded(std::size_t bytes) {
+        const std::size_t step = (std::max)(page, std::bit_floor(bytes) / 8);
+        return (bytes + step - 1) / step * step;
+    }
+
+    /// @throws std::bad_alloc
+    static void* allocate(std::size_t bytes) {
+        const std::size_t size = rounded(bytes);
+#if defined(__linux__)
+        void* const mapped = ::mmap(nullptr, size + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (mapped == MAP_FAILED) raise(std::bad_alloc());
+        const std::size_t before = (page - std::bit_cast<std::uintptr_t>(mapped) % page) % page;
+        char* const memory = static_cast<char*>(mapped) + before;
+        if (before > 0) ::munmap(mapped, before);
+        ::munmap(memory + size, page - before);
+#if defined(MADV_HUGEPAGE)
+        ::madvise(memory, bytes / page * page, MADV_HUGEPAGE);  // refused, it is memory all the same
+#endif
+        return memory;
+#else
+        return ::operator new (size, std::align_val_t{page});
+#endif
+    }
+
+    static void free(void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
+#if defined(__linux__)
+        ::munmap(memory, rounded(bytes));
+#else
+        ::operator delete (memory, std::align_val_t{page});
+#endif
+    }
+};
+
 /// The blocks that one thread keeps.
 class spare_memory {
   public:
-    static constexpr std::size_t page = std::size_t{1} << 21;  ///< a large one: the system clears it in one go
-
     /// The calling thread's, or null at its end.
     static spare_memory* mine() {
         static thread_local bool is_over = false;
@@ -44,14 +82,15 @@ class spare_memory {
     /// Memory for so many bytes, at the beginning of a large page.
     /// @throws std::bad_alloc
     void* take(std::size_t bytes) {
-        const std::size_t size = rounded(bytes);
+        const std::size_t size = large_pages::rounded(bytes);
         void* memory = nullptr;
         for (int i = 0; i < count_ && memory == nullptr; ++i)
             if (blocks_[i].size == size) memory = drop(i);
         if (memory == nullptr) {
-            most_ = (std::max)(most_, in_use_ + size);
-            while (count_ > 0 && kept_ + in_use_ + size > most_) free(drop(0));
-            memory = fresh(size);
+            const std::size_t most = (std::max)(most_, in_use_ + size);
+            while (count_ > 0 && kept_ + in_use_ + size > most) free(0);
+            memory = large_pages::allocate(bytes);
+            most_ = most;
         }
         in_use_ += size;
         return memory;
@@ -59,9 +98,9 @@ class spare_memory {
 
     /// Takes back what `take`, of any thread, gave for as many bytes.
     void give(void* memory, std::size_t bytes) noexcept {
-        const std::size_t size = rounded(bytes);
+        const std::size_t size = large_pages::rounded(bytes);
         in_use_ -= (std::min)(in_use_, size);
-        if (count_ == most_blocks || kept_ + in_use_ + size > most_) return free(memory);
+        if (count_ == most_blocks || kept_ + in_use_ + size > most_) return large_pages::free(memory, size);
         blocks_[count_++] = {memory, size};
         kept_ += size;
     }
@@ -70,26 +109,8 @@ class spare_memory {
     std::size_t kept() const { return kept_; }
 
     void release() noexcept {
-        while (count_ > 0) free(drop(0));
+        while (count_ > 0) free(0);
         most_ = in_use_;
-    }
-
-    /// New memory, and its end.
-    static void* fresh(std::size_t bytes) {
-        void* const memory = ::operator new (bytes, std::align_val_t{page});
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-        ::madvise(memory, bytes / page * page, MADV_HUGEPAGE);  // refused, it is memory all the same
-#endif
-        return memory;
-    }
-    static void free(void* memory) noexcept {
-        ::operator delete (memory, std::align_val_t{page});
-    }
-
-    /// Sizes that differ by less than an eighth count as the same; what nobody touches of a page costs nothing.
-    static std::size_t rounded(std::size_t bytes) {
-        const std::size_t step = (std::max)(page, std::bit_floor(bytes) / 8);
-        return (bytes + step - 1) / step * step;
     }
 
   private:
@@ -98,7 +119,11 @@ class spare_memory {
         std::size_t size;
     };
 
-    void* drop(int i) {
+    void free(int i) noexcept {
+        const std::size_t size = blocks_[i].size;
+        large_pages::free(drop(i), size);
+    }
+    void* drop(int i) noexcept {
         const block dropped = blocks_[i];
         blocks_[i] = blocks_[--count_];
         kept_ -= dropped.size;

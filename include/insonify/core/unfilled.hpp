@@ -29,16 +29,16 @@ class unfilled_allocator {
 
     T* allocate(std::size_t count) {
         if (!is_large(count)) return std::allocator<T>().allocate(count);
-        const std::size_t bytes = count * sizeof(T);
         spare_memory* const spare = spare_memory::mine();
-        return static_cast<T*>(spare != nullptr ? spare->take(bytes) : spare_memory::fresh(bytes));
+        const std::size_t bytes = count * sizeof(T);
+        return static_cast<T*>(spare != nullptr ? spare->take(bytes) : large_pages::allocate(bytes));
     }
     void deallocate(T* memory, std::size_t count) {
         if (!is_large(count)) return std::allocator<T>().deallocate(memory, count);
         if (spare_memory* const spare = spare_memory::mine())
             spare->give(memory, count * sizeof(T));
         else
-            spare_memory::free(memory);
+            large_pages::free(memory, count * sizeof(T));
     }
 
     template <class U>
@@ -53,10 +53,10 @@ class unfilled_allocator {
     friend bool operator==(const unfilled_allocator&, const unfilled_allocator&) { return true; }
 
   private:
-    static_assert(alignof(T) <= spare_memory::page);
+    static_assert(alignof(T) <= large_pages::page);
 
     /// At least two pages, of which the first and the last waste one at most.
-    static bool is_large(std::size_t count) { return count >= 2 * spare_memory::page / sizeof(T); }
+    static bool is_large(std::size_t count) { return count >= 2 * large_pages::page / sizeof(T); }
 };
 
 /// Elements stay unset until somebody sets them.

@@ -10,11 +10,12 @@
 #include "../../catch.hpp"
 
 namespace in = insonify;
+using in::detail::large_pages;
 using in::detail::spare_memory;
 
 namespace {
 
-constexpr std::size_t page = spare_memory::page;
+constexpr std::size_t page = large_pages::page;
 
 }  // namespace
 
@@ -80,14 +81,26 @@ TEST_CASE("However many blocks are given back, few are kept") {
 }
 
 TEST_CASE("Sizes count as the same if they differ by less than an eighth") {
-    CHECK(spare_memory::rounded(1) == page);
-    CHECK(spare_memory::rounded(2 * page) == 2 * page);
-    CHECK(spare_memory::rounded(2 * page + 1) == 3 * page);
+    CHECK(large_pages::rounded(1) == page);
+    CHECK(large_pages::rounded(2 * page) == 2 * page);
+    CHECK(large_pages::rounded(2 * page + 1) == 3 * page);
     for (std::size_t bytes = page; bytes < 100 * page; bytes += page / 3 + 1) {
-        CHECK(spare_memory::rounded(bytes) >= bytes);
-        CHECK(spare_memory::rounded(bytes) <= bytes + bytes / 8 + page);
-        CHECK(spare_memory::rounded(bytes) % page == 0);
+        CHECK(large_pages::rounded(bytes) >= bytes);
+        CHECK(large_pages::rounded(bytes) <= bytes + bytes / 8 + page);
+        CHECK(large_pages::rounded(bytes) % page == 0);
     }
+}
+
+TEST_CASE("More than the system has is refused, and nothing is lost") {
+    spare_memory spare;
+    void* const first = spare.take(2 * page);
+    CHECK_THROWS_AS(spare.take(std::size_t{1} << 60), std::bad_alloc);
+    spare.give(first, 2 * page);
+    spare.give(large_pages::allocate(2 * page), 2 * page);
+    CHECK(spare.kept() == 2 * page);  // as much as has been in use
+    CHECK(spare.take(2 * page) == first);
+    spare.give(first, 2 * page);
+    spare.release();
 }
 
 TEST_CASE("Memory may be given back on another thread, and after the thread's own end") {
