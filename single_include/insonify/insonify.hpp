@@ -37,6 +37,8 @@
 //
 //   Yours to set
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
+//     INSONIFY_KEEP_MEMORY    1 (default) or 0, the default under sanitizers: no thread keeps large memory for its next
+//                             picture, all of it comes from operator new
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
 //     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return
 //
@@ -112,6 +114,15 @@
 #endif
 #endif
 
+// See core/spare_memory.hpp. The sanitizers watch memory that comes and goes, so for them it does.
+#if !defined(INSONIFY_KEEP_MEMORY)
+#if defined(INSONIFY_SANITIZED)
+#define INSONIFY_KEEP_MEMORY 0
+#else
+#define INSONIFY_KEEP_MEMORY 1
+#endif
+#endif
+
 #if INSONIFY_WHOLE_KERNELS
 #define INSONIFY_TARGET(isa) __attribute__((target(isa), flatten, noinline))
 #define INSONIFY_INLINE inline __attribute__((always_inline))
@@ -160,7 +171,15 @@
 #define INSONIFY_TAG_ASSERT _checked
 #endif
 
-#define INSONIFY_TAGS INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SIMD, INSONIFY_TAG_EXCEPTIONS), INSONIFY_TAG_ASSERT)
+#if INSONIFY_KEEP_MEMORY
+#define INSONIFY_TAG_MEMORY
+#else
+#define INSONIFY_TAG_MEMORY _new
+#endif
+
+#define INSONIFY_TAGS                                                        \
+    INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SIMD, INSONIFY_TAG_EXCEPTIONS), \
+                  INSONIFY_JOIN(INSONIFY_TAG_ASSERT, INSONIFY_TAG_MEMORY))
 #define INSONIFY_ABI_OF(major, minor, patch) v##major##_##minor##_##patch
 #define INSONIFY_ABI_NAME(major, minor, patch) INSONIFY_ABI_OF(major, minor, patch)
 #define INSONIFY_ABI                                                                                         \
@@ -2145,7 +2164,8 @@ inline void release_memory() noexcept {
 // Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
 // many will.
 //
-// Large memory comes in whole large pages, and stays with the thread for the next that is as large.
+// Large memory comes in whole large pages, and stays with the thread for the next that is as large, unless
+// INSONIFY_KEEP_MEMORY is 0.
 
 #include <memory>
 
@@ -2193,7 +2213,9 @@ class unfilled_allocator {
     static_assert(alignof(T) <= large_pages::page);
 
     /// At least two pages, of which the first and the last waste one at most.
-    static bool is_large(std::size_t count) { return count >= 2 * large_pages::page / sizeof(T); }
+    static bool is_large(std::size_t count) {
+        return INSONIFY_KEEP_MEMORY && count >= 2 * large_pages::page / sizeof(T);
+    }
 };
 
 /// Elements stay unset until somebody sets them.

@@ -1,7 +1,8 @@
 // Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
 // many will.
 //
-// Large memory comes in whole large pages, and stays with the thread for the next that is as large.
+// Large memory comes in whole large pages, and stays with the thread for the next that is as large, unless
+// INSONIFY_KEEP_MEMORY is 0.
 #pragma once
 
 #include <insonify/core/spare_memory.hpp>
@@ -56,7 +57,9 @@ class unfilled_allocator {
     static_assert(alignof(T) <= large_pages::page);
 
     /// At least two pages, of which the first and the last waste one at most.
-    static bool is_large(std::size_t count) { return count >= 2 * large_pages::page / sizeof(T); }
+    static bool is_large(std::size_t count) {
+        return INSONIFY_KEEP_MEMORY && count >= 2 * large_pages::page / sizeof(T);
+    }
 };
 
 /// Elements stay unset until somebody sets them.
