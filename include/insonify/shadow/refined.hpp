@@ -184,7 +184,7 @@ class caster_map {
                                  (ints(a <= 0.0f) & ints(b <= 0.0f) & ints(c <= 0.0f));
             const floats height = (a * z[0] + b * z[1] + c * z[2]) / (a + b + c);
             all.is_behind |= any(ints(covered & ints(height > tolerance_)));
-            all.is_above |= any(ints(height > 0.0f));
+            all.is_above |= any(ints(height > tolerance_));
         }
         return all;
     }
