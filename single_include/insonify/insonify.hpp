@@ -6431,7 +6431,7 @@ struct pcf {
 /// disagree the triangles are asked. What no texel's centre meets is missed, so texels should not be larger than
 /// pixels.
 struct refined {
-    float texels_per_pixel = 1;
+    float texels_per_pixel = 1;  ///< across the light; along it up to a third fewer
     int largest = 8192;
 };
 
