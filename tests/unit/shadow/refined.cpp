@@ -115,10 +115,10 @@ TEST_CASE("Points are dark where a ray meets a triangle, whichever way the mesh'
             .wavelength = 0.6f, .steepness = 0.1f, .direction = static_cast<float>(radians(direction))};
     };
     // Across the crests, then nearly along them, where shadows are narrower than a texel.
-    const bottom_kind kinds[] = {{ripples(0), 25, 10},         {ripples(90), 115, 15},
-                                 {ripples(0), 115, 20},        {ripples(90), 25, 20},
-                                 {in::seabed::mud{}, 25, 10},  {in::seabed::mud{}, 115, 15},
-                                 {in::seabed::rock{}, 25, 25}, {in::seabed::rock{}, 115, 25}};
+    const bottom_kind kinds[] = {
+        {ripples(0), 25, 10},         {ripples(90), 115, 15},        {ripples(0), 115, 20},
+        {ripples(90), 25, 20},        {in::seabed::mud{}, 25, 10},   {in::seabed::mud{}, 115, 15},
+        {in::seabed::rock{}, 25, 25}, {in::seabed::rock{}, 115, 25}, {ripples(0), 295, 35}};
     in::random_sequence random(11);
     for (const auto& [recipe, azimuth, most_wrong] : kinds) {
         const in::mesh bottom = in::seabed::tessellate(in::seabed::sample(recipe, grid));
