@@ -167,15 +167,15 @@ class overhead_painter {
     template <executor E>
     auto cast_shadows(const placed_mesh* bottom, E& ex) const {
         if constexpr (shadow::ray_policy<Shadow>) {
-            return exact_shadows(options_.shadow, view_, bottom, targets_, receivers(), ex);
+            return exact_shadows(options_.shadow, view_, bottom, targets_, shadow::extent_of(receivers(), {}, view_.light()), ex);
         } else {
             const double texel = view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel);
             return shadow_maps<Shadow>(options_.shadow, view_.light(), bottom, targets_, receivers(), texel, ex);
         }
     }
 
-    /// All rays of the light that reach something which the picture may show.
-    shadow::map_extent receivers() const {
+    /// All that the picture may show.
+    bounding_box receivers() const {
         double low = static_cast<double>(lowest_), top = static_cast<double>(highest_);
         if (!has_bottom()) {
             low = (std::numeric_limits<double>::max)();
@@ -190,14 +190,9 @@ class overhead_painter {
                 top = (std::max)(top, z);
                 if (!has_bottom()) low = (std::min)(low, z);
             }
-        shadow::map_extent extent;
-        if (low > top) return extent;
-        for (const double height : {low, top}) {
-            const glm::dvec2 half = view_.half_extent(low);
-            for (const double x : {-half.x, half.x})
-                for (const double y : {-half.y, half.y}) extent.include(view_.light()(glm::dvec3(x, y, height)));
-        }
-        return extent;
+        if (low > top) return {};
+        const glm::dvec2 half = view_.half_extent(low);
+        return {{-half, low}, {half, top}};
     }
 
     template <class Shadows, executor E>

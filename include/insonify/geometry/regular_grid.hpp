@@ -1,0 +1,155 @@
+// Meshes that are a heightfield over a regular grid, as seabeds mostly are: found out by looking, so that whoever gives
+// one need not say so, and nobody gets another result for saying so wrongly.
+#pragma once
+
+#include <insonify/core/dispatch.hpp>
+#include <insonify/core/executor.hpp>
+#include <insonify/core/lanes.hpp>
+#include <insonify/geometry/mesh.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <optional>
+
+#include <glm/vec2.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Vertex (i, j) is number j columns + i and lies at origin + i right + j up, at any height. Each cell is cut into two
+/// triangles the same way; all of them are counter-clockwise seen from +z.
+struct regular_grid {
+    int columns = 0, rows = 0;  ///< vertices
+    glm::dvec2 origin{0}, right{0}, up{0};
+    bool is_rising = true;  ///< cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1)
+};
+
+namespace detail {
+
+/// Compares numbers, Period of them a block, with what goes on in equal steps from block to block.
+template <class T, int Period>
+struct pattern_kernel {
+    struct term {
+        T start, step;  ///< in the first block, and from block to block
+        T tolerance;    ///< how far off it may be
+    };
+    const T* numbers;
+    std::size_t blocks;
+    const term (&pattern)[static_cast<unsigned>(Period)];
+    std::atomic<bool>& differs;  ///< set if a number is farther off, or isn't one
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        const std::size_t whole = blocks / N * N;
+        if (differ<N>(0, whole) || differ<1>(whole, blocks)) differs = true;
+    }
+
+  private:
+    /// N blocks are Period vectors.
+    template <int N>
+    INSONIFY_INLINE bool differ(std::size_t first, std::size_t last) const {
+        using numbers_of = lanes<T, N>;
+        numbers_of expected[static_cast<unsigned>(Period)], step[static_cast<unsigned>(Period)],
+            tolerance[static_cast<unsigned>(Period)];
+        unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
+            for (int k = 0; k < N; ++k) {
+                const int at = v * N + k;
+                const term& t = pattern[at % Period];
+                set_lane(expected[v], k, static_cast<T>(t.start + static_cast<T>(at / Period) * t.step));
+                set_lane(step[v], k, t.step);
+                set_lane(tolerance[v], k, t.tolerance);
+            }
+        });
+        lanes<std::int32_t, N> wrong{};
+        for (std::size_t block = first; block < last; block += N) {
+            const T steps = static_cast<T>(block);
+            unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
+                numbers_of number;
+                load(number, numbers + block * Period + static_cast<std::size_t>(v * N));
+                const numbers_of off = number - (expected[v] + steps * step[v]);
+                wrong |= lanes<std::int32_t, N>((off > tolerance[v]) | (off < 0 - tolerance[v]) | (off != off));
+            });
+        }
+        return any(wrong);
+    }
+};
+
+/// Columns of the grid that a mesh's first two triangles belong to, and how they cut its first cell; or nothing.
+struct cell_cut {
+    std::uint32_t columns;
+    bool is_rising;
+
+    static std::optional<cell_cut> of(const glm::uvec3 (&cell)[2]) {
+        std::uint32_t opposite = 0;
+        for (const glm::uvec3& t : cell) opposite = (std::max)({opposite, t.x, t.y, t.z});
+        if (opposite < 3) return std::nullopt;
+        const std::uint32_t columns = opposite - 1, around[4] = {0, 1, opposite, columns};  // counter-clockwise
+        // Each triangle goes around the cell and leaves one corner out, the two of them opposite ones.
+        int left_out[2];
+        for (int i = 0; i < 2; ++i) {
+            left_out[i] = -1;
+            for (int skipped = 0; skipped < 4; ++skipped)
+                for (int turn = 0; turn < 3; ++turn) {
+                    const auto corner = [&](int k) { return around[(skipped + 1 + (k + turn) % 3) % 4]; };
+                    if (cell[i] == glm::uvec3(corner(0), corner(1), corner(2))) left_out[i] = skipped;
+                }
+            if (left_out[i] < 0) return std::nullopt;
+        }
+        if ((left_out[0] + 2) % 4 != left_out[1]) return std::nullopt;
+        return cell_cut{columns, left_out[0] % 2 == 1};
+    }
+};
+
+}  // namespace detail
+
+/// How a mesh lies on a regular grid; nothing if it doesn't: vertices may be off by a 256th of a step, and every height
+/// must be a number.
+template <executor_argument E = serial_executor>
+std::optional<regular_grid> regular_grid_of(const mesh& m, E&& ex = {}) {
+    if (m.triangles.size() < 2) return std::nullopt;
+    const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
+    const auto cut = detail::cell_cut::of(cell);
+    if (!cut) return std::nullopt;
+    const std::size_t columns = cut->columns, rows = m.positions.size() / columns;
+    if (rows < 2 || columns > 1 << 20 || rows > 1 << 20 || rows * columns != m.positions.size() ||
+        m.triangles.size() != 2 * (columns - 1) * (rows - 1))
+        return std::nullopt;
+
+    regular_grid grid{static_cast<int>(columns), static_cast<int>(rows), {}, {}, {}, cut->is_rising};
+    const auto place = [&](std::size_t i) { return glm::dvec2(m.positions[i].x, m.positions[i].y); };
+    grid.origin = place(0);
+    grid.right = (place(columns - 1) - grid.origin) / static_cast<double>(columns - 1);
+    grid.up = (place((rows - 1) * columns) - grid.origin) / static_cast<double>(rows - 1);
+    // Written so that NaN doesn't pass.
+    if (!(grid.right.x * grid.up.y - grid.right.y * grid.up.x > 0)) return std::nullopt;
+    const auto length = [](const glm::dvec2& v) { return numeric::square_root(v.x * v.x + v.y * v.y); };
+    const auto tolerance = static_cast<float>((std::min)(length(grid.right), length(grid.up)) / 256);
+
+    std::atomic<bool> differs = false;
+    bulk_ranges(ex, rows, 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t j = first; j < last && !differs; ++j) {
+            const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;
+            const detail::pattern_kernel<float, 3>::term along[3] = {
+                {static_cast<float>(start.x), static_cast<float>(grid.right.x), tolerance},
+                {static_cast<float>(start.y), static_cast<float>(grid.right.y), tolerance},
+                {0, 0, (std::numeric_limits<float>::max)()}};
+            dispatch(detail::pattern_kernel<float, 3>{&m.positions[j * columns].x, columns, along, differs},
+                     best_isa());
+            if (j + 1 == rows) continue;
+            const auto corner = static_cast<std::uint32_t>(j * columns);
+            detail::pattern_kernel<std::uint32_t, 6>::term cells[6];
+            for (int i = 0; i < 6; ++i) cells[i] = {cell[i / 3][i % 3] + corner, 1, 0};
+            dispatch(detail::pattern_kernel<std::uint32_t, 6>{&m.triangles[j * 2 * (columns - 1)].x, columns - 1,
+                                                              cells, differs},
+                     best_isa());
+        }
+    });
+    if (differs) return std::nullopt;
+    return grid;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
