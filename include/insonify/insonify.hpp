@@ -48,6 +48,7 @@
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/geometry/normals.hpp>
 #include <insonify/geometry/obj.hpp>
+#include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/revolution.hpp>
 #include <insonify/geometry/sphere.hpp>
 #include <insonify/geometry/topology.hpp>
@@ -101,13 +102,16 @@
 #include <insonify/seabed/tessellate.hpp>
 #include <insonify/seabed/trawls.hpp>
 #include <insonify/shadow/box_tree.hpp>
+#include <insonify/shadow/caster_map.hpp>
 #include <insonify/shadow/exact.hpp>
+#include <insonify/shadow/horizon.hpp>
 #include <insonify/shadow/light.hpp>
 #include <insonify/shadow/light_rays.hpp>
 #include <insonify/shadow/lookup.hpp>
 #include <insonify/shadow/map.hpp>
 #include <insonify/shadow/policy.hpp>
 #include <insonify/shadow/refined.hpp>
+#include <insonify/shadow/sweep.hpp>
 #include <insonify/sonar/backscatter.hpp>
 #include <insonify/sonar/bottom_tiles.hpp>
 #include <insonify/sonar/display.hpp>

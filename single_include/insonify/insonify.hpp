@@ -6587,7 +6587,7 @@ inline float lit(const height_map& map, const receiver& r, const pcf& how) {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/shadow/refined.hpp ---------------------------------------------------------------
+// ------------ insonify/shadow/caster_map.hpp ------------------------------------------------------------
 // Hard shadows with the edges of the casters themselves: a map says who stands in the light near a point, and where its
 // texels disagree about the point, the triangles that they name are asked.
 //
@@ -6811,6 +6811,622 @@ class caster_map {
     glm::vec3 to_map_[3], start_;  ///< from positions to column, row and height
     insonify::detail::unfilled_vector<float> heights_;        ///< with the frame of empty texels
     insonify::detail::unfilled_vector<std::uint32_t> names_;  ///< the same texels
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::shadow
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/regular_grid.hpp --------------------------------------------------------
+// Meshes that are a heightfield over a regular grid, as seabeds mostly are: found out by looking, so that whoever gives
+// one need not say so, and nobody gets another result for saying so wrongly.
+
+#include <atomic>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Vertex (i, j) is number j columns + i and lies at origin + i right + j up, at any height. Each cell is cut into two
+/// triangles the same way; all of them are counter-clockwise seen from +z.
+struct regular_grid {
+    int columns = 0, rows = 0;  ///< vertices
+    glm::dvec2 origin{0}, right{0}, up{0};
+    bool is_rising =
+        true;  ///< cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1)
+};
+
+namespace detail {
+
+/// Compares numbers, Period of them a block, with what goes on in equal steps from block to block.
+template <class T, int Period>
+struct pattern_kernel {
+    struct term {
+        T start, step;  ///< in the first block, and from block to block
+        T tolerance;    ///< how far off it may be
+    };
+    const T* numbers;
+    std::size_t blocks;
+    const term (&pattern)[static_cast<unsigned>(Period)];
+    std::atomic<bool>& differs;  ///< set if a number is farther off, or isn't one
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        const std::size_t whole = blocks / N * N;
+        if (differ<N>(0, whole) || differ<1>(whole, blocks)) differs = true;
+    }
+
+  private:
+    /// N blocks are Period vectors.
+    template <int N>
+    INSONIFY_INLINE bool differ(std::size_t first, std::size_t last) const {
+        using numbers_of = lanes<T, N>;
+        numbers_of expected[static_cast<unsigned>(Period)], step[static_cast<unsigned>(Period)],
+            tolerance[static_cast<unsigned>(Period)];
+        unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
+            for (int k = 0; k < N; ++k) {
+                const int at = v * N + k;
+                const term& t = pattern[at % Period];
+                set_lane(expected[v], k, static_cast<T>(t.start + static_cast<T>(at / Period) * t.step));
+                set_lane(step[v], k, t.step);
+                set_lane(tolerance[v], k, t.tolerance);
+            }
+        });
+        lanes<std::int32_t, N> wrong{};
+        for (std::size_t block = first; block < last; block += N) {
+            const T steps = static_cast<T>(block);
+            unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
+                numbers_of number;
+                load(number, numbers + block * Period + static_cast<std::size_t>(v * N));
+                const numbers_of off = number - (expected[v] + steps * step[v]);
+                wrong |= lanes<std::int32_t, N>((off > tolerance[v]) | (off < 0 - tolerance[v]) | (off != off));
+            });
+        }
+        return any(wrong);
+    }
+};
+
+/// Columns of the grid that a mesh's first two triangles belong to, and how they cut its first cell; or nothing.
+struct cell_cut {
+    std::uint32_t columns;
+    bool is_rising;
+
+    static std::optional<cell_cut> of(const glm::uvec3 (&cell)[2]) {
+        std::uint32_t opposite = 0;
+        for (const glm::uvec3& t : cell) opposite = (std::max)({opposite, t.x, t.y, t.z});
+        if (opposite < 3) return std::nullopt;
+        const std::uint32_t columns = opposite - 1, around[4] = {0, 1, opposite, columns};  // counter-clockwise
+        // Each triangle goes around the cell and leaves one corner out, the two of them opposite ones.
+        int left_out[2];
+        for (int i = 0; i < 2; ++i) {
+            left_out[i] = -1;
+            for (int skipped = 0; skipped < 4; ++skipped)
+                for (int turn = 0; turn < 3; ++turn) {
+                    const auto corner = [&](int k) { return around[(skipped + 1 + (k + turn) % 3) % 4]; };
+                    if (cell[i] == glm::uvec3(corner(0), corner(1), corner(2))) left_out[i] = skipped;
+                }
+            if (left_out[i] < 0) return std::nullopt;
+        }
+        if ((left_out[0] + 2) % 4 != left_out[1]) return std::nullopt;
+        return cell_cut{columns, left_out[0] % 2 == 1};
+    }
+};
+
+}  // namespace detail
+
+/// How a mesh lies on a regular grid; nothing if it doesn't: vertices may be off by a 256th of a step, and every height
+/// must be a number.
+template <executor_argument E = serial_executor>
+std::optional<regular_grid> regular_grid_of(const mesh& m, E&& ex = {}) {
+    if (m.triangles.size() < 2) return std::nullopt;
+    const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
+    const auto cut = detail::cell_cut::of(cell);
+    if (!cut) return std::nullopt;
+    const std::size_t columns = cut->columns, rows = m.positions.size() / columns;
+    if (rows < 2 || columns > 1 << 20 || rows > 1 << 20 || rows * columns != m.positions.size() ||
+        m.triangles.size() != 2 * (columns - 1) * (rows - 1))
+        return std::nullopt;
+
+    regular_grid grid{static_cast<int>(columns), static_cast<int>(rows), {}, {}, {}, cut->is_rising};
+    const auto place = [&](std::size_t i) { return glm::dvec2(m.positions[i].x, m.positions[i].y); };
+    grid.origin = place(0);
+    grid.right = (place(columns - 1) - grid.origin) / static_cast<double>(columns - 1);
+    grid.up = (place((rows - 1) * columns) - grid.origin) / static_cast<double>(rows - 1);
+    // Written so that NaN doesn't pass.
+    if (!(grid.right.x * grid.up.y - grid.right.y * grid.up.x > 0)) return std::nullopt;
+    const auto length = [](const glm::dvec2& v) { return numeric::square_root(v.x * v.x + v.y * v.y); };
+    const auto tolerance = static_cast<float>((std::min)(length(grid.right), length(grid.up)) / 256);
+
+    std::atomic<bool> differs = false;
+    bulk_ranges(ex, rows, 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t j = first; j < last && !differs; ++j) {
+            const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;
+            const detail::pattern_kernel<float, 3>::term along[3] = {
+                {static_cast<float>(start.x), static_cast<float>(grid.right.x), tolerance},
+                {static_cast<float>(start.y), static_cast<float>(grid.right.y), tolerance},
+                {0, 0, (std::numeric_limits<float>::max)()}};
+            dispatch(detail::pattern_kernel<float, 3>{&m.positions[j * columns].x, columns, along, differs},
+                     best_isa());
+            if (j + 1 == rows) continue;
+            const auto corner = static_cast<std::uint32_t>(j * columns);
+            detail::pattern_kernel<std::uint32_t, 6>::term cells[6];
+            for (int i = 0; i < 6; ++i) cells[i] = {cell[i / 3][i % 3] + corner, 1, 0};
+            dispatch(detail::pattern_kernel<std::uint32_t, 6>{&m.triangles[j * 2 * (columns - 1)].x, columns - 1, cells,
+                                                              differs},
+                     best_isa());
+        }
+    });
+    if (differs) return std::nullopt;
+    return grid;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/sweep.hpp -----------------------------------------------------------------
+// A sweep along parallel light over a heightfield on a regular grid: for every cell, and for lines that run with the
+// light, how far the surfaces before it block the light.
+//
+// A line crosses the edges of cells at known places, between two vertices each, and u is linear from one to the next:
+// so what stands highest on a line is at a crossing, and a line's sweep is exact.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::shadow::detail {
+
+using insonify::detail::lanes;
+
+/// A grid as a sweep sees it: X counts its vertices along the axis that the light follows most, Y those across, both
+/// turned so that the light goes towards larger ones, by `slope` of Y for each of X.
+struct sweep_grid {
+    int columns = 0, rows = 0;  ///< vertices along X, and along Y
+    bool is_rising = true;      ///< cells are cut from (X, Y) to (X + 1, Y + 1), or else from (X, Y + 1) to (X + 1, Y)
+    double slope = 0;           ///< in [0, 1]
+    std::ptrdiff_t first = 0, along = 1, across = 1;  ///< the mesh's number of vertex (0, 0), and steps to the next
+    affine to_mesh;                                   ///< from (X, Y, z)
+
+    /// @param travel  where the light goes, in the mesh's frame
+    sweep_grid(const regular_grid& grid, const glm::dvec3& travel)
+        : columns(grid.columns), rows(grid.rows), is_rising(grid.is_rising), across(grid.columns) {
+        glm::dvec2 x = grid.right, y = grid.up, origin = grid.origin;
+        double travel_x = travel.x * y.y - travel.y * y.x, travel_y = x.x * travel.y - x.y * travel.x;
+        const auto size = [](double v) { return v < 0 ? -v : v; };
+        if (size(travel_y) > size(travel_x)) {
+            std::swap(columns, rows);
+            std::swap(along, across);
+            std::swap(x, y);
+            std::swap(travel_x, travel_y);
+        }
+        const auto turn = [&](double& steps, int count, std::ptrdiff_t& stride, glm::dvec2& axis) {
+            if (steps >= 0) return;
+            steps = -steps;
+            first += (count - 1) * stride;
+            origin += static_cast<double>(count - 1) * axis;
+            stride = -stride;
+            axis = -axis;
+            is_rising = !is_rising;
+        };
+        turn(travel_x, columns, along, x);
+        turn(travel_y, rows, across, y);
+        slope = travel_x > 0 ? travel_y / travel_x : 0;
+        to_mesh = {glm::dmat3(glm::dvec3(x, 0), glm::dvec3(y, 0), glm::dvec3(0, 0, 1)), glm::dvec3(origin, 0)};
+    }
+};
+
+/// u of a grid's vertices, column by column, and less than anything around them.
+struct sweep_relief {
+    static constexpr int below = 2, above = 4;  ///< rows around
+    static constexpr float nothing = -1e30f;
+    static constexpr float least = -1e20f;  ///< of any u; what is interpolated with nothing lies below it
+
+    std::ptrdiff_t pitch;
+    insonify::detail::unfilled_vector<float> u;
+
+    /// @param to_u  u of (X, Y, z) is dot(to_u, (X, Y, z)) + u_start
+    template <executor E>
+    sweep_relief(const mesh& m, const sweep_grid& grid, const glm::dvec3& to_u, double u_start, E& ex)
+        : pitch(grid.rows + below + above), u(static_cast<std::size_t>(grid.columns * pitch)) {
+        // In squares, so that both the mesh and what is made of it are read and written in runs.
+        constexpr int square = 32;
+        const auto height = static_cast<float>(to_u.z);
+        bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
+            const int left = static_cast<int>(from), right = static_cast<int>(to);
+            for (int x = left; x < right; ++x) {
+                float* const column = u.data() + x * pitch;
+                std::fill_n(column, below, nothing);
+                std::fill_n(column + below + grid.rows, above, nothing);
+            }
+            for (int bottom = 0; bottom < grid.rows; bottom += square)
+                for (int x = left; x < right; ++x) {
+                    float* const column = u.data() + x * pitch + below;
+                    const auto start = static_cast<float>(u_start + to_u.x * x), step = static_cast<float>(to_u.y);
+                    const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
+                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y)
+                        column[y] = start + step * static_cast<float>(y) + height * vertex[y * grid.across].z;
+                }
+        });
+    }
+};
+
+/// Which columns of a grid are kept, and which lines: line k passes through Y = start + k spacing at X = 0.
+struct sweep_window {
+    int first_column = 0, columns = 0;
+    int slots = 1;             ///< of a column: where a line enters it and, if cells fall, behind the edge of a row
+    int lines = 0, pitch = 0;  ///< that count, and that are kept
+    float start = 0, spacing = 1, slope = 0;
+};
+
+/// Carries crests along some lines over all columns of a grid.
+struct sweep_kernel {
+    static constexpr int block = 32;  ///< lines
+    const sweep_grid& grid;
+    const sweep_relief& relief;
+    const sweep_window& window;
+    int first_line;
+    float* crests;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        line_lanes<N> lines[static_cast<unsigned>(block / N)];
+        lanes<float, N> number;
+        insonify::detail::count_up<float, N>(number);
+        for (int i = 0; i < block / N; ++i) {
+            lines[i].start = window.start + window.spacing * (number + static_cast<float>(first_line + i * N));
+            lines[i].enter(*this);
+        }
+        for (int column = 0; column < grid.columns; ++column) {
+            const int at = column - window.first_column;
+            float* keep = nullptr;
+            if (at >= 0 && at < window.columns)
+                keep = crests + std::ptrdiff_t{at} * window.slots * window.pitch + first_line;
+            for (int i = 0; i < block / N; ++i) {
+                float* const to = keep == nullptr ? nullptr : keep + i * N;
+                if (column + 1 == grid.columns)
+                    lines[i].leave(*this, to);
+                else if (grid.is_rising)
+                    lines[i].template step<true>(*this, column, to);
+                else
+                    lines[i].template step<false>(*this, column, to);
+            }
+        }
+    }
+
+  private:
+    /// N lines where they cross a column.
+    template <int N>
+    struct line_lanes {
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        floats start;      ///< Y at X = 0
+        ints row;          ///< of the vertex before, counted from the first of the relief
+        floats beyond;     ///< how far beyond it, in [0, 1]
+        floats vertex[3];  ///< u there and at the next two
+        floats u, crest;
+
+        INSONIFY_INLINE void enter(const sweep_kernel& of) {
+            const floats y = y_at(of, 0);
+            insonify::detail::convert(row, y);
+            look(beyond, y, row);
+            floats four[4];
+            read(four, of, 0);
+            for (int i = 0; i < 3; ++i) vertex[i] = four[i];
+            between(u, vertex[0], vertex[1], beyond);
+            crest = floats{} + sweep_relief::nothing;
+        }
+
+        /// From one column to the next, over edges whose ends are vertices of both.
+        template <bool Rising>
+        INSONIFY_INLINE void step(const sweep_kernel& of, int column, float* keep) {
+            const float slope = of.window.slope;
+            floats ahead[4];
+            read(ahead, of, column + 1);
+            const floats y = y_at(of, column + 1);
+            ints next_row;
+            insonify::detail::convert(next_row, y);
+            const ints climbs = ints(next_row > row);  // over the edge of a row
+            next_row = climbs ? row + 1 : row;
+            floats next_beyond, next_u;
+            look(next_beyond, y, next_row);
+            const floats next[3] = {climbs ? ahead[1] : ahead[0], climbs ? ahead[2] : ahead[1],
+                                    climbs ? ahead[3] : ahead[2]};
+            between(next_u, next[0], next[1], next_beyond);
+            floats on_edge;
+            between(on_edge, vertex[1], ahead[1], (1.0f - beyond) * (slope > 0 ? 1 / slope : 0.0f));
+            if constexpr (Rising) {
+                floats on_diagonal;
+                between(on_diagonal, vertex[0], ahead[1], beyond * (slope < 1 ? 1 / (1 - slope) : 0.0f));
+                const floats middle = climbs ? on_edge : on_diagonal;
+                fall(u, middle);
+                if (keep != nullptr) insonify::detail::store(keep, crest);
+                fall(middle, next_u);
+            } else {
+                floats on_first, on_second;
+                between(on_first, vertex[1], ahead[0], (1.0f - beyond) * (1 / (1 + slope)));
+                between(on_second, vertex[2], ahead[1], (2.0f - beyond) * (1 / (1 + slope)));
+                fall(u, on_first);
+                if (keep != nullptr) insonify::detail::store(keep, crest);
+                fall(on_first, climbs ? on_edge : next_u);
+                fall(climbs ? on_edge : next_u, climbs ? on_second : next_u);
+                if (keep != nullptr) insonify::detail::store(keep + of.window.pitch, crest);
+                fall(climbs ? on_second : next_u, next_u);
+            }
+            row = next_row;
+            beyond = next_beyond;
+            for (int i = 0; i < 3; ++i) vertex[i] = next[i];
+            u = next_u;
+        }
+
+        /// Behind the last column there is nothing.
+        INSONIFY_INLINE void leave(const sweep_kernel& of, float* keep) {
+            fall(u, floats{} + sweep_relief::nothing);
+            if (keep == nullptr) return;
+            for (int slot = 0; slot < of.window.slots; ++slot)
+                insonify::detail::store(keep + slot * of.window.pitch, crest);
+        }
+
+      private:
+        /// Counted from the relief's first row, and held to its rows.
+        INSONIFY_INLINE floats y_at(const sweep_kernel& of, int column) const {
+            const auto most = static_cast<float>(of.grid.rows + sweep_relief::below);
+            floats y = start + (of.window.slope * static_cast<float>(column) + static_cast<float>(sweep_relief::below));
+            y = y > 0.0f ? y : floats{};
+            return y < most ? y : floats{} + most;
+        }
+        INSONIFY_INLINE static void look(floats& past, const floats& y, const ints& vertex_row) {
+            insonify::detail::convert(past, vertex_row);
+            past = y - past;
+        }
+        /// u of the vertex in the line's row, and of the next three.
+        INSONIFY_INLINE void read(floats (&four)[4], const sweep_kernel& of, int column) const {
+            const float* const from = of.relief.u.data() + column * of.relief.pitch;
+            insonify::detail::transpose<N>(four, [&](int k) { return from + insonify::detail::lane(row, k); });
+        }
+        /// Exact at both ends, though one may be nothing.
+        INSONIFY_INLINE static void between(floats& into, const floats& a, const floats& b, const floats& share) {
+            into = a * (1.0f - share) + b * share;
+        }
+        INSONIFY_INLINE void fall(const floats& from, const floats& to) {
+            crest = ints(to < from) & ints(from > crest) ? from : crest;
+        }
+    };
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::shadow::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/horizon.hpp ---------------------------------------------------------------
+// Hard shadows of a heightfield over a regular grid: how far the light is blocked, swept once over its cells.
+//
+// All points of a ray of parallel light share their u (see light.hpp), so a point is dark if some surface up the light
+// from it has a larger u. The largest so far is carried along lines that run with the light, kept where they enter a
+// cell, and interpolated between two lines.
+//
+// Only crests count, from where u falls along the light: there a surface turns away from it. So what faces the light is
+// never compared with itself, and needs no bias; what faces away has to be known to be dark.
+//
+// Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. 1988
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::shadow {
+
+/// One mesh as a caster, if it is a heightfield over a regular grid.
+class horizon {
+  public:
+    /// Casts nothing.
+    horizon() = default;
+
+    /// @param frame      of the light
+    /// @param m          the mesh
+    /// @param grid       how it lies; nothing that can be asked about lies below it
+    /// @param to_world   from the mesh's frame to the one in which the light is described; the light comes from above
+    /// in
+    ///                   both
+    /// @param receivers  what can be asked about lies in this box, in the latter frame
+    /// @param texel      metres, of which lines keep two thirds apart; grows if more than `largest` lines were needed,
+    /// or
+    ///                   more than 2^30 values
+    template <executor E>
+    horizon(const light_frame& frame, const mesh& m, const regular_grid& grid, const affine& to_world,
+            const bounding_box& receivers, double texel, int largest, E& ex) {
+        if (receivers.empty()) return;
+        const glm::dvec3 travel = numeric::product(inverse(to_world).linear, -frame.to_light());
+        const detail::sweep_grid sweep(grid, travel);
+        const affine placed = compose(to_world, sweep.to_mesh);
+        const affine back = inverse(placed);
+        const linear_map x = linear_map::row_of(back, 0), y = linear_map::row_of(back, 1);
+        const linear_map line{y.along - sweep.slope * x.along, y.start - sweep.slope * x.start};  // its Y at X = 0
+
+        const glm::dvec3 origin = frame(placed.offset);
+        glm::dvec3 to_u;
+        for (int i = 0; i < 3; ++i) to_u[i] = frame(placed.offset + placed.linear[i]).x - origin.x;
+        const double across = frame(placed.offset + placed.linear[1]).y - origin.y;
+
+        const glm::dvec2 asked_x = x.range(receivers), asked_lines = line.range(receivers);
+        const double first = (std::max)(asked_lines.x, -sweep.slope * (sweep.columns - 1));
+        const double last = (std::min)(asked_lines.y, static_cast<double>(sweep.rows - 1));
+        if (!(first <= last) || asked_x.y < 0) return;
+        const auto column = [&](double at) {
+            return static_cast<int>((std::min)((std::max)(at, 0.0), static_cast<double>(sweep.columns - 1)));
+        };
+        window_.first_column = column(asked_x.x);
+        window_.columns = column(asked_x.y) + 1 - window_.first_column;
+        window_.slots = sweep.is_rising ? 1 : 2;
+        const int most = (std::min)(largest, (1 << 30) / (window_.columns * window_.slots));
+        constexpr double closer = 1.5;  // than texels: a dB or two for one part in forty of a picture's time
+        const double finest = texel / (closer * (across < 0 ? -across : across));
+        const double step = (std::max)(finest, (last - first) / (std::max)(1, most - 3));
+        window_.start = static_cast<float>(first - step);  // one more on either side, to interpolate
+        window_.spacing = static_cast<float>(step);
+        window_.slope = static_cast<float>(sweep.slope);
+        window_.lines = static_cast<int>((last - first) / step) + 4;
+        window_.pitch = (window_.lines + detail::sweep_kernel::block - 1) / detail::sweep_kernel::block *
+                        detail::sweep_kernel::block;
+
+        const detail::sweep_relief relief(m, sweep, to_u, origin.x, ex);
+        crests_.resize(static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.slots) *
+                       static_cast<std::size_t>(window_.pitch));
+        bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
+                    [&](std::size_t start, std::size_t) {
+                        insonify::detail::dispatch(
+                            detail::sweep_kernel{sweep, relief, window_, static_cast<int>(start), crests_.data()},
+                            best_isa());
+                    });
+
+        to_x_ = x.narrowed();
+        to_line_ = linear_map{line.along / step, (line.start - first) / step + 1}.narrowed();
+        const glm::dvec2& along = frame.travel();
+        const linear_map u{{along.x, along.y, frame.cot_elevation()}, 0};
+        const glm::dvec2 all_u = u.range(receivers);
+        // Floats hold places no better.
+        to_u_ = linear_map{u.along, 0x1p-21 * (std::max)(-all_u.x, all_u.y)}.narrowed();
+    }
+
+    bool empty() const { return crests_.empty(); }
+
+    /// Marks which of the `asked` points are dark, unless they face away; positions are in the frame in which the light
+    /// is described.
+    template <int N>
+    INSONIFY_INLINE void darken(insonify::detail::lanes<std::int32_t, N>& dark,
+                                const insonify::detail::lanes<std::int32_t, N>& asked,
+                                const insonify::detail::lanes<float, N> (&position)[3]) const {
+        using namespace insonify::detail;
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        dark = ints{};
+        if (empty()) return;
+        const auto at = [&](floats& into, const glm::vec4& map) INSONIFY_INLINE_LAMBDA {
+            into = position[0] * map.x + position[1] * map.y + position[2] * map.z + map.w;
+        };
+        floats x, line;
+        at(x, to_x_);
+        at(line, to_line_);
+        const ints on_map =
+            asked & ints(x >= 0.0f) & ints(line >= 0.0f) & ints(line < static_cast<float>(window_.lines - 1));
+        if (!any(on_map)) return;
+        // Behind the last column, what it says goes on.
+        const auto first = static_cast<float>(window_.first_column),
+                   last = static_cast<float>(window_.first_column + window_.columns - 1);
+        x = x > first ? x : floats{} + first;
+        x = x < last ? x : floats{} + last;
+        line = on_map ? line : floats{};
+        ints column, number;
+        convert(column, x);
+        convert(number, line);
+        floats entered_x, left_of;
+        convert(entered_x, column);
+        convert(left_of, number);
+        const floats share = line - left_of;
+
+        ints slot = column - window_.first_column;
+        if (window_.slots == 2) {
+            // Has it passed the edge of a row since it entered the cell? Rows are counted from the one before the
+            // first.
+            const floats entered_y = (window_.start + 1.0f) + line * window_.spacing + entered_x * window_.slope;
+            const floats y = entered_y + (x - entered_x) * window_.slope;
+            ints row;
+            convert(row, y);
+            floats edge;
+            convert(edge, row);
+            slot = slot + slot + (entered_y < edge ? ints{} + 1 : ints{});
+        }
+        const ints index = on_map ? slot * window_.pitch + number : ints{};
+        floats left, right, u;
+        gather_pairs<N>(left, right, [&](int k) { return crests_.data() + lane(index, k); });
+        // One line may have met nothing yet.
+        const ints is_open = ints(left < detail::sweep_relief::least) | ints(right < detail::sweep_relief::least);
+        const floats crest = is_open ? (share < 0.5f ? left : right) : left + share * (right - left);
+        at(u, to_u_);
+        dark = on_map & ints(u < crest);
+    }
+
+  private:
+    /// along . point + start.
+    struct linear_map {
+        glm::dvec3 along;
+        double start;
+
+        static linear_map row_of(const affine& map, int i) {
+            return {{map.linear[0][i], map.linear[1][i], map.linear[2][i]}, map.offset[i]};
+        }
+        glm::vec4 narrowed() const { return glm::vec4(glm::dvec4(along, start)); }
+        /// The least and the largest in a box.
+        glm::dvec2 range(const bounding_box& box) const {
+            glm::dvec2 both(start);
+            for (int i = 0; i < 3; ++i) {
+                const double a = along[i] * box.lower[i], b = along[i] * box.upper[i];
+                both += glm::dvec2((std::min)(a, b), (std::max)(a, b));
+            }
+            return both;
+        }
+    };
+
+    detail::sweep_window window_;
+    glm::vec4 to_x_{0}, to_line_{0}, to_u_{0};         ///< from positions, with one for a fourth
+    insonify::detail::unfilled_vector<float> crests_;  ///< largest u of a crest so far, by column, slot and line
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::shadow
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/refined.hpp ---------------------------------------------------------------
+// An object as a caster of refined shadows, by what suits its shape: a heightfield over a regular grid by its horizon,
+// anything else by a map that names its triangles.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::shadow {
+
+class refined_caster {
+  public:
+    /// Casts nothing.
+    refined_caster() = default;
+
+    /// @param frame      of the light
+    /// @param m          the mesh, which has to outlive this
+    /// @param box        around it, in its own frame
+    /// @param to_world   from the mesh's frame to the one in which the light is described
+    /// @param is_solid   nothing that can be asked about lies inside or below it
+    /// @param receivers  what can be asked about, in the latter frame
+    /// @param texel      metres between the rays that tell what is near a point; see refined::largest, too
+    /// @throws invalid_input as map_grid does
+    template <executor E>
+    refined_caster(const light_frame& frame, const mesh& m, const bounding_box& box, const affine& to_world,
+                   bool is_solid, const bounding_box& receivers, double texel, int largest, E& ex) {
+        if (is_solid && is_lit_from_above(frame, to_world))
+            if (const auto grid = regular_grid_of(m, ex)) {
+                horizon_ = horizon(frame, m, *grid, to_world, receivers, texel, largest, ex);
+                return;
+            }
+        const map_extent all = extent_of(receivers, {}, frame);
+        map_ = caster_map(frame, m, to_world, is_solid, extent_of(box, to_world, frame).clipped_to(all), all.reach(),
+                          texel, largest, ex);
+    }
+
+    /// Marks which of the `asked` points are dark, unless they face away; positions are in the frame in which the light
+    /// is described.
+    template <int N>
+    INSONIFY_INLINE void darken(insonify::detail::lanes<std::int32_t, N>& dark,
+                                const insonify::detail::lanes<std::int32_t, N>& asked,
+                                const insonify::detail::lanes<float, N> (&position)[3]) const {
+        if (!horizon_.empty())
+            horizon_.darken<N>(dark, asked, position);
+        else
+            map_.darken<N>(dark, asked, position);
+    }
+
+  private:
+    /// Whether light that comes from above does so in the mesh's own frame, which is no mirror's.
+    static bool is_lit_from_above(const light_frame& frame, const affine& to_world) {
+        return numeric::determinant(to_world.linear) > 0 &&
+               numeric::product(inverse(to_world).linear, frame.to_light()).z > 0;
+    }
+
+    horizon horizon_;
+    caster_map map_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow
@@ -10227,7 +10843,7 @@ struct placed_mesh {
 template <class Policy>
 class shadow_maps {
     static constexpr bool refined = std::same_as<Policy, shadow::refined>;
-    using caster_map = std::conditional_t<refined, shadow::caster_map, shadow::height_map>;
+    using caster_map = std::conditional_t<refined, shadow::refined_caster, shadow::height_map>;
 
   public:
     /// @param bottom     the seabed, which also receives; it need not cast beyond `receivers`. Null for none
@@ -10236,7 +10852,7 @@ class shadow_maps {
     /// @param texel      metres
     template <executor E>
     shadow_maps(const Policy& policy, const shadow::light_frame& light, const placed_mesh* bottom,
-                std::span<const placed_mesh> targets, const shadow::map_extent& receivers, double texel, E& ex)
+                std::span<const placed_mesh> targets, const bounding_box& receivers, double texel, E& ex)
         : policy_(policy), light_(light) {
         if (bottom != nullptr) bottom_ = cast(*bottom, receivers, texel, ex);
         targets_.reserve(targets.size());
@@ -10301,12 +10917,13 @@ class shadow_maps {
     }
 
     template <executor E>
-    caster_map cast(const placed_mesh& caster, const shadow::map_extent& receivers, double texel, E& ex) const {
-        const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(receivers);
+    caster_map cast(const placed_mesh& caster, const bounding_box& receivers, double texel, E& ex) const {
         if constexpr (refined) {
-            return caster_map(light_, *caster.shape, caster.to_rig, caster.is_solid, own, receivers.reach(), texel,
+            return caster_map(light_, *caster.shape, caster.box, caster.to_rig, caster.is_solid, receivers, texel,
                               policy_.largest, ex);
         } else {
+            const shadow::map_extent all = shadow::extent_of(receivers, {}, light_);
+            const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(all);
             shadow::height_map map(light_, own, texel, policy_.largest);
             map.cast(*caster.shape, caster.to_rig, ex);
             return map;
@@ -10339,18 +10956,20 @@ class exact_shadows {
   public:
     /// @param bottom     the seabed, or null; it has to outlive this, and so do the targets
     /// @param targets    in the order of their instance numbers
-    /// @param asked      which rays of the middle of a parallel light reach something that the picture may show
+    /// @param shown      around all that the picture may show
     template <executor E>
     exact_shadows(const shadow::exact&, const overhead_geometry& view, const placed_mesh* bottom,
-                  std::span<const placed_mesh> targets, const shadow::map_extent& asked, E& ex)
+                  std::span<const placed_mesh> targets, const bounding_box& shown, E& ex)
         : exact_shadows(view, bottom, targets, ex) {
         lights_.push_back(light_at(view, {0, 0}));
+        // Rays of parallel light that reach none of it need not be asked.
+        const shadow::map_extent asked = shadow::extent_of(shown, {}, view.light());
         if (!asked.empty()) lights_[0].rays.keep_to(asked.lowest, asked.highest);
         cast(ex);
     }
     template <executor E>
     exact_shadows(const shadow::penumbra& p, const overhead_geometry& view, const placed_mesh* bottom,
-                  std::span<const placed_mesh> targets, const shadow::map_extent&, E& ex)
+                  std::span<const placed_mesh> targets, const bounding_box&, E& ex)
         : exact_shadows(view, bottom, targets, ex) {
         const double radius = shadow::radius_of(p);
         for (int i = 0; i < p.samples; ++i) {
@@ -10881,8 +11500,8 @@ class overhead_painter {
         }
     }
 
-    /// All rays of the light that reach something which the picture may show.
-    shadow::map_extent receivers() const {
+    /// All that the picture may show.
+    bounding_box receivers() const {
         double low = static_cast<double>(lowest_), top = static_cast<double>(highest_);
         if (!has_bottom()) {
             low = (std::numeric_limits<double>::max)();
@@ -10897,14 +11516,9 @@ class overhead_painter {
                 top = (std::max)(top, z);
                 if (!has_bottom()) low = (std::min)(low, z);
             }
-        shadow::map_extent extent;
-        if (low > top) return extent;
-        for (const double height : {low, top}) {
-            const glm::dvec2 half = view_.half_extent(low);
-            for (const double x : {-half.x, half.x})
-                for (const double y : {-half.y, half.y}) extent.include(view_.light()(glm::dvec3(x, y, height)));
-        }
-        return extent;
+        if (low > top) return {};
+        const glm::dvec2 half = view_.half_extent(low);
+        return {{-half, low}, {half, top}};
     }
 
     template <class Shadows, executor E>

@@ -1,7 +1,9 @@
 // Axis-aligned boxes, for fitting cameras and culling.
 #pragma once
 
+#include <insonify/core/dispatch.hpp>
 #include <insonify/core/executor.hpp>
+#include <insonify/core/lanes.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 
@@ -42,6 +44,52 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
     return finite ? merge(box, {point, point}) : box;
 }
 
+namespace detail {
+
+/// The least and the largest coordinates of positions, if all of them are finite.
+struct bounds_kernel {
+    const glm::vec3* positions;
+    std::size_t count;
+    glm::vec3 &lower, &upper;
+    bool& is_finite;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        // N positions are three vectors, lanes of which always hold the same coordinate.
+        const std::size_t whole = count / N * N;
+        is_finite = look<N>(0, whole) && look<1>(whole, count);
+    }
+
+  private:
+    template <int N>
+    INSONIFY_INLINE bool look(std::size_t first, std::size_t last) const {
+        using floats = lanes<float, N>;
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        floats low[3], high[3], zero{};
+        for (int v = 0; v < 3; ++v) {
+            low[v] = floats{} + infinity;
+            high[v] = floats{} - infinity;
+        }
+        for (std::size_t i = first; i < last; i += N)
+            unroll<3>([&](int v) INSONIFY_INLINE_LAMBDA {
+                floats some;
+                load(some, &positions[i].x + v * N);
+                low[v] = some < low[v] ? some : low[v];
+                high[v] = some > high[v] ? some : high[v];
+                zero = zero + some * 0.0f;
+            });
+        for (int v = 0; v < 3; ++v)
+            for (int k = 0; k < N; ++k) {
+                const int axis = (v * N + k) % 3;
+                lower[axis] = (std::min)(lower[axis], lane(low[v], k));
+                upper[axis] = (std::max)(upper[axis], lane(high[v], k));
+            }
+        return !any(lanes<std::int32_t, N>(zero != 0.0f));
+    }
+};
+
+}  // namespace detail
+
 /// The smallest box around all finite positions, whether a triangle uses them or not.
 template <executor_argument E = serial_executor>
 bounding_box bounds(const mesh& m, E&& ex = {}) {
@@ -50,13 +98,13 @@ bounding_box bounds(const mesh& m, E&& ex = {}) {
     bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
         constexpr float infinity = std::numeric_limits<float>::infinity();
         glm::vec3 lower(infinity), upper(-infinity);
-        for (std::size_t i = first; i < last; ++i) {
-            const glm::vec3& p = m.positions[i];
-            if (!(numeric::is_finite(p.x) && numeric::is_finite(p.y) && numeric::is_finite(p.z))) continue;
-            lower = {(std::min)(lower.x, p.x), (std::min)(lower.y, p.y), (std::min)(lower.z, p.z)};
-            upper = {(std::max)(upper.x, p.x), (std::max)(upper.y, p.y), (std::max)(upper.z, p.z)};
-        }
-        parts[first / grain] = {lower, upper};
+        bool all_finite = true;
+        dispatch(detail::bounds_kernel{&m.positions[first], last - first, lower, upper, all_finite}, best_isa());
+        bounding_box& part = parts[first / grain];
+        if (all_finite)
+            part = {lower, upper};
+        else
+            for (std::size_t i = first; i < last; ++i) part = include(part, glm::dvec3(m.positions[i]));
     });
     bounding_box box;
     for (const bounding_box& part : parts) box = merge(box, part);

@@ -23,7 +23,8 @@ namespace insonify::inline INSONIFY_ABI {
 struct regular_grid {
     int columns = 0, rows = 0;  ///< vertices
     glm::dvec2 origin{0}, right{0}, up{0};
-    bool is_rising = true;  ///< cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1)
+    bool is_rising =
+        true;  ///< cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1)
 };
 
 namespace detail {
@@ -141,8 +142,8 @@ std::optional<regular_grid> regular_grid_of(const mesh& m, E&& ex = {}) {
             const auto corner = static_cast<std::uint32_t>(j * columns);
             detail::pattern_kernel<std::uint32_t, 6>::term cells[6];
             for (int i = 0; i < 6; ++i) cells[i] = {cell[i / 3][i % 3] + corner, 1, 0};
-            dispatch(detail::pattern_kernel<std::uint32_t, 6>{&m.triangles[j * 2 * (columns - 1)].x, columns - 1,
-                                                              cells, differs},
+            dispatch(detail::pattern_kernel<std::uint32_t, 6>{&m.triangles[j * 2 * (columns - 1)].x, columns - 1, cells,
+                                                              differs},
                      best_isa());
         }
     });

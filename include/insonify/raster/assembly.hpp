@@ -155,7 +155,6 @@ class screen_mesh {
             chunk.bad_index = bad_index(first, last, options.level);
             if (chunk.bad_index) return;
             chunk.stats.triangles = last - first;
-            chunk.runs.reserve(last - first);
             dispatch(assembly_kernel<screen_mesh, Shader>{*this, shader, tiles, first, last, chunk}, options.level);
         });
         for (const assembled_chunk& c : chunks)
@@ -171,7 +170,7 @@ class screen_mesh {
             runs.push_back(std::move(c.runs));
             stats_ += c.stats;
         }
-        bins_ = tile_bins(std::move(runs), tiles, ex);
+        bins_ = tile_bins(runs, tiles, ex);
     }
 
     const draw_stats& stats() const { return stats_; }
@@ -258,7 +257,7 @@ class screen_mesh {
         if (is_culled(area < 0)) return fate::culled;
         const pixel_box box = center_box(a, b, c, grid_);
         if (box.empty()) return fate::missed;
-        out.runs.add(name, tile_range::of(tiles.touched(box)), false);
+        out.runs.add(name, 1, tile_range::of(tiles.touched(box)), false);
         return fate::drawn;
     }
 
@@ -290,7 +289,7 @@ class screen_mesh {
             }
             part.triangle = triangle;
             part.run = is_run ? box : pixel_box{0, 0, -1, -1};
-            out.runs.add(whole() + static_cast<std::uint32_t>(out.wide.size()), tile_range::of(tiles.touched(box)),
+            out.runs.add(whole() + static_cast<std::uint32_t>(out.wide.size()), 1, tile_range::of(tiles.touched(box)),
                          false);
             out.wide.push_back(part);
             f = fate::drawn;
@@ -352,17 +351,27 @@ struct assembly_kernel {
         if (screen.cull_ == cull_mode::front) culled = ints(area < 0);
         const ints missed = ints((x1 < x0) | (y1 < y0));
 
+        const auto name = static_cast<std::uint32_t>(triangle);
+        const ints first_tile = ints((x0 >> tiles.log2_size) | (y0 >> tiles.log2_size << 16)),  // see tile_range
+            last_tile = ints((x1 >> tiles.log2_size) | (y1 >> tiles.log2_size << 16));
+        const ints none = ints{},
+                   fate = (degenerate ? none + 1 : none) | (culled ? none + 2 : none) | (missed ? none + 4 : none);
+        // Most of the time they all go the same way.
+        const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
+        if (!any(ints(fate | (first_tile ^ one_first) | (last_tile ^ one_last)))) {
+            out.stats.drawn += N;
+            out.runs.add(name, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
+            return true;
+        }
         std::int32_t fates[static_cast<unsigned>(N)];
-        std::uint32_t first_tile[static_cast<unsigned>(N)], last_tile[static_cast<unsigned>(N)];
-        const ints none = ints{};
-        store(fates, ints((degenerate ? none + 1 : none) | (culled ? none + 2 : none) | (missed ? none + 4 : none)));
-        store(first_tile, ints((x0 >> tiles.log2_size) | (y0 >> tiles.log2_size << 16)));  // see tile_range
-        store(last_tile, ints((x1 >> tiles.log2_size) | (y1 >> tiles.log2_size << 16)));
+        std::uint32_t firsts[static_cast<unsigned>(N)], lasts[static_cast<unsigned>(N)];
+        store(fates, fate);
+        store(firsts, first_tile);
+        store(lasts, last_tile);
         for (int k = 0; k < N; ++k) {
             if (fates[k] == 0) {
                 ++out.stats.drawn;
-                out.runs.add(static_cast<std::uint32_t>(triangle) + static_cast<std::uint32_t>(k),
-                             {first_tile[k], last_tile[k]}, true);
+                out.runs.add(name + static_cast<std::uint32_t>(k), 1, {firsts[k], lasts[k]}, true);
             } else if (fates[k] & 1) {
                 ++out.stats.degenerate;
             } else if (fates[k] & 2) {

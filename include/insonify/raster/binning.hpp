@@ -1,12 +1,13 @@
 // Which triangles each tile has to look at, in the order in which they were submitted.
 //
 // Triangles go through in chunks, in parallel. Neighbours in a mesh are mostly neighbours on the screen, so a chunk
-// notes runs: consecutive triangles that touch the same tiles. Counting the runs of every chunk and tile gives each its
-// place, and a second parallel pass puts them there: an order-preserving counting sort whose result doesn't depend on
-// who ran which chunk.
+// notes runs: triangles that follow one another and touch the same tiles. Counting the runs of every chunk and tile
+// gives each its place, and a second parallel pass puts them there: an order-preserving counting sort whose result
+// doesn't depend on who ran which chunk.
 #pragma once
 
 #include <insonify/core/executor.hpp>
+#include <insonify/core/lanes.hpp>
 #include <insonify/raster/setup.hpp>
 
 #include <algorithm>
@@ -51,9 +52,9 @@ struct tile_range {
     friend bool operator==(const tile_range&, const tile_range&) = default;
 };
 
-/// Consecutive triangles by name, all drawn the same way.
+/// Triangles whose names follow one another, all drawn the same way.
 struct triangle_run {
-    std::span<const std::uint32_t> names;
+    std::uint32_t first, count;
     bool is_small;  ///< eight go through the set-up at a time
 };
 
@@ -64,85 +65,84 @@ class run_reader {
 
     bool empty() const { return runs_.empty(); }
 
-    /// The next small triangles, `most` of them or as many as come before one that isn't small.
-    /// @param room  for `most` names, which only those of several runs need
-    std::span<const std::uint32_t> take_small(std::uint32_t* room, std::size_t most) {
-        if (!runs_.empty() && runs_.front().is_small) {
-            const std::span<const std::uint32_t> left = runs_.front().names.subspan(taken_);
-            if (left.size() > most) {
-                taken_ += most;
-                return left.first(most);
+    /// Sets the names of the next small triangles, Most of them or as many as come before one that isn't small.
+    /// @returns how many
+    template <int Most>
+    INSONIFY_INLINE int take_small(std::uint32_t (&names)[static_cast<unsigned>(Most)]) {
+        int count = 0;
+        while (count < Most && !runs_.empty() && runs_.front().is_small) {
+            const triangle_run& run = runs_.front();
+            const std::uint32_t next = run.first + taken_;
+            const int some = static_cast<int>((std::min)(run.count - taken_, static_cast<std::uint32_t>(Most - count)));
+            if (some == Most) {
+                lanes<std::uint32_t, Most> number;
+                count_up<std::uint32_t, Most>(number);
+                store(names, lanes<std::uint32_t, Most>(number + next));
+            } else {
+                for (int i = 0; i < some; ++i) names[count + i] = next + static_cast<std::uint32_t>(i);
             }
-        }
-        std::size_t count = 0;
-        while (!runs_.empty() && runs_.front().is_small && count < most) {
-            const std::span<const std::uint32_t> left = runs_.front().names.subspan(taken_);
-            const std::size_t some = (std::min)(left.size(), most - count);
-            for (std::size_t i = 0; i < some; ++i) room[count + i] = left[i];
             count += some;
-            taken_ += some;
-            if (some < left.size()) break;
-            next();
+            taken_ += static_cast<std::uint32_t>(some);
+            if (taken_ == run.count) advance();
         }
-        return {room, count};
+        return count;
     }
     /// The next run.
-    std::span<const std::uint32_t> take_run() {
-        const std::span<const std::uint32_t> names = runs_.front().names;
-        next();
-        return names;
+    triangle_run take_run() {
+        const triangle_run run = runs_.front();
+        advance();
+        return run;
     }
 
   private:
-    void next() {
+    void advance() {
         runs_ = runs_.subspan(1);
         taken_ = 0;
     }
 
     std::span<const triangle_run> runs_;
-    std::size_t taken_ = 0;  ///< of the first of them
+    std::uint32_t taken_ = 0;  ///< of the first of them
 };
 
 /// The runs of one chunk.
 class tile_runs {
   public:
-    /// @param most  triangles that may come
-    void reserve(std::size_t most) { names_.reserve(most); }
-
-    /// The next triangle, and the tiles that it touches.
-    void add(std::uint32_t triangle, const tile_range& tiles, bool is_small) {
-        if (runs_.empty() || !(runs_.back().tiles == tiles) || runs_.back().is_small != is_small)
-            runs_.push_back({tiles, names_.size(), 0, is_small});
-        names_.push_back(triangle);
-        ++runs_.back().count;
+    /// The next triangles, `count` of them from `first` on, and the tiles that each of them touches.
+    void add(std::uint32_t first, std::uint32_t count, const tile_range& tiles, bool is_small) {
+        if (!runs_.empty()) {
+            noted& last = runs_.back();
+            if (last.run.first + last.run.count == first && last.tiles == tiles && last.run.is_small == is_small) {
+                last.run.count += count;
+                return;
+            }
+        }
+        runs_.push_back({tiles, {first, count, is_small}});
     }
 
     /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.
     template <class Visit>
     void for_each(const tile_grid& grid, const Visit& visit) const {
-        for (const noted& run : runs_) {
-            const pixel_box tiles = run.tiles.box();
+        for (const noted& n : runs_) {
+            const pixel_box tiles = n.tiles.box();
             for (int row = tiles.y0; row <= tiles.y1; ++row)
                 for (int column = tiles.x0; column <= tiles.x1; ++column)
                     visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
                               static_cast<std::size_t>(column),
-                          triangle_run{std::span(names_).subspan(run.first, run.count), run.is_small});
+                          n.run);
         }
     }
 
-    /// Adds `offset` to all names from `first` on.
+    /// Adds `offset` to all names from `first` on; no run may go across it.
     void rename(std::uint32_t first, std::uint32_t offset) {
-        for (std::uint32_t& name : names_)
-            if (name >= first) name += offset;
+        for (noted& n : runs_)
+            if (n.run.first >= first) n.run.first += offset;
     }
 
   private:
     struct noted {
         tile_range tiles;
-        std::size_t first, count;
-        bool is_small;
+        triangle_run run;
     };
-    std::vector<std::uint32_t> names_;
     std::vector<noted> runs_;
 };
 
@@ -153,19 +153,18 @@ class tile_bins {
 
     /// @param chunks  the runs of all chunks, in submission order
     template <executor E>
-    tile_bins(std::vector<tile_runs> chunks, const tile_grid& grid, E& ex)
-        : chunks_(std::move(chunks)), first_(grid.count() + 1, 0) {
+    tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
         // Count, then turn the counts into places: by tile first, by chunk within a tile.
         const std::size_t tiles = grid.count();
-        std::vector<std::uint32_t> places(chunks_.size() * tiles, 0);
+        std::vector<std::uint32_t> places(chunks.size() * tiles, 0);
         const auto of_chunk = [&](std::size_t chunk) { return std::span(places).subspan(chunk * tiles, tiles); };
-        ex.bulk(chunks_.size(), [&](std::size_t chunk) {
-            chunks_[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
+        ex.bulk(chunks.size(), [&](std::size_t chunk) {
+            chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
         });
         std::uint32_t place = 0;
         for (std::size_t tile = 0; tile < tiles; ++tile) {
             first_[tile] = place;
-            for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+            for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
                 const std::uint32_t count = of_chunk(chunk)[tile];
                 of_chunk(chunk)[tile] = place;
                 place += count;
@@ -174,8 +173,8 @@ class tile_bins {
         first_[tiles] = place;
 
         runs_.resize(place);
-        ex.bulk(chunks_.size(), [&](std::size_t chunk) {
-            chunks_[chunk].for_each(
+        ex.bulk(chunks.size(), [&](std::size_t chunk) {
+            chunks[chunk].for_each(
                 grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });
         });
     }
@@ -185,7 +184,6 @@ class tile_bins {
     }
 
   private:
-    std::vector<tile_runs> chunks_;  ///< runs refer to their names
     std::vector<std::uint32_t> first_;
     std::vector<triangle_run> runs_;
 };

@@ -106,7 +106,7 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
         }
     };
     for (const triangle_run& run : triangles.runs())
-        for (const std::uint32_t name : run.names) shade_one(name);
+        for (std::uint32_t i = 0; i < run.count; ++i) shade_one(run.first + i);
     return shaded;
 }
 

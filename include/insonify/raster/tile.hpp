@@ -143,7 +143,8 @@ struct tile_kernel {
         while (!left.empty()) {
             draw_small_ones<N>(left);
             if (left.empty()) break;
-            for (const std::uint32_t name : left.take_run()) draw_one<N>(name);
+            const triangle_run run = left.take_run();
+            for (std::uint32_t i = 0; i < run.count; ++i) draw_one<N>(run.first + i);
         }
         copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
     }
@@ -184,25 +185,26 @@ struct tile_kernel {
     template <int N>
     INSONIFY_INLINE void draw_small_ones(run_reader& left) const {
         struct group {
-            std::uint32_t room[static_cast<unsigned>(N)];
-            std::span<const std::uint32_t> names;
+            std::uint32_t names[static_cast<unsigned>(N)];
+            int count;
         };
         group groups[3];
-        const auto take = [&](int i) {
+        const auto take = [&](int i) INSONIFY_INLINE_LAMBDA {
             group& g = groups[i % 3];
-            g.names = left.take_small(g.room, std::size_t{N});
-            for (const std::uint32_t name : g.names) triangles.prefetch_indices(name);
+            g.count = left.template take_small<N>(g.names);
+            for (int k = 0; k < g.count; ++k) triangles.prefetch_indices(g.names[k]);
         };
-        const auto approach = [&](int i) {
-            for (const std::uint32_t name : groups[i % 3].names) triangles.prefetch_corners(name);
+        const auto approach = [&](int i) INSONIFY_INLINE_LAMBDA {
+            const group& g = groups[i % 3];
+            for (int k = 0; k < g.count; ++k) triangles.prefetch_corners(g.names[k]);
         };
         take(0);
         take(1);
         approach(0);
-        for (int i = 0; !groups[i % 3].names.empty(); ++i) {
+        for (int i = 0; groups[i % 3].count > 0; ++i) {
             take(i + 2);
             approach(i + 1);
-            draw_small<N>(groups[i % 3].names.data(), static_cast<int>(groups[i % 3].names.size()));
+            draw_small<N>(groups[i % 3].names, groups[i % 3].count);
         }
     }
 

@@ -20,18 +20,20 @@ class exact_shadows {
   public:
     /// @param bottom     the seabed, or null; it has to outlive this, and so do the targets
     /// @param targets    in the order of their instance numbers
-    /// @param asked      which rays of the middle of a parallel light reach something that the picture may show
+    /// @param shown      around all that the picture may show
     template <executor E>
     exact_shadows(const shadow::exact&, const overhead_geometry& view, const placed_mesh* bottom,
-                  std::span<const placed_mesh> targets, const shadow::map_extent& asked, E& ex)
+                  std::span<const placed_mesh> targets, const bounding_box& shown, E& ex)
         : exact_shadows(view, bottom, targets, ex) {
         lights_.push_back(light_at(view, {0, 0}));
+        // Rays of parallel light that reach none of it need not be asked.
+        const shadow::map_extent asked = shadow::extent_of(shown, {}, view.light());
         if (!asked.empty()) lights_[0].rays.keep_to(asked.lowest, asked.highest);
         cast(ex);
     }
     template <executor E>
     exact_shadows(const shadow::penumbra& p, const overhead_geometry& view, const placed_mesh* bottom,
-                  std::span<const placed_mesh> targets, const shadow::map_extent&, E& ex)
+                  std::span<const placed_mesh> targets, const bounding_box&, E& ex)
         : exact_shadows(view, bottom, targets, ex) {
         const double radius = shadow::radius_of(p);
         for (int i = 0; i < p.samples; ++i) {

@@ -2,7 +2,6 @@
 // fine whatever the size of the picture, and the label of a shadow is the name of who casts it.
 #pragma once
 
-#include <insonify/shadow/horizon.hpp>
 #include <insonify/shadow/lookup.hpp>
 #include <insonify/shadow/refined.hpp>
 #include <insonify/sonar/labels.hpp>
@@ -55,24 +54,11 @@ struct placed_mesh {
         : shape(&m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
 };
 
-struct refined_caster {
-    shadow::horizon terrain;
-    shadow::caster_map map;
-    template <int N>
-    INSONIFY_INLINE void darken(lanes<std::int32_t, N>& dark, const lanes<std::int32_t, N>& asked,
-                                const lanes<float, N> (&position)[3]) const {
-        if (!terrain.empty())
-            terrain.template darken<N>(dark, asked, position);
-        else
-            map.template darken<N>(dark, asked, position);
-    }
-};
-
 /// The maps of all casters of a scene.
 template <class Policy>
 class shadow_maps {
     static constexpr bool refined = std::same_as<Policy, shadow::refined>;
-    using caster_map = std::conditional_t<refined, refined_caster, shadow::height_map>;
+    using caster_map = std::conditional_t<refined, shadow::refined_caster, shadow::height_map>;
 
   public:
     /// @param bottom     the seabed, which also receives; it need not cast beyond `receivers`. Null for none
@@ -146,16 +132,13 @@ class shadow_maps {
     }
 
     template <executor E>
-    caster_map cast(const placed_mesh& caster, const bounding_box& receiver_box, double texel, E& ex) const {
-        const shadow::map_extent receivers = shadow::extent_of(receiver_box, {}, light_);
-        const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(receivers);
+    caster_map cast(const placed_mesh& caster, const bounding_box& receivers, double texel, E& ex) const {
         if constexpr (refined) {
-            if (caster.is_solid)
-                if (const auto grid = regular_grid_of(*caster.shape, ex))
-                    return {shadow::horizon(light_, *caster.shape, *grid, caster.to_rig, receiver_box, texel, ex), {}};
-            return {{}, shadow::caster_map(light_, *caster.shape, caster.to_rig, caster.is_solid, own, receivers.reach(), texel,
-                              policy_.largest, ex)};
+            return caster_map(light_, *caster.shape, caster.box, caster.to_rig, caster.is_solid, receivers, texel,
+                              policy_.largest, ex);
         } else {
+            const shadow::map_extent all = shadow::extent_of(receivers, {}, light_);
+            const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(all);
             shadow::height_map map(light_, own, texel, policy_.largest);
             map.cast(*caster.shape, caster.to_rig, ex);
             return map;

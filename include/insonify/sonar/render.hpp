@@ -167,7 +167,7 @@ class overhead_painter {
     template <executor E>
     auto cast_shadows(const placed_mesh* bottom, E& ex) const {
         if constexpr (shadow::ray_policy<Shadow>) {
-            return exact_shadows(options_.shadow, view_, bottom, targets_, shadow::extent_of(receivers(), {}, view_.light()), ex);
+            return exact_shadows(options_.shadow, view_, bottom, targets_, receivers(), ex);
         } else {
             const double texel = view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel);
             return shadow_maps<Shadow>(options_.shadow, view_.light(), bottom, targets_, receivers(), texel, ex);

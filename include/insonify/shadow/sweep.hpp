@@ -1,0 +1,239 @@
+// A sweep along parallel light over a heightfield on a regular grid: for every cell, and for lines that run with the
+// light, how far the surfaces before it block the light.
+//
+// A line crosses the edges of cells at known places, between two vertices each, and u is linear from one to the next:
+// so what stands highest on a line is at a crossing, and a line's sweep is exact.
+#pragma once
+
+#include <insonify/core/dispatch.hpp>
+#include <insonify/core/lanes.hpp>
+#include <insonify/core/unfilled.hpp>
+#include <insonify/geometry/regular_grid.hpp>
+#include <insonify/geometry/transform.hpp>
+
+#include <algorithm>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::shadow::detail {
+
+using insonify::detail::lanes;
+
+/// A grid as a sweep sees it: X counts its vertices along the axis that the light follows most, Y those across, both
+/// turned so that the light goes towards larger ones, by `slope` of Y for each of X.
+struct sweep_grid {
+    int columns = 0, rows = 0;  ///< vertices along X, and along Y
+    bool is_rising = true;      ///< cells are cut from (X, Y) to (X + 1, Y + 1), or else from (X, Y + 1) to (X + 1, Y)
+    double slope = 0;           ///< in [0, 1]
+    std::ptrdiff_t first = 0, along = 1, across = 1;  ///< the mesh's number of vertex (0, 0), and steps to the next
+    affine to_mesh;                                   ///< from (X, Y, z)
+
+    /// @param travel  where the light goes, in the mesh's frame
+    sweep_grid(const regular_grid& grid, const glm::dvec3& travel)
+        : columns(grid.columns), rows(grid.rows), is_rising(grid.is_rising), across(grid.columns) {
+        glm::dvec2 x = grid.right, y = grid.up, origin = grid.origin;
+        double travel_x = travel.x * y.y - travel.y * y.x, travel_y = x.x * travel.y - x.y * travel.x;
+        const auto size = [](double v) { return v < 0 ? -v : v; };
+        if (size(travel_y) > size(travel_x)) {
+            std::swap(columns, rows);
+            std::swap(along, across);
+            std::swap(x, y);
+            std::swap(travel_x, travel_y);
+        }
+        const auto turn = [&](double& steps, int count, std::ptrdiff_t& stride, glm::dvec2& axis) {
+            if (steps >= 0) return;
+            steps = -steps;
+            first += (count - 1) * stride;
+            origin += static_cast<double>(count - 1) * axis;
+            stride = -stride;
+            axis = -axis;
+            is_rising = !is_rising;
+        };
+        turn(travel_x, columns, along, x);
+        turn(travel_y, rows, across, y);
+        slope = travel_x > 0 ? travel_y / travel_x : 0;
+        to_mesh = {glm::dmat3(glm::dvec3(x, 0), glm::dvec3(y, 0), glm::dvec3(0, 0, 1)), glm::dvec3(origin, 0)};
+    }
+};
+
+/// u of a grid's vertices, column by column, and less than anything around them.
+struct sweep_relief {
+    static constexpr int below = 2, above = 4;  ///< rows around
+    static constexpr float nothing = -1e30f;
+    static constexpr float least = -1e20f;  ///< of any u; what is interpolated with nothing lies below it
+
+    std::ptrdiff_t pitch;
+    insonify::detail::unfilled_vector<float> u;
+
+    /// @param to_u  u of (X, Y, z) is dot(to_u, (X, Y, z)) + u_start
+    template <executor E>
+    sweep_relief(const mesh& m, const sweep_grid& grid, const glm::dvec3& to_u, double u_start, E& ex)
+        : pitch(grid.rows + below + above), u(static_cast<std::size_t>(grid.columns * pitch)) {
+        // In squares, so that both the mesh and what is made of it are read and written in runs.
+        constexpr int square = 32;
+        const auto height = static_cast<float>(to_u.z);
+        bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
+            const int left = static_cast<int>(from), right = static_cast<int>(to);
+            for (int x = left; x < right; ++x) {
+                float* const column = u.data() + x * pitch;
+                std::fill_n(column, below, nothing);
+                std::fill_n(column + below + grid.rows, above, nothing);
+            }
+            for (int bottom = 0; bottom < grid.rows; bottom += square)
+                for (int x = left; x < right; ++x) {
+                    float* const column = u.data() + x * pitch + below;
+                    const auto start = static_cast<float>(u_start + to_u.x * x), step = static_cast<float>(to_u.y);
+                    const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
+                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y)
+                        column[y] = start + step * static_cast<float>(y) + height * vertex[y * grid.across].z;
+                }
+        });
+    }
+};
+
+/// Which columns of a grid are kept, and which lines: line k passes through Y = start + k spacing at X = 0.
+struct sweep_window {
+    int first_column = 0, columns = 0;
+    int slots = 1;             ///< of a column: where a line enters it and, if cells fall, behind the edge of a row
+    int lines = 0, pitch = 0;  ///< that count, and that are kept
+    float start = 0, spacing = 1, slope = 0;
+};
+
+/// Carries crests along some lines over all columns of a grid.
+struct sweep_kernel {
+    static constexpr int block = 32;  ///< lines
+    const sweep_grid& grid;
+    const sweep_relief& relief;
+    const sweep_window& window;
+    int first_line;
+    float* crests;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        line_lanes<N> lines[static_cast<unsigned>(block / N)];
+        lanes<float, N> number;
+        insonify::detail::count_up<float, N>(number);
+        for (int i = 0; i < block / N; ++i) {
+            lines[i].start = window.start + window.spacing * (number + static_cast<float>(first_line + i * N));
+            lines[i].enter(*this);
+        }
+        for (int column = 0; column < grid.columns; ++column) {
+            const int at = column - window.first_column;
+            float* keep = nullptr;
+            if (at >= 0 && at < window.columns)
+                keep = crests + std::ptrdiff_t{at} * window.slots * window.pitch + first_line;
+            for (int i = 0; i < block / N; ++i) {
+                float* const to = keep == nullptr ? nullptr : keep + i * N;
+                if (column + 1 == grid.columns)
+                    lines[i].leave(*this, to);
+                else if (grid.is_rising)
+                    lines[i].template step<true>(*this, column, to);
+                else
+                    lines[i].template step<false>(*this, column, to);
+            }
+        }
+    }
+
+  private:
+    /// N lines where they cross a column.
+    template <int N>
+    struct line_lanes {
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        floats start;      ///< Y at X = 0
+        ints row;          ///< of the vertex before, counted from the first of the relief
+        floats beyond;     ///< how far beyond it, in [0, 1]
+        floats vertex[3];  ///< u there and at the next two
+        floats u, crest;
+
+        INSONIFY_INLINE void enter(const sweep_kernel& of) {
+            const floats y = y_at(of, 0);
+            insonify::detail::convert(row, y);
+            look(beyond, y, row);
+            floats four[4];
+            read(four, of, 0);
+            for (int i = 0; i < 3; ++i) vertex[i] = four[i];
+            between(u, vertex[0], vertex[1], beyond);
+            crest = floats{} + sweep_relief::nothing;
+        }
+
+        /// From one column to the next, over edges whose ends are vertices of both.
+        template <bool Rising>
+        INSONIFY_INLINE void step(const sweep_kernel& of, int column, float* keep) {
+            const float slope = of.window.slope;
+            floats ahead[4];
+            read(ahead, of, column + 1);
+            const floats y = y_at(of, column + 1);
+            ints next_row;
+            insonify::detail::convert(next_row, y);
+            const ints climbs = ints(next_row > row);  // over the edge of a row
+            next_row = climbs ? row + 1 : row;
+            floats next_beyond, next_u;
+            look(next_beyond, y, next_row);
+            const floats next[3] = {climbs ? ahead[1] : ahead[0], climbs ? ahead[2] : ahead[1],
+                                    climbs ? ahead[3] : ahead[2]};
+            between(next_u, next[0], next[1], next_beyond);
+            floats on_edge;
+            between(on_edge, vertex[1], ahead[1], (1.0f - beyond) * (slope > 0 ? 1 / slope : 0.0f));
+            if constexpr (Rising) {
+                floats on_diagonal;
+                between(on_diagonal, vertex[0], ahead[1], beyond * (slope < 1 ? 1 / (1 - slope) : 0.0f));
+                const floats middle = climbs ? on_edge : on_diagonal;
+                fall(u, middle);
+                if (keep != nullptr) insonify::detail::store(keep, crest);
+                fall(middle, next_u);
+            } else {
+                floats on_first, on_second;
+                between(on_first, vertex[1], ahead[0], (1.0f - beyond) * (1 / (1 + slope)));
+                between(on_second, vertex[2], ahead[1], (2.0f - beyond) * (1 / (1 + slope)));
+                fall(u, on_first);
+                if (keep != nullptr) insonify::detail::store(keep, crest);
+                fall(on_first, climbs ? on_edge : next_u);
+                fall(climbs ? on_edge : next_u, climbs ? on_second : next_u);
+                if (keep != nullptr) insonify::detail::store(keep + of.window.pitch, crest);
+                fall(climbs ? on_second : next_u, next_u);
+            }
+            row = next_row;
+            beyond = next_beyond;
+            for (int i = 0; i < 3; ++i) vertex[i] = next[i];
+            u = next_u;
+        }
+
+        /// Behind the last column there is nothing.
+        INSONIFY_INLINE void leave(const sweep_kernel& of, float* keep) {
+            fall(u, floats{} + sweep_relief::nothing);
+            if (keep == nullptr) return;
+            for (int slot = 0; slot < of.window.slots; ++slot)
+                insonify::detail::store(keep + slot * of.window.pitch, crest);
+        }
+
+      private:
+        /// Counted from the relief's first row, and held to its rows.
+        INSONIFY_INLINE floats y_at(const sweep_kernel& of, int column) const {
+            const auto most = static_cast<float>(of.grid.rows + sweep_relief::below);
+            floats y = start + (of.window.slope * static_cast<float>(column) + static_cast<float>(sweep_relief::below));
+            y = y > 0.0f ? y : floats{};
+            return y < most ? y : floats{} + most;
+        }
+        INSONIFY_INLINE static void look(floats& past, const floats& y, const ints& vertex_row) {
+            insonify::detail::convert(past, vertex_row);
+            past = y - past;
+        }
+        /// u of the vertex in the line's row, and of the next three.
+        INSONIFY_INLINE void read(floats (&four)[4], const sweep_kernel& of, int column) const {
+            const float* const from = of.relief.u.data() + column * of.relief.pitch;
+            insonify::detail::transpose<N>(four, [&](int k) { return from + insonify::detail::lane(row, k); });
+        }
+        /// Exact at both ends, though one may be nothing.
+        INSONIFY_INLINE static void between(floats& into, const floats& a, const floats& b, const floats& share) {
+            into = a * (1.0f - share) + b * share;
+        }
+        INSONIFY_INLINE void fall(const floats& from, const floats& to) {
+            crest = ints(to < from) & ints(from > crest) ? from : crest;
+        }
+    };
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::shadow::detail
+
+INSONIFY_ARITHMETIC_END
