@@ -111,12 +111,7 @@ struct sweep_kernel {
     template <int N>
     INSONIFY_INLINE void run() const {
         line_lanes<N> lines[static_cast<unsigned>(block / N)];
-        lanes<float, N> number;
-        insonify::detail::count_up<float, N>(number);
-        for (int i = 0; i < block / N; ++i) {
-            lines[i].start = window.start + window.spacing * (number + static_cast<float>(first_line + i * N));
-            lines[i].enter(*this);
-        }
+        for (int i = 0; i < block / N; ++i) lines[i].enter(*this, first_line + i * N);
         for (int column = 0; column < grid.columns; ++column) {
             const int at = column - window.first_column;
             float* keep = nullptr;
@@ -140,17 +135,21 @@ struct sweep_kernel {
     struct line_lanes {
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
-        floats start;      ///< Y at X = 0
-        ints row;          ///< of the vertex before, counted from the first of the relief
+        floats start;      ///< Y at X = 0, counted from the relief's first row
+        ints row;          ///< of the vertex before
         floats beyond;     ///< how far beyond it, in [0, 1]
         floats vertex[3];  ///< u there and at the next two
         floats u, crest;
 
-        INSONIFY_INLINE void enter(const sweep_kernel& of) {
-            const floats y = y_at(of, 0);
+        INSONIFY_INLINE void enter(const sweep_kernel& of, int first) {
+            floats number;
+            insonify::detail::count_up<float, N>(number);
+            start = (window_start(of) + of.window.spacing * static_cast<float>(first)) + of.window.spacing * number;
+            floats y, four[4];
+            y_at(y, of, 0);
             insonify::detail::convert(row, y);
-            look(beyond, y, row);
-            floats four[4];
+            insonify::detail::convert(beyond, row);
+            beyond = y - beyond;
             read(four, of, 0);
             for (int i = 0; i < 3; ++i) vertex[i] = four[i];
             between(u, vertex[0], vertex[1], beyond);
@@ -161,19 +160,19 @@ struct sweep_kernel {
         template <bool Rising>
         INSONIFY_INLINE void step(const sweep_kernel& of, int column, float* keep) {
             const float slope = of.window.slope;
-            floats ahead[4];
+            floats ahead[4], y;
             read(ahead, of, column + 1);
-            const floats y = y_at(of, column + 1);
+            y_at(y, of, column + 1);
             ints next_row;
             insonify::detail::convert(next_row, y);
             const ints climbs = ints(next_row > row);  // over the edge of a row
             next_row = climbs ? row + 1 : row;
-            floats next_beyond, next_u;
-            look(next_beyond, y, next_row);
+            floats next_beyond, next_u, on_edge;
+            insonify::detail::convert(next_beyond, next_row);
+            next_beyond = y - next_beyond;
             const floats next[3] = {climbs ? ahead[1] : ahead[0], climbs ? ahead[2] : ahead[1],
                                     climbs ? ahead[3] : ahead[2]};
             between(next_u, next[0], next[1], next_beyond);
-            floats on_edge;
             between(on_edge, vertex[1], ahead[1], (1.0f - beyond) * (slope > 0 ? 1 / slope : 0.0f));
             if constexpr (Rising) {
                 floats on_diagonal;
@@ -186,12 +185,13 @@ struct sweep_kernel {
                 floats on_first, on_second;
                 between(on_first, vertex[1], ahead[0], (1.0f - beyond) * (1 / (1 + slope)));
                 between(on_second, vertex[2], ahead[1], (2.0f - beyond) * (1 / (1 + slope)));
+                const floats third = climbs ? on_edge : next_u, fourth = climbs ? on_second : next_u;
                 fall(u, on_first);
                 if (keep != nullptr) insonify::detail::store(keep, crest);
-                fall(on_first, climbs ? on_edge : next_u);
-                fall(climbs ? on_edge : next_u, climbs ? on_second : next_u);
+                fall(on_first, third);
+                fall(third, fourth);
                 if (keep != nullptr) insonify::detail::store(keep + of.window.pitch, crest);
-                fall(climbs ? on_second : next_u, next_u);
+                fall(fourth, next_u);
             }
             row = next_row;
             beyond = next_beyond;
@@ -208,16 +208,15 @@ struct sweep_kernel {
         }
 
       private:
-        /// Counted from the relief's first row, and held to its rows.
-        INSONIFY_INLINE floats y_at(const sweep_kernel& of, int column) const {
-            const auto most = static_cast<float>(of.grid.rows + sweep_relief::below);
-            floats y = start + (of.window.slope * static_cast<float>(column) + static_cast<float>(sweep_relief::below));
-            y = y > 0.0f ? y : floats{};
-            return y < most ? y : floats{} + most;
+        static float window_start(const sweep_kernel& of) {
+            return of.window.start + static_cast<float>(sweep_relief::below);
         }
-        INSONIFY_INLINE static void look(floats& past, const floats& y, const ints& vertex_row) {
-            insonify::detail::convert(past, vertex_row);
-            past = y - past;
+        /// Held to the relief's rows.
+        INSONIFY_INLINE void y_at(floats& y, const sweep_kernel& of, int column) const {
+            const auto most = static_cast<float>(of.grid.rows + sweep_relief::below);
+            y = start + of.window.slope * static_cast<float>(column);
+            y = y > 0.0f ? y : floats{};
+            y = y < most ? y : floats{} + most;
         }
         /// u of the vertex in the line's row, and of the next three.
         INSONIFY_INLINE void read(floats (&four)[4], const sweep_kernel& of, int column) const {
