@@ -26,6 +26,8 @@ class fragment_lanes {
     std::uint32_t triangles[static_cast<unsigned>(N)];  ///< of the mesh
     ints front;                                         ///< seen from the counter-clockwise side
     floats weights[3];                                  ///< of the corners, perspective-correct
+    bool is_compact;           ///< whether none of the lanes' triangles is clipped or very large
+    floats right[3], down[3];  ///< where the corners are, in sub-pixels from the pixel's centre; of compact ones
 
     /// @param names  of what each lane shows: somebody's where a lane isn't visible
     template <class Screen>
@@ -35,7 +37,8 @@ class fragment_lanes {
         lanes<std::uint32_t, N> name;
         load(name, names);
         const glm::uvec3* corners[count];
-        if (!any(ints(name >= screen.compact_names()))) {
+        is_compact = !any(ints(name >= screen.compact_names()));
+        if (is_compact) {
             std::memcpy(triangles, names, sizeof triangles);
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(names[k]); });
             read_corners(records, corners);
@@ -76,27 +79,20 @@ class fragment_lanes {
     INSONIFY_INLINE void weigh(const pixel_grid& grid, const kept_vertex<float>* vertices,
                                const glm::uvec3* const (&corners)[count]) {
         floats inverse_w[3];
-        const corner_lanes<N> at([&](int i, ints& right, ints& down) INSONIFY_INLINE_LAMBDA {
-            const kept_lanes<N, float> corner([&](int k) -> const auto& { return vertices[(*corners[k])[i]]; });
-            right = corner.x;
-            down = corner.y;
-            inverse_w[i] = corner.inverse_w;
-        });
         ints column;
         count_up<std::int32_t, N>(column);
         const ints px = ((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half());
         const ints py = ints{} + static_cast<std::int32_t>(grid.center(y));
-        floats ax, ay, bx, by, cx,
-            cy;  // from the pixel, so that exchanging two corners changes a sign and nothing else
-        convert(ax, ints(at.ax - px));
-        convert(ay, ints(at.ay - py));
-        convert(bx, ints(at.bx - px));
-        convert(by, ints(at.by - py));
-        convert(cx, ints(at.cx - px));
-        convert(cy, ints(at.cy - py));
-        weights[0] = bx * cy - by * cx;
-        weights[1] = cx * ay - cy * ax;
-        weights[2] = ax * by - ay * bx;
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            const kept_lanes<N, float> corner([&](int k) -> const auto& { return vertices[(*corners[k])[i]]; });
+            convert(right[i], ints(corner.x - px));
+            convert(down[i], ints(corner.y - py));
+            inverse_w[i] = corner.inverse_w;
+        });
+        // From the pixel, so that exchanging two corners changes a sign and nothing else.
+        weights[0] = right[1] * down[2] - down[1] * right[2];
+        weights[1] = right[2] * down[0] - down[2] * right[0];
+        weights[2] = right[0] * down[1] - down[0] * right[1];
         front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * inverse_w[i]; });
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));

@@ -220,9 +220,11 @@ class overhead_painter {
     template <class Shadows, class Object, executor E>
     draw_stats draw_one(const placed_mesh& shape, depth_load load, const Shadows& shadows, const Object& object,
                         E& ex) {
-        const surface_shader<Shadows, Labels, Law, Object> shader(view_, options_.law, shadows, object, out_.image,
-                                                                  out_.labels);
-        return draw_lanes(*shape.shape, surface_placement(view_, shape), shader, depth_,
+        const surface_placement placement(view_, shape);
+        const surface_shader<Shadows, Labels, Law, Object> shader(view_, placement, *shape.shape,
+                                                                  options_.subpixel_bits, options_.law, shadows, object,
+                                                                  out_.image, out_.labels);
+        return draw_lanes(*shape.shape, placement, shader, depth_,
                           {.keep = keep_depth::larger,
                            .load = load,
                            .subpixel_bits = options_.subpixel_bits,

@@ -122,9 +122,11 @@ class overhead_geometry {
     }
 
     glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
+    /// Metres from one pixel to the next, 1 m below the camera.
+    double ray_step() const { return 2 * tangent_ / rig_.size.x; }
     /// From the camera through a pixel's centre to 1 m below it.
     glm::dvec3 ray(int x, int y) const {
-        const double step = 2 * tangent_ / rig_.size.x;
+        const double step = ray_step();
         return {step * (x + 0.5 - 0.5 * rig_.size.x), step * (0.5 * rig_.size.y - y - 0.5), -1};
     }
 

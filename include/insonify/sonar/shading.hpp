@@ -15,10 +15,10 @@ struct no_labels {};
 
 namespace detail {
 
-/// What pixels between the vertices are shaded from, in the rig's frame.
+/// What pixels between the vertices are shaded from, in the rig's frame. Which pixel it is says the rest.
 struct surface_varyings {
-    glm::vec3 position;
     glm::vec3 normal;
+    float height;
 };
 
 /// Places the vertices of an object in the rig's frame and in its picture.
@@ -32,17 +32,20 @@ struct surface_placement {
         : view(rig), linear(shape.to_rig.linear), offset(shape.to_rig.offset), normals(shape.normals) {}
 
     placed_vertex<surface_varyings> operator()(const vertex& v) const {
-        const glm::vec3 position = numeric::product(linear, v.position) + offset;
-        return {view.clip(position), {position, numeric::product(normals, v.normal)}};
+        const glm::vec3 position = place(v.position);
+        return {view.clip(position), {numeric::product(normals, v.normal), position.z}};
     }
+    glm::vec3 place(const glm::vec3& position) const { return numeric::product(linear, position) + offset; }
     /// See lane_shader.
     template <class Floats>
     INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats* varyings, const Floats (&position)[3],
                                     const Floats (&normal)[3]) const {
-        numeric::product(varyings, linear, position);
-        for (int i = 0; i < 3; ++i) varyings[i] = varyings[i] + offset[i];
-        numeric::product(varyings + 3, normals, normal);
-        view.clip(clip, varyings);
+        Floats placed[3];
+        numeric::product(placed, linear, position);
+        for (int i = 0; i < 3; ++i) placed[i] = placed[i] + offset[i];
+        numeric::product(varyings, normals, normal);
+        varyings[3] = placed[2];
+        view.clip(clip, placed);
     }
 };
 
@@ -76,9 +79,14 @@ struct typed_bottom {
 template <class Shadows, class Labels, class Law, class Object>
 class surface_shader {
   public:
-    surface_shader(const overhead_geometry& view, const Law& law, const Shadows& shadows, const Object& object,
+    surface_shader(const overhead_geometry& view, const surface_placement& placement, const mesh& shape,
+                   int subpixel_bits, const Law& law, const Shadows& shadows, const Object& object,
                    image<float>& picture, Labels& marks)
         : rig_(view.rig()),
+          ray_step_(static_cast<float>(view.ray_step())),
+          subpixel_(1 / static_cast<float>(1 << subpixel_bits)),
+          placement_(placement),
+          mesh_(shape),
           is_near_(view.has_near_light()),
           to_light_(is_near_ ? view.light_position() : view.light().to_light()),
           law_(law),
@@ -93,7 +101,7 @@ class surface_shader {
         using floats = lanes<float, N>;
         const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
         floats normal[3];
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(normal[i], 3 + i); });
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(normal[i], i); });
         const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
         floats length;
         square_root<N>(length, square);
@@ -113,8 +121,9 @@ class surface_shader {
                 surface_points<N> at;
                 at.visible = f.visible;
                 at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
-                unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(at.position[i], i); });
-                facet_normal<N>(at.facet, f, side);
+                const pixel_rays<N> rays(rig_, ray_step_, f);
+                rays.position(at.position, f);
+                facet_normal<N>(at.facet, rays, f, side);
                 shadows_(shares, at, useful);
             }
         }
@@ -157,10 +166,10 @@ class surface_shader {
         using floats = lanes<float, N>;
         for (int i = 0; i < 3; ++i) into[i] = floats{} + to_light_[i];
         if (!is_near_) return;
-        floats position, square = floats{}, length;
+        floats position[3], square = floats{}, length;
+        pixel_rays<N>(rig_, ray_step_, f).position(position, f);
         for (int i = 0; i < 3; ++i) {
-            f.interpolate(position, i);
-            into[i] = into[i] - position;
+            into[i] = into[i] - position[i];
             square = square + into[i] * into[i];
         }
         square_root<N>(length, square);
@@ -168,19 +177,65 @@ class surface_shader {
         for (int i = 0; i < 3; ++i) into[i] = into[i] / length;
     }
 
+    /// Rays from the camera through pixels' centres, over what they go down.
+    template <int N>
+    struct pixel_rays {
+        using floats = lanes<float, N>;
+        using fragments = fragment_lanes<N, surface_varyings>;
+        float altitude, step;
+        floats x, y;
+
+        /// @param one  how far the ground is from pixel to pixel, seen from a height of one
+        INSONIFY_INLINE pixel_rays(const overhead& rig, float one, const fragments& f)
+            : altitude(rig.altitude), step(one) {
+            floats column;
+            count_up<float, N>(column);
+            x = (column + (static_cast<float>(f.x) + 0.5f * static_cast<float>(1 - rig.size.x))) * step;
+            y = floats{} + (0.5f * static_cast<float>(rig.size.y - 1) - static_cast<float>(f.y)) * step;
+        }
+        /// Of what the pixels show.
+        INSONIFY_INLINE void position(floats (&into)[3], const fragments& f) const {
+            f.interpolate(into[2], 3);
+            const floats down = altitude - into[2];
+            into[0] = x * down;
+            into[1] = y * down;
+        }
+        /// Of the corner of a compact triangle.
+        INSONIFY_INLINE void corner(floats (&into)[3], const fragments& f, int i, float subpixel) const {
+            into[2] = f.at_corner(i, 3);
+            const floats down = altitude - into[2];
+            into[0] = (x + f.right[i] * (step * subpixel)) * down;
+            into[1] = (y - f.down[i] * (step * subpixel)) * down;
+        }
+    };
+
     /// Normal of the triangle that a pixel shows, on the side that is seen; not unit.
     template <int N>
-    INSONIFY_INLINE static void facet_normal(lanes<float, N> (&into)[3], const fragment_lanes<N, surface_varyings>& f,
-                                             const lanes<float, N>& side) {
+    INSONIFY_INLINE void facet_normal(lanes<float, N> (&into)[3], const pixel_rays<N>& rays,
+                                      const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& side) const {
         using floats = lanes<float, N>;
-        floats ab[3], ac[3];
+        floats corner[3][3], ab[3], ac[3];
+        if (f.is_compact)
+            unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { rays.corner(corner[i], f, i, subpixel_); });
+        else
+            place_corners<N>(corner, f);
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            ab[i] = f.at_corner(1, i) - f.at_corner(0, i);
-            ac[i] = f.at_corner(2, i) - f.at_corner(0, i);
+            ab[i] = corner[1][i] - corner[0][i];
+            ac[i] = corner[2][i] - corner[0][i];
         });
         into[0] = side * (ab[1] * ac[2] - ac[1] * ab[2]);
         into[1] = side * (ab[2] * ac[0] - ac[2] * ab[0]);
         into[2] = side * (ab[0] * ac[1] - ac[0] * ab[1]);
+    }
+    /// From the mesh, whatever became of them on the screen.
+    template <int N>
+    INSONIFY_INLINE void place_corners(lanes<float, N> (&corner)[3][3],
+                                       const fragment_lanes<N, surface_varyings>& f) const {
+        for (int k = 0; k < N; ++k)
+            for (int i = 0; i < 3; ++i) {
+                const glm::vec3 at = placement_.place(mesh_.positions[mesh_.triangles[f.triangles[k]][i]]);
+                for (int axis = 0; axis < 3; ++axis) set_lane(corner[i][axis], k, at[axis]);
+            }
     }
 
     template <int N>
@@ -202,6 +257,9 @@ class surface_shader {
     }
 
     overhead rig_;
+    float ray_step_, subpixel_;
+    const surface_placement& placement_;
+    const mesh& mesh_;
     bool is_near_;
     glm::vec3 to_light_;  ///< where it stands, if it is near
     Law law_;
