@@ -1,6 +1,6 @@
 // Hard shadows of a heightfield over a regular grid: how far the light is blocked, swept once over its cells.
 //
-// All points of a ray of parallel light share their u (see light.hpp), so a point is dark if some surface up the light
+// All points of a ray of parallel light share their u (see sweep.hpp), so a point is dark if some surface up the light
 // from it has a larger u. The largest so far is carried along lines that run with the light, kept where they enter a
 // cell, and interpolated between two lines.
 //
@@ -47,10 +47,11 @@ class horizon {
         const linear_map x = linear_map::row_of(back, 0), y = linear_map::row_of(back, 1);
         const linear_map line{y.along - sweep.slope * x.along, y.start - sweep.slope * x.start};  // its Y at X = 0
 
-        const glm::dvec3 origin = frame(placed.offset);
-        glm::dvec3 to_u;
-        for (int i = 0; i < 3; ++i) to_u[i] = frame(placed.offset + placed.linear[i]).x - origin.x;
-        const double across = frame(placed.offset + placed.linear[1]).y - origin.y;
+        const linear_map z = linear_map::row_of(back, 2);
+        // From line to line, if they are a row apart.
+        const glm::dvec3 run = placed.linear[0] + sweep.slope * placed.linear[1];
+        const auto length = [](const glm::dvec3& v) { return numeric::square_root(numeric::dot(v, v)); };
+        const double apart = length(numeric::cross(run, placed.linear[1])) / length(run);
 
         const glm::dvec2 asked_x = x.range(receivers), asked_lines = line.range(receivers);
         const double first = (std::max)(asked_lines.x, -sweep.slope * (sweep.columns - 1));
@@ -64,7 +65,7 @@ class horizon {
         window_.slots = sweep.is_rising ? 1 : 2;
         const int most = (std::min)(largest, (1 << 30) / (window_.columns * window_.slots));
         constexpr double closer = 1.5;  // than texels: a dB or two for one part in forty of a picture's time
-        const double finest = texel / (closer * (across < 0 ? -across : across));
+        const double finest = texel / (closer * apart);
         const double step = (std::max)(finest, (last - first) / (std::max)(1, most - 3));
         window_.start = static_cast<float>(first - step);  // one more on either side, to interpolate
         window_.spacing = static_cast<float>(step);
@@ -73,7 +74,7 @@ class horizon {
         window_.pitch = (window_.lines + detail::sweep_kernel::block - 1) / detail::sweep_kernel::block *
                         detail::sweep_kernel::block;
 
-        const detail::sweep_relief relief(m, sweep, to_u, origin.x, ex);
+        const detail::sweep_relief relief(m, sweep, ex);
         crests_.resize(static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.slots) *
                        static_cast<std::size_t>(window_.pitch));
         bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
@@ -85,11 +86,10 @@ class horizon {
 
         to_x_ = x.narrowed();
         to_line_ = linear_map{line.along / step, (line.start - first) / step + 1}.narrowed();
-        const glm::dvec2& along = frame.travel();
-        const linear_map u{{along.x, along.y, frame.cot_elevation()}, 0};
+        const linear_map u{x.along + sweep.drop * z.along, x.start + sweep.drop * z.start};
         const glm::dvec2 all_u = u.range(receivers);
-        // Floats hold places no better.
-        to_u_ = linear_map{u.along, 0x1p-21 * (std::max)(-all_u.x, all_u.y)}.narrowed();
+        to_u_ = u.narrowed();
+        to_u_.w += static_cast<float>(0x1p-21 * (std::max)(-all_u.x, all_u.y));  // floats hold places no better
     }
 
     bool empty() const { return crests_.empty(); }

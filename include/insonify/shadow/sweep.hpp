@@ -20,19 +20,22 @@ namespace insonify::inline INSONIFY_ABI::shadow::detail {
 using insonify::detail::lanes;
 
 /// A grid as a sweep sees it: X counts its vertices along the axis that the light follows most, Y those across, both
-/// turned so that the light goes towards larger ones, by `slope` of Y for each of X.
+/// turned so that the light goes towards larger ones, by `slope` of Y for each of X. All points of a ray share
+/// u = X + drop z: where it meets z = 0.
 struct sweep_grid {
     int columns = 0, rows = 0;  ///< vertices along X, and along Y
     bool is_rising = true;      ///< cells are cut from (X, Y) to (X + 1, Y + 1), or else from (X, Y + 1) to (X + 1, Y)
     double slope = 0;           ///< in [0, 1]
+    double drop = 0;            ///< columns that the light passes while it sinks by 1 m
     std::ptrdiff_t first = 0, along = 1, across = 1;  ///< the mesh's number of vertex (0, 0), and steps to the next
     affine to_mesh;                                   ///< from (X, Y, z)
 
-    /// @param travel  where the light goes, in the mesh's frame
+    /// @param travel  where the light goes, in the mesh's frame: down
     sweep_grid(const regular_grid& grid, const glm::dvec3& travel)
         : columns(grid.columns), rows(grid.rows), is_rising(grid.is_rising), across(grid.columns) {
         glm::dvec2 x = grid.right, y = grid.up, origin = grid.origin;
-        double travel_x = travel.x * y.y - travel.y * y.x, travel_y = x.x * travel.y - x.y * travel.x;
+        const double area = x.x * y.y - x.y * y.x;
+        double travel_x = (travel.x * y.y - travel.y * y.x) / area, travel_y = (x.x * travel.y - x.y * travel.x) / area;
         const auto size = [](double v) { return v < 0 ? -v : v; };
         if (size(travel_y) > size(travel_x)) {
             std::swap(columns, rows);
@@ -52,6 +55,7 @@ struct sweep_grid {
         turn(travel_x, columns, along, x);
         turn(travel_y, rows, across, y);
         slope = travel_x > 0 ? travel_y / travel_x : 0;
+        drop = travel_x / -travel.z;
         to_mesh = {glm::dmat3(glm::dvec3(x, 0), glm::dvec3(y, 0), glm::dvec3(0, 0, 1)), glm::dvec3(origin, 0)};
     }
 };
@@ -65,13 +69,12 @@ struct sweep_relief {
     std::ptrdiff_t pitch;
     insonify::detail::unfilled_vector<float> u;
 
-    /// @param to_u  u of (X, Y, z) is dot(to_u, (X, Y, z)) + u_start
     template <executor E>
-    sweep_relief(const mesh& m, const sweep_grid& grid, const glm::dvec3& to_u, double u_start, E& ex)
+    sweep_relief(const mesh& m, const sweep_grid& grid, E& ex)
         : pitch(grid.rows + below + above), u(static_cast<std::size_t>(grid.columns * pitch)) {
         // In squares, so that both the mesh and what is made of it are read and written in runs.
         constexpr int square = 32;
-        const auto height = static_cast<float>(to_u.z);
+        const auto drop = static_cast<float>(grid.drop);
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
             const int left = static_cast<int>(from), right = static_cast<int>(to);
             for (int x = left; x < right; ++x) {
@@ -82,10 +85,10 @@ struct sweep_relief {
             for (int bottom = 0; bottom < grid.rows; bottom += square)
                 for (int x = left; x < right; ++x) {
                     float* const column = u.data() + x * pitch + below;
-                    const auto start = static_cast<float>(u_start + to_u.x * x), step = static_cast<float>(to_u.y);
+                    const auto start = static_cast<float>(x);
                     const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
                     for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y)
-                        column[y] = start + step * static_cast<float>(y) + height * vertex[y * grid.across].z;
+                        column[y] = start + drop * vertex[y * grid.across].z;
                 }
         });
     }
@@ -111,14 +114,16 @@ struct sweep_kernel {
     template <int N>
     INSONIFY_INLINE void run() const {
         line_lanes<N> lines[static_cast<unsigned>(block / N)];
-        for (int i = 0; i < block / N; ++i) lines[i].enter(*this, first_line + i * N);
-        for (int column = 0; column < grid.columns; ++column) {
-            const int at = column - window.first_column;
-            float* keep = nullptr;
-            if (at >= 0 && at < window.columns)
-                keep = crests + std::ptrdiff_t{at} * window.slots * window.pitch + first_line;
+        // Before the first of the lines enters the grid, and when the last of them has left it, nothing changes.
+        const float lowest = window.start + window.spacing * static_cast<float>(first_line),
+                    highest = lowest + window.spacing * static_cast<float>(block);
+        const int first = column_at(-1.0f - highest), last = column_at(static_cast<float>(grid.rows) - lowest) + 2;
+        for (int i = 0; i < block / N; ++i) lines[i].enter(*this, first_line + i * N, first);
+        keep(lines, 0, first);
+        for (int column = first; column < (std::min)(last, grid.columns); ++column) {
+            float* const kept = kept_at(column);
             for (int i = 0; i < block / N; ++i) {
-                float* const to = keep == nullptr ? nullptr : keep + i * N;
+                float* const to = kept == nullptr ? nullptr : kept + i * N;
                 if (column + 1 == grid.columns)
                     lines[i].leave(*this, to);
                 else if (grid.is_rising)
@@ -127,9 +132,36 @@ struct sweep_kernel {
                     lines[i].template step<false>(*this, column, to);
             }
         }
+        keep(lines, last, grid.columns);
     }
 
   private:
+    /// Where a line has climbed so many rows, held to the grid.
+    int column_at(float climb) const {
+        if (!(climb > 0)) return 0;
+        const auto most = static_cast<float>(grid.columns - 1);
+        return climb < window.slope * most ? static_cast<int>(climb / window.slope) : grid.columns - 1;
+    }
+    /// Where a column's crests go, if they are kept.
+    float* kept_at(int column) const {
+        const int at = column - window.first_column;
+        if (at < 0 || at >= window.columns) return nullptr;
+        return crests + std::ptrdiff_t{at} * window.slots * window.pitch + first_line;
+    }
+    template <class Lines>
+    INSONIFY_INLINE void keep(const Lines& lines, int first, int last) const {
+        for (int column = first; column < last; ++column) {
+            float* const kept = kept_at(column);
+            for (int slot = 0; kept != nullptr && slot < window.slots; ++slot) {
+                float* to = kept + slot * window.pitch;
+                for (const auto& some : lines) {
+                    insonify::detail::store(to, some.crest);
+                    to += sizeof some.crest / sizeof *to;
+                }
+            }
+        }
+    }
+
     /// N lines where they cross a column.
     template <int N>
     struct line_lanes {
@@ -141,16 +173,16 @@ struct sweep_kernel {
         floats vertex[3];  ///< u there and at the next two
         floats u, crest;
 
-        INSONIFY_INLINE void enter(const sweep_kernel& of, int first) {
+        INSONIFY_INLINE void enter(const sweep_kernel& of, int first, int column) {
             floats number;
             insonify::detail::count_up<float, N>(number);
             start = (window_start(of) + of.window.spacing * static_cast<float>(first)) + of.window.spacing * number;
             floats y, four[4];
-            y_at(y, of, 0);
+            y_at(y, of, column);
             insonify::detail::convert(row, y);
             insonify::detail::convert(beyond, row);
             beyond = y - beyond;
-            read(four, of, 0);
+            read(four, of, column);
             for (int i = 0; i < 3; ++i) vertex[i] = four[i];
             between(u, vertex[0], vertex[1], beyond);
             crest = floats{} + sweep_relief::nothing;
