@@ -6,15 +6,26 @@
 #include <insonify/core/image.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
 template <class T, executor E>
 image<T> filled(int width, int height, T value, E& ex) {
     image<T> result(width, height, unfilled{});
+    if (result.empty()) return result;
     const std::size_t rows = (std::size_t{1} << 18) / (static_cast<std::size_t>((std::max)(width, 1)) * sizeof(T)) + 1;
     bulk_ranges(ex, static_cast<std::size_t>(height), rows, [&](std::size_t first, std::size_t last) {
-        for (std::size_t y = first; y < last; ++y) std::ranges::fill(result.row(static_cast<int>(y)), value);
+        T* const start = result.row(static_cast<int>(first)).data();
+        const std::size_t count = (last - first) * static_cast<std::size_t>(width);
+        // Most values are the same byte over and over, which the system writes fastest.
+        const auto bytes = std::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
+        if (std::ranges::count(bytes, bytes[0]) == std::ssize(bytes))
+            std::memset(start, bytes[0], count * sizeof(T));
+        else
+            std::fill_n(start, count, value);
     });
     return result;
 }

@@ -132,16 +132,17 @@ struct small_fill {
 
     /// Compares what is covered with the tile: triangle after triangle, so that who comes first keeps a tie.
     INSONIFY_INLINE void keep_covered(const box_pixels& found) const {
-        std::int32_t start[lane_count];
+        std::uint32_t start[lane_count];
         ints x0, y0, index;
         load(x0, t.x0), load(y0, t.y0);
         tile.template index<N>(index, x0, y0);
         store(start, index);
-        const std::int32_t* const in_block = tile.in_block();
+        const std::uint32_t* const in_block = tile.in_block();
         float* const depths = tile.depths();
         std::uint32_t* const winners = tile.winners();
         // Sixteen bits a triangle, four triangles a word.
-        constexpr int pixels = block * block, per_word = 64 / pixels, word_count = (N + per_word - 1) / per_word;
+        constexpr unsigned pixels = block * block, per_word = 64 / pixels;
+        constexpr int word_count = (N + static_cast<int>(per_word) - 1) / static_cast<int>(per_word);
         lanes<std::uint16_t, N> bits;
         convert(bits, found.covered);
         std::uint64_t words[static_cast<unsigned>(word_count)] = {};
@@ -151,9 +152,11 @@ struct small_fill {
             std::memcpy(words, &bits, sizeof bits);
         unroll<word_count>([&](int word) INSONIFY_INLINE_LAMBDA {
             for (std::uint64_t left = words[word]; left != 0; left &= left - 1) {
-                const int bit = std::countr_zero(left), k = word * per_word + bit / pixels, pixel = bit % pixels;
-                const std::ptrdiff_t at = start[k] + in_block[pixel];
-                const float z = found.depth[pixel * N + k];
+                // Unsigned throughout, so that no index has to be widened.
+                const auto bit = static_cast<unsigned>(std::countr_zero(left));
+                const std::size_t k = static_cast<unsigned>(word) * per_word + bit / pixels, pixel = bit % pixels;
+                const std::size_t at = start[k] + in_block[pixel];
+                const float z = found.depth[pixel * lane_count + k];
                 if (!(z < depths[at])) continue;
                 depths[at] = z;
                 if constexpr (Winners) winners[at] = names[k];

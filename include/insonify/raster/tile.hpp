@@ -192,11 +192,11 @@ struct tile_kernel {
         const auto take = [&](int i) INSONIFY_INLINE_LAMBDA {
             group& g = groups[i % 3];
             g.count = left.template take_small<N>(g.names);
-            for (int k = 0; k < g.count; ++k) triangles.prefetch_indices(g.names[k]);
+            for (int k = 0; k < g.count; k += 4) triangles.prefetch_indices(g.names[k]);
         };
         const auto approach = [&](int i) INSONIFY_INLINE_LAMBDA {
             const group& g = groups[i % 3];
-            for (int k = 0; k < g.count; ++k) triangles.prefetch_corners(g.names[k]);
+            for (int k = 0; k < g.count; k += 2) triangles.prefetch_corners(g.names[k]);
         };
         take(0);
         take(1);

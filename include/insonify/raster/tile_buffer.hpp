@@ -26,7 +26,7 @@ class tile_buffer {
           count_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
           depth_(std::make_unique_for_overwrite<float[]>(count_)),
           winner_(Winners ? std::make_unique_for_overwrite<std::uint32_t[]>(count_) : nullptr) {
-        for (int i = 0; i < block * block; ++i) block_[i] = i / block * stride_ + i % block;
+        for (int i = 0; i < block * block; ++i) block_[i] = static_cast<std::uint32_t>(i / block * stride_ + i % block);
     }
 
     /// Puts the tile where its first pixel is (x, y) of the image.
@@ -47,7 +47,7 @@ class tile_buffer {
 
     std::ptrdiff_t stride() const { return stride_; }
     /// From a pixel to number 4 row + column of the 4 x 4 pixels that start with it.
-    const std::int32_t* in_block() const { return block_; }
+    const std::uint32_t* in_block() const { return block_; }
     /// Where pixels lie in the tile's memory, counted from depths() and winners().
     template <int N>
     INSONIFY_INLINE void index(lanes<std::int32_t, N>& into, const lanes<std::int32_t, N>& x,
@@ -63,7 +63,7 @@ class tile_buffer {
     std::ptrdiff_t index(int x, int y) const { return static_cast<std::ptrdiff_t>(y - y_) * stride_ + (x - x_); }
 
     int stride_;
-    std::int32_t block_[static_cast<unsigned>(block * block)];
+    std::uint32_t block_[static_cast<unsigned>(block * block)];
     int x_ = 0, y_ = 0;
     std::size_t count_;
     std::unique_ptr<float[]> depth_;
