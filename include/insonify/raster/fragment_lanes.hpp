@@ -37,18 +37,19 @@ class fragment_lanes {
         lanes<std::uint32_t, N> name;
         load(name, names);
         const glm::uvec3* corners[count];
+        floats inverse_w[3];
         is_compact = !any(ints(name >= screen.compact_names()));
         if (is_compact) {
             std::memcpy(triangles, names, sizeof triangles);
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(names[k]); });
-            read_corners(records, corners);
-            weigh(screen.grid(), screen.vertices(), corners);
+            read_corners(inverse_w, screen, records, corners);
+            weigh(inverse_w);
         } else {
             for (int k = 0; k < N; ++k) {
                 triangles[k] = screen.triangle(names[k]);
                 corners[k] = &screen.indices(triangles[k]);
             }
-            read_corners(records, corners);
+            read_corners(inverse_w, screen, records, corners);
             weigh_one_by_one(screen, records, names);
         }
     }
@@ -63,32 +64,35 @@ class fragment_lanes {
   private:
     static constexpr auto count = static_cast<std::size_t>(N);
 
-    /// @param corners  of the lanes' triangles
-    INSONIFY_INLINE void read_corners(const record* records, const glm::uvec3* const (&corners)[count]) {
+    /// What is known of the corners of the lanes' triangles; the screen's part of it all together with the records',
+    /// so that a corner is looked for once.
+    template <class Screen>
+    INSONIFY_INLINE void read_corners(floats (&inverse_w)[3], const Screen& screen, const record* records,
+                                      const glm::uvec3* const (&corners)[count]) {
+        const pixel_grid& grid = screen.grid();
+        ints column;
+        count_up<std::int32_t, N>(column);
+        const ints px = ((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half());
+        const ints py = ints{} + static_cast<std::int32_t>(grid.center(y));
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            const float* from[count];
-            unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { from[k] = records[(*corners[k])[i]].values; });
+            std::size_t vertex[count];
+            unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { vertex[k] = (*corners[k])[i]; });
+            const kept_lanes<N, float> corner([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
+                return screen.vertices()[vertex[k]];
+            });
+            convert(right[i], ints(corner.x - px));
+            convert(down[i], ints(corner.y - py));
+            inverse_w[i] = corner.inverse_w;
             unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
-                transpose<N>(values_[i] + 4 * block, [&](int k) { return from[k] + 4 * block; });
+                transpose<N>(values_[i] + 4 * block,
+                             [&](int k) INSONIFY_INLINE_LAMBDA { return records[vertex[k]].values + 4 * block; });
             });
         });
     }
 
     /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out. In float a
     /// share is off by 2^-24 of the triangle's length squared.
-    INSONIFY_INLINE void weigh(const pixel_grid& grid, const kept_vertex<float>* vertices,
-                               const glm::uvec3* const (&corners)[count]) {
-        floats inverse_w[3];
-        ints column;
-        count_up<std::int32_t, N>(column);
-        const ints px = ((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half());
-        const ints py = ints{} + static_cast<std::int32_t>(grid.center(y));
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            const kept_lanes<N, float> corner([&](int k) -> const auto& { return vertices[(*corners[k])[i]]; });
-            convert(right[i], ints(corner.x - px));
-            convert(down[i], ints(corner.y - py));
-            inverse_w[i] = corner.inverse_w;
-        });
+    INSONIFY_INLINE void weigh(const floats (&inverse_w)[3]) {
         // From the pixel, so that exchanging two corners changes a sign and nothing else.
         weights[0] = right[1] * down[2] - down[1] * right[2];
         weights[1] = right[2] * down[0] - down[2] * right[0];
