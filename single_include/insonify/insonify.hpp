@@ -624,134 +624,6 @@ inline pixel_difference compare_images(image_view<const std::uint8_t> result, im
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/core/executor.hpp ----------------------------------------------------------------
-// Who runs the loops. An executor is an argument, serial by default; the library starts no thread of its own.
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// `ex.bulk(count, fn)` calls `fn(i)` once for every i in [0, count), in any order and on any thread, and returns when
-/// all calls have returned. If calls throw, it rethrows one of their exceptions after the others have ended.
-/// No result of the library depends on which executor ran it.
-template <class E>
-concept executor = requires(E& ex, void (*fn)(std::size_t)) {
-    ex.bulk(std::size_t{}, fn);
-};
-
-/// Runs everything on the calling thread, in order.
-struct serial_executor {
-    template <std::invocable<std::size_t> Fn>
-    void bulk(std::size_t count, Fn&& fn) const {
-        for (std::size_t i = 0; i < count; ++i) fn(i);
-    }
-};
-
-/// Lets a temporary stand for the default: `Executor&& ex = serial_executor{}`.
-template <class E>
-concept executor_argument = executor<std::remove_reference_t<E>>;
-
-/// Splits [0, count) into runs of `grain` and calls `fn(first, last)` for each. The split depends on the arguments
-/// alone, so whatever is summed per run comes out the same on any executor.
-template <executor E, std::invocable<std::size_t, std::size_t> Fn>
-void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
-    detail::require(grain > 0, "grain", grain, "at least 1");
-    ex.bulk((count + grain - 1) / grain, [&](std::size_t run) {
-        const std::size_t first = run * grain;
-        fn(first, count - first < grain ? count : first + grain);
-    });
-}
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-// ------------ insonify/geometry/mesh.hpp ----------------------------------------------------------------
-// Triangles as plain data: what builders and importers make, and what everything downstream draws.
-
-#include <vector>
-
-#include <glm/vec3.hpp>
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// An indexed triangle mesh. Counter-clockwise triangles face the viewer; positions are metres in the mesh's own frame.
-struct mesh {
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;  ///< unit, one per position, or none at all
-    std::vector<glm::uvec3> triangles;
-};
-
-/// @throws invalid_input if an index has no position, or normals are neither absent nor one per position
-inline void validate(const mesh& m) {
-    detail::require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()",
-                    m.normals.size(), "0 or one per position");
-    for (const glm::uvec3& t : m.triangles) {
-        const std::uint32_t largest = t.x > t.y ? (t.x > t.z ? t.x : t.z) : (t.y > t.z ? t.y : t.z);
-        detail::require(largest < m.positions.size(), "mesh.triangles", largest, "an index of a position");
-    }
-}
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-// ------------ insonify/geometry/bounds.hpp --------------------------------------------------------------
-// Axis-aligned boxes, for fitting cameras and culling.
-
-#include <algorithm>
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// The points p with lower <= p <= upper in each coordinate, in metres; by default none at all.
-struct bounding_box {
-    glm::dvec3 lower{std::numeric_limits<double>::infinity()};
-    glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
-
-    bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
-    /// Edge lengths; 0 for an empty box.
-    glm::dvec3 size() const { return empty() ? glm::dvec3(0) : upper - lower; }
-    /// @pre the box is not empty
-    glm::dvec3 centre() const { return 0.5 * (lower + upper); }
-    friend bool operator==(const bounding_box&, const bounding_box&) = default;
-};
-
-/// The smallest box around both.
-inline bounding_box merge(bounding_box a, const bounding_box& b) {
-    for (int i = 0; i < 3; ++i) {
-        a.lower[i] = (std::min)(a.lower[i], b.lower[i]);
-        a.upper[i] = (std::max)(a.upper[i], b.upper[i]);
-    }
-    return a;
-}
-
-/// The smallest box around both; a point with a NaN or infinite coordinate is passed over.
-inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
-    const bool finite = numeric::is_finite(point.x) && numeric::is_finite(point.y) && numeric::is_finite(point.z);
-    return finite ? merge(box, {point, point}) : box;
-}
-
-/// The smallest box around all finite positions, whether a triangle uses them or not.
-template <executor_argument E = serial_executor>
-bounding_box bounds(const mesh& m, E&& ex = {}) {
-    constexpr std::size_t grain = 65536;
-    std::vector<bounding_box> parts((m.positions.size() + grain - 1) / grain);
-    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
-        constexpr float infinity = std::numeric_limits<float>::infinity();
-        glm::vec3 lower(infinity), upper(-infinity);
-        for (std::size_t i = first; i < last; ++i) {
-            const glm::vec3& p = m.positions[i];
-            if (!(numeric::is_finite(p.x) && numeric::is_finite(p.y) && numeric::is_finite(p.z))) continue;
-            lower = {(std::min)(lower.x, p.x), (std::min)(lower.y, p.y), (std::min)(lower.z, p.z)};
-            upper = {(std::max)(upper.x, p.x), (std::max)(upper.y, p.y), (std::max)(upper.z, p.z)};
-        }
-        parts[first / grain] = {lower, upper};
-    });
-    bounding_box box;
-    for (const bounding_box& part : parts) box = merge(box, part);
-    return box;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/core/dispatch.hpp ----------------------------------------------------------------
 // One kernel, several instruction sets: written once over a lane count, chosen when the program runs.
 //
@@ -822,6 +694,438 @@ void dispatch(const Kernel& kernel, isa level) {
 }
 
 }  // namespace detail
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/core/executor.hpp ----------------------------------------------------------------
+// Who runs the loops. An executor is an argument, serial by default; the library starts no thread of its own.
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// `ex.bulk(count, fn)` calls `fn(i)` once for every i in [0, count), in any order and on any thread, and returns when
+/// all calls have returned. If calls throw, it rethrows one of their exceptions after the others have ended.
+/// No result of the library depends on which executor ran it.
+template <class E>
+concept executor = requires(E& ex, void (*fn)(std::size_t)) {
+    ex.bulk(std::size_t{}, fn);
+};
+
+/// Runs everything on the calling thread, in order.
+struct serial_executor {
+    template <std::invocable<std::size_t> Fn>
+    void bulk(std::size_t count, Fn&& fn) const {
+        for (std::size_t i = 0; i < count; ++i) fn(i);
+    }
+};
+
+/// Lets a temporary stand for the default: `Executor&& ex = serial_executor{}`.
+template <class E>
+concept executor_argument = executor<std::remove_reference_t<E>>;
+
+/// Splits [0, count) into runs of `grain` and calls `fn(first, last)` for each. The split depends on the arguments
+/// alone, so whatever is summed per run comes out the same on any executor.
+template <executor E, std::invocable<std::size_t, std::size_t> Fn>
+void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
+    detail::require(grain > 0, "grain", grain, "at least 1");
+    ex.bulk((count + grain - 1) / grain, [&](std::size_t run) {
+        const std::size_t first = run * grain;
+        fn(first, count - first < grain ? count : first + grain);
+    });
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+// ------------ insonify/core/lanes.hpp -------------------------------------------------------------------
+// Several values that go through one instruction: GNU vector types, or a plain value where N is 1.
+//
+// Kernels write `mask ? a : b` and + - * < & on these and read the same for one lane and for eight. Lanes stay local:
+// they cross function boundaries by reference or inside always-inlined code only, because a 32-byte vector by value
+// means something else to a caller compiled without AVX.
+
+#include <cstring>
+#include <utility>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+template <class T, int N>
+struct lanes_of {
+#if INSONIFY_SIMD
+    typedef T type __attribute__((vector_size(N * sizeof(T))));
+#else
+    static_assert(N == 1, "this build is scalar");
+#endif
+};
+template <class T>
+struct lanes_of<T, 1> {
+    using type = T;
+};
+
+template <class T, int N>
+using lanes = typename lanes_of<T, N>::type;
+
+/// Something that will be read soon.
+INSONIFY_INLINE void prefetch(const void* address) {
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+#else
+    (void)address;
+#endif
+}
+
+template <class T, class Lanes>
+INSONIFY_INLINE void load(Lanes& into, const T* from) {
+    std::memcpy(&into, from, sizeof into);
+}
+template <class T, class Lanes>
+INSONIFY_INLINE void store(T* into, const Lanes& from) {
+    std::memcpy(into, &from, sizeof from);
+}
+
+/// Each lane as a cast would make it.
+template <class To, class From>
+INSONIFY_INLINE void convert(To& into, const From& from) {
+#if INSONIFY_SIMD
+    if constexpr (!std::is_arithmetic_v<To>)
+        into = __builtin_convertvector(from, To);
+    else
+#endif
+        into = static_cast<To>(from);
+}
+
+/// Whether any lane of a mask is set.
+template <class Mask>
+INSONIFY_INLINE bool any(const Mask& mask) {
+    std::uint64_t words[(sizeof mask + 7) / 8] = {};
+    std::memcpy(words, &mask, sizeof mask);
+    std::uint64_t all = 0;
+    for (const std::uint64_t word : words) all |= word;
+    return all != 0;
+}
+
+/// Bit k is set where lane k of a mask is; for 1, 4 or 8 lanes of 32 bits.
+template <int N>
+INSONIFY_INLINE unsigned set_lanes(const lanes<std::int32_t, N>& mask) {
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (N == 4) {
+        return static_cast<unsigned>(__builtin_ia32_movmskps(lanes<float, 4>(mask)));
+    } else if constexpr (N == 8) {
+        const lanes<std::int32_t, 4> low = __builtin_shufflevector(mask, mask, 0, 1, 2, 3);
+        const lanes<std::int32_t, 4> high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
+        return set_lanes<4>(low) | set_lanes<4>(high) << 4;
+    } else
+#endif
+    {
+        std::int32_t values[static_cast<unsigned>(N)];
+        std::memcpy(values, &mask, sizeof values);
+        unsigned bits = 0;
+        for (int k = 0; k < N; ++k) bits |= values[k] != 0 ? 1u << k : 0u;
+        return bits;
+    }
+}
+
+/// One lane, to look at and to change.
+template <class Lanes>
+INSONIFY_INLINE auto lane(const Lanes& lanes, int i) {
+    if constexpr (std::is_arithmetic_v<Lanes>)
+        return lanes;
+    else
+        return lanes[i];
+}
+template <class Lanes, class T>
+INSONIFY_INLINE void set_lane(Lanes& lanes, int i, T value) {
+    if constexpr (std::is_arithmetic_v<Lanes>)
+        lanes = value;
+    else
+        lanes[i] = value;
+}
+
+/// Lane i is from(i).
+template <int N, class Lanes, class From>
+INSONIFY_INLINE void gather(Lanes& into, const From& from) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        into = Lanes{from(I)...};
+    }
+    (std::make_integer_sequence<int, N>{});
+}
+
+#if INSONIFY_SIMD
+/// What `work(half, from)` makes of the lower half of N lanes and of the upper one.
+template <int N, class Lanes, class Work>
+INSONIFY_INLINE void in_halves(Lanes& into, const Lanes& of, const Work& work) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        auto low = __builtin_shufflevector(of, of, I...), high = __builtin_shufflevector(of, of, N / 2 + I...);
+        work(low, low);
+        work(high, high);
+        into = __builtin_shufflevector(low, high, I..., N / 2 + I...);
+    }
+    (std::make_integer_sequence<int, N / 2>{});
+}
+#endif
+
+/// Correctly rounded, as numeric::square_root.
+template <int N>
+INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& of) {
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (N == 4) {
+        into = __builtin_ia32_sqrtps(of);
+    } else if constexpr (N % 4 == 0) {
+        in_halves<N>(into, of, [](auto& half, const auto& from) { square_root<N / 2>(half, from); });
+    } else
+#endif
+        gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
+}
+
+/// body(0), body(1), ... body(Count - 1), written out, which g++ doesn't do at -O2: what a body keeps in an array may
+/// then live in registers, and what hangs on the count alone is a constant.
+template <int Count, class Body>
+INSONIFY_INLINE void unroll(const Body& body) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        (body(I), ...);
+    }
+    (std::make_integer_sequence<int, Count>{});
+}
+
+/// Two neighbouring 32-bit values at N places: lane k of `first` and `second` is what from(k) points to.
+template <int N, class Lanes, class From>
+INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        constexpr int half = N / 2;
+        lanes<std::int64_t, half> low, high;
+        const auto pair = [&](int k) INSONIFY_INLINE_LAMBDA {
+            std::int64_t bits;
+            std::memcpy(&bits, from(k), sizeof bits);
+            return bits;
+        };
+        gather<half>(low, [&](int k) { return pair(k); });
+        gather<half>(high, [&](int k) { return pair(half + k); });
+        [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+            first = __builtin_shufflevector(Lanes(low), Lanes(high), 2 * I...);
+            second = __builtin_shufflevector(Lanes(low), Lanes(high), 2 * I + 1 ...);
+        }
+        (std::make_integer_sequence<int, N>{});
+    } else
+#endif
+    {
+        std::memcpy(&first, from(0), sizeof first);
+        std::memcpy(&second, from(0) + 1, sizeof second);
+    }
+}
+
+#if INSONIFY_SIMD
+/// Lane i is lane `from(i)` of two vectors side by side.
+template <int N, class From, class Into, class Lanes>
+INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second, const From&) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        into = __builtin_shufflevector(first, second, From{}(I)...);
+    }
+    (std::make_integer_sequence<int, N>{});
+}
+
+/// Four values from each of N / 4 places.
+template <int N, class From>
+INSONIFY_INLINE void load_fours(lanes<float, N>& into, const From& from) {
+    if constexpr (N == 4) {
+        load(into, from(0));
+    } else {
+        lanes<float, N / 2> low, high;
+        load_fours<N / 2>(low, from);
+        load_fours<N / 2>(high, [&](int i) { return from(N / 8 + i); });
+        shuffle<N>(into, low, high, [](int i) { return i; });
+    }
+}
+
+/// Within every four lanes, lane i of row[k] becomes lane k of into[i]; for N of 4, 8 or 16.
+template <int N>
+INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N> (&row)[4]) {
+    lanes<float, N> low[2], high[2];
+    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
+        const auto &a = row[2 * k], &b = row[2 * k + 1];
+        shuffle<N>(low[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2; });
+        shuffle<N>(high[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2 + 2; });
+    });
+    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
+        const auto &a = k == 0 ? low[0] : high[0], &b = k == 0 ? low[1] : high[1];
+        shuffle<N>(into[2 * k], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2; });
+        shuffle<N>(into[2 * k + 1], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2 + 2; });
+    });
+}
+#endif
+
+#if INSONIFY_SIMD
+/// Four rows of three floats, one after another, as three columns.
+INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* rows) {
+    lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
+    load(a, rows), load(b, rows + 4), load(c, rows + 8);
+    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
+                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
+    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
+    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
+    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
+}
+#endif
+
+/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 1, 4, 8 or 16.
+template <int N, class Rows>
+INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        // Four lanes of many lie side by side with the other fours and go the same way.
+        lanes<float, N> row[4];
+        unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
+        transpose_fours<N>(into, row);
+    } else
+#endif
+        std::memcpy(into, rows(0), 4 * sizeof(float));
+}
+
+/// 0, 1, ... N - 1.
+template <class T, int N>
+INSONIFY_INLINE void count_up(lanes<T, N>& into) {
+    T values[static_cast<unsigned>(N)];
+    for (int i = 0; i < N; ++i) values[i] = static_cast<T>(i);
+    load(into, values);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/mesh.hpp ----------------------------------------------------------------
+// Triangles as plain data: what builders and importers make, and what everything downstream draws.
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// An indexed triangle mesh. Counter-clockwise triangles face the viewer; positions are metres in the mesh's own frame.
+struct mesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;  ///< unit, one per position, or none at all
+    std::vector<glm::uvec3> triangles;
+};
+
+/// @throws invalid_input if an index has no position, or normals are neither absent nor one per position
+inline void validate(const mesh& m) {
+    detail::require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()",
+                    m.normals.size(), "0 or one per position");
+    for (const glm::uvec3& t : m.triangles) {
+        const std::uint32_t largest = t.x > t.y ? (t.x > t.z ? t.x : t.z) : (t.y > t.z ? t.y : t.z);
+        detail::require(largest < m.positions.size(), "mesh.triangles", largest, "an index of a position");
+    }
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+// ------------ insonify/geometry/bounds.hpp --------------------------------------------------------------
+// Axis-aligned boxes, for fitting cameras and culling.
+
+#include <algorithm>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// The points p with lower <= p <= upper in each coordinate, in metres; by default none at all.
+struct bounding_box {
+    glm::dvec3 lower{std::numeric_limits<double>::infinity()};
+    glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
+
+    bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
+    /// Edge lengths; 0 for an empty box.
+    glm::dvec3 size() const { return empty() ? glm::dvec3(0) : upper - lower; }
+    /// @pre the box is not empty
+    glm::dvec3 centre() const { return 0.5 * (lower + upper); }
+    friend bool operator==(const bounding_box&, const bounding_box&) = default;
+};
+
+/// The smallest box around both.
+inline bounding_box merge(bounding_box a, const bounding_box& b) {
+    for (int i = 0; i < 3; ++i) {
+        a.lower[i] = (std::min)(a.lower[i], b.lower[i]);
+        a.upper[i] = (std::max)(a.upper[i], b.upper[i]);
+    }
+    return a;
+}
+
+/// The smallest box around both; a point with a NaN or infinite coordinate is passed over.
+inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
+    const bool finite = numeric::is_finite(point.x) && numeric::is_finite(point.y) && numeric::is_finite(point.z);
+    return finite ? merge(box, {point, point}) : box;
+}
+
+namespace detail {
+
+/// The least and the largest coordinates of positions, if all of them are finite.
+struct bounds_kernel {
+    const glm::vec3* positions;
+    std::size_t count;
+    glm::vec3 &lower, &upper;
+    bool& is_finite;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        // N positions are three vectors, lanes of which always hold the same coordinate.
+        const std::size_t whole = count / N * N;
+        is_finite = look<N>(0, whole) && look<1>(whole, count);
+    }
+
+  private:
+    template <int N>
+    INSONIFY_INLINE bool look(std::size_t first, std::size_t last) const {
+        using floats = lanes<float, N>;
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        floats low[3], high[3], zero{};
+        for (int v = 0; v < 3; ++v) {
+            low[v] = floats{} + infinity;
+            high[v] = floats{} - infinity;
+        }
+        for (std::size_t i = first; i < last; i += N)
+            unroll<3>([&](int v) INSONIFY_INLINE_LAMBDA {
+                floats some;
+                load(some, &positions[i].x + v * N);
+                low[v] = some < low[v] ? some : low[v];
+                high[v] = some > high[v] ? some : high[v];
+                zero = zero + some * 0.0f;
+            });
+        for (int v = 0; v < 3; ++v)
+            for (int k = 0; k < N; ++k) {
+                const int axis = (v * N + k) % 3;
+                lower[axis] = (std::min)(lower[axis], lane(low[v], k));
+                upper[axis] = (std::max)(upper[axis], lane(high[v], k));
+            }
+        return !any(lanes<std::int32_t, N>(zero != 0.0f));
+    }
+};
+
+}  // namespace detail
+
+/// The smallest box around all finite positions, whether a triangle uses them or not.
+template <executor_argument E = serial_executor>
+bounding_box bounds(const mesh& m, E&& ex = {}) {
+    constexpr std::size_t grain = 65536;
+    std::vector<bounding_box> parts((m.positions.size() + grain - 1) / grain);
+    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        glm::vec3 lower(infinity), upper(-infinity);
+        bool all_finite = true;
+        dispatch(detail::bounds_kernel{&m.positions[first], last - first, lower, upper, all_finite}, best_isa());
+        bounding_box& part = parts[first / grain];
+        if (all_finite)
+            part = {lower, upper};
+        else
+            for (std::size_t i = first; i < last; ++i) part = include(part, glm::dvec3(m.positions[i]));
+    });
+    bounding_box box;
+    for (const bounding_box& part : parts) box = merge(box, part);
+    return box;
+}
+
 }  // namespace insonify::inline INSONIFY_ABI
 
 INSONIFY_ARITHMETIC_END
@@ -1144,9 +1448,9 @@ INSONIFY_ARITHMETIC_END
 // Which triangles each tile has to look at, in the order in which they were submitted.
 //
 // Triangles go through in chunks, in parallel. Neighbours in a mesh are mostly neighbours on the screen, so a chunk
-// notes runs: consecutive triangles that touch the same tiles. Counting the runs of every chunk and tile gives each its
-// place, and a second parallel pass puts them there: an order-preserving counting sort whose result doesn't depend on
-// who ran which chunk.
+// notes runs: triangles that follow one another and touch the same tiles. Counting the runs of every chunk and tile
+// gives each its place, and a second parallel pass puts them there: an order-preserving counting sort whose result
+// doesn't depend on who ran which chunk.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -1186,9 +1490,9 @@ struct tile_range {
     friend bool operator==(const tile_range&, const tile_range&) = default;
 };
 
-/// Consecutive triangles by name, all drawn the same way.
+/// Triangles whose names follow one another, all drawn the same way.
 struct triangle_run {
-    std::span<const std::uint32_t> names;
+    std::uint32_t first, count;
     bool is_small;  ///< eight go through the set-up at a time
 };
 
@@ -1199,85 +1503,84 @@ class run_reader {
 
     bool empty() const { return runs_.empty(); }
 
-    /// The next small triangles, `most` of them or as many as come before one that isn't small.
-    /// @param room  for `most` names, which only those of several runs need
-    std::span<const std::uint32_t> take_small(std::uint32_t* room, std::size_t most) {
-        if (!runs_.empty() && runs_.front().is_small) {
-            const std::span<const std::uint32_t> left = runs_.front().names.subspan(taken_);
-            if (left.size() > most) {
-                taken_ += most;
-                return left.first(most);
+    /// Sets the names of the next small triangles, Most of them or as many as come before one that isn't small.
+    /// @returns how many
+    template <int Most>
+    INSONIFY_INLINE int take_small(std::uint32_t (&names)[static_cast<unsigned>(Most)]) {
+        int count = 0;
+        while (count < Most && !runs_.empty() && runs_.front().is_small) {
+            const triangle_run& run = runs_.front();
+            const std::uint32_t next = run.first + taken_;
+            const int some = static_cast<int>((std::min)(run.count - taken_, static_cast<std::uint32_t>(Most - count)));
+            if (some == Most) {
+                lanes<std::uint32_t, Most> number;
+                count_up<std::uint32_t, Most>(number);
+                store(names, lanes<std::uint32_t, Most>(number + next));
+            } else {
+                for (int i = 0; i < some; ++i) names[count + i] = next + static_cast<std::uint32_t>(i);
             }
-        }
-        std::size_t count = 0;
-        while (!runs_.empty() && runs_.front().is_small && count < most) {
-            const std::span<const std::uint32_t> left = runs_.front().names.subspan(taken_);
-            const std::size_t some = (std::min)(left.size(), most - count);
-            for (std::size_t i = 0; i < some; ++i) room[count + i] = left[i];
             count += some;
-            taken_ += some;
-            if (some < left.size()) break;
-            next();
+            taken_ += static_cast<std::uint32_t>(some);
+            if (taken_ == run.count) advance();
         }
-        return {room, count};
+        return count;
     }
     /// The next run.
-    std::span<const std::uint32_t> take_run() {
-        const std::span<const std::uint32_t> names = runs_.front().names;
-        next();
-        return names;
+    triangle_run take_run() {
+        const triangle_run run = runs_.front();
+        advance();
+        return run;
     }
 
   private:
-    void next() {
+    void advance() {
         runs_ = runs_.subspan(1);
         taken_ = 0;
     }
 
     std::span<const triangle_run> runs_;
-    std::size_t taken_ = 0;  ///< of the first of them
+    std::uint32_t taken_ = 0;  ///< of the first of them
 };
 
 /// The runs of one chunk.
 class tile_runs {
   public:
-    /// @param most  triangles that may come
-    void reserve(std::size_t most) { names_.reserve(most); }
-
-    /// The next triangle, and the tiles that it touches.
-    void add(std::uint32_t triangle, const tile_range& tiles, bool is_small) {
-        if (runs_.empty() || !(runs_.back().tiles == tiles) || runs_.back().is_small != is_small)
-            runs_.push_back({tiles, names_.size(), 0, is_small});
-        names_.push_back(triangle);
-        ++runs_.back().count;
+    /// The next triangles, `count` of them from `first` on, and the tiles that each of them touches.
+    void add(std::uint32_t first, std::uint32_t count, const tile_range& tiles, bool is_small) {
+        if (!runs_.empty()) {
+            noted& last = runs_.back();
+            if (last.run.first + last.run.count == first && last.tiles == tiles && last.run.is_small == is_small) {
+                last.run.count += count;
+                return;
+            }
+        }
+        runs_.push_back({tiles, {first, count, is_small}});
     }
 
     /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.
     template <class Visit>
     void for_each(const tile_grid& grid, const Visit& visit) const {
-        for (const noted& run : runs_) {
-            const pixel_box tiles = run.tiles.box();
+        for (const noted& n : runs_) {
+            const pixel_box tiles = n.tiles.box();
             for (int row = tiles.y0; row <= tiles.y1; ++row)
                 for (int column = tiles.x0; column <= tiles.x1; ++column)
                     visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
                               static_cast<std::size_t>(column),
-                          triangle_run{std::span(names_).subspan(run.first, run.count), run.is_small});
+                          n.run);
         }
     }
 
-    /// Adds `offset` to all names from `first` on.
+    /// Adds `offset` to all names from `first` on; no run may go across it.
     void rename(std::uint32_t first, std::uint32_t offset) {
-        for (std::uint32_t& name : names_)
-            if (name >= first) name += offset;
+        for (noted& n : runs_)
+            if (n.run.first >= first) n.run.first += offset;
     }
 
   private:
     struct noted {
         tile_range tiles;
-        std::size_t first, count;
-        bool is_small;
+        triangle_run run;
     };
-    std::vector<std::uint32_t> names_;
     std::vector<noted> runs_;
 };
 
@@ -1288,19 +1591,18 @@ class tile_bins {
 
     /// @param chunks  the runs of all chunks, in submission order
     template <executor E>
-    tile_bins(std::vector<tile_runs> chunks, const tile_grid& grid, E& ex)
-        : chunks_(std::move(chunks)), first_(grid.count() + 1, 0) {
+    tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
         // Count, then turn the counts into places: by tile first, by chunk within a tile.
         const std::size_t tiles = grid.count();
-        std::vector<std::uint32_t> places(chunks_.size() * tiles, 0);
+        std::vector<std::uint32_t> places(chunks.size() * tiles, 0);
         const auto of_chunk = [&](std::size_t chunk) { return std::span(places).subspan(chunk * tiles, tiles); };
-        ex.bulk(chunks_.size(), [&](std::size_t chunk) {
-            chunks_[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
+        ex.bulk(chunks.size(), [&](std::size_t chunk) {
+            chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
         });
         std::uint32_t place = 0;
         for (std::size_t tile = 0; tile < tiles; ++tile) {
             first_[tile] = place;
-            for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+            for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
                 const std::uint32_t count = of_chunk(chunk)[tile];
                 of_chunk(chunk)[tile] = place;
                 place += count;
@@ -1309,8 +1611,8 @@ class tile_bins {
         first_[tiles] = place;
 
         runs_.resize(place);
-        ex.bulk(chunks_.size(), [&](std::size_t chunk) {
-            chunks_[chunk].for_each(
+        ex.bulk(chunks.size(), [&](std::size_t chunk) {
+            chunks[chunk].for_each(
                 grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });
         });
     }
@@ -1320,7 +1622,6 @@ class tile_bins {
     }
 
   private:
-    std::vector<tile_runs> chunks_;  ///< runs refer to their names
     std::vector<std::uint32_t> first_;
     std::vector<triangle_run> runs_;
 };
@@ -1482,264 +1783,6 @@ inline float nearest_depth(const screen_vertex& a, const screen_vertex& b, const
     const auto wide = [](const int128& v) { return double_double::from(v); };
     const double_double sum = wide(share.a) * a.z + wide(share.b) * b.z + wide(share.c) * c.z;
     return (sum / wide(share.a + share.b + share.c)).to_float();
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/core/lanes.hpp -------------------------------------------------------------------
-// Several values that go through one instruction: GNU vector types, or a plain value where N is 1.
-//
-// Kernels write `mask ? a : b` and + - * < & on these and read the same for one lane and for eight. Lanes stay local:
-// they cross function boundaries by reference or inside always-inlined code only, because a 32-byte vector by value
-// means something else to a caller compiled without AVX.
-
-#include <cstring>
-#include <utility>
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-template <class T, int N>
-struct lanes_of {
-#if INSONIFY_SIMD
-    typedef T type __attribute__((vector_size(N * sizeof(T))));
-#else
-    static_assert(N == 1, "this build is scalar");
-#endif
-};
-template <class T>
-struct lanes_of<T, 1> {
-    using type = T;
-};
-
-template <class T, int N>
-using lanes = typename lanes_of<T, N>::type;
-
-/// Something that will be read soon.
-INSONIFY_INLINE void prefetch(const void* address) {
-#if defined(__GNUC__)
-    __builtin_prefetch(address);
-#else
-    (void)address;
-#endif
-}
-
-template <class T, class Lanes>
-INSONIFY_INLINE void load(Lanes& into, const T* from) {
-    std::memcpy(&into, from, sizeof into);
-}
-template <class T, class Lanes>
-INSONIFY_INLINE void store(T* into, const Lanes& from) {
-    std::memcpy(into, &from, sizeof from);
-}
-
-/// Each lane as a cast would make it.
-template <class To, class From>
-INSONIFY_INLINE void convert(To& into, const From& from) {
-#if INSONIFY_SIMD
-    if constexpr (!std::is_arithmetic_v<To>)
-        into = __builtin_convertvector(from, To);
-    else
-#endif
-        into = static_cast<To>(from);
-}
-
-/// Whether any lane of a mask is set.
-template <class Mask>
-INSONIFY_INLINE bool any(const Mask& mask) {
-    std::uint64_t words[(sizeof mask + 7) / 8] = {};
-    std::memcpy(words, &mask, sizeof mask);
-    std::uint64_t all = 0;
-    for (const std::uint64_t word : words) all |= word;
-    return all != 0;
-}
-
-/// Bit k is set where lane k of a mask is; for 1, 4 or 8 lanes of 32 bits.
-template <int N>
-INSONIFY_INLINE unsigned set_lanes(const lanes<std::int32_t, N>& mask) {
-#if INSONIFY_SIMD && defined(__SSE2__)
-    if constexpr (N == 4) {
-        return static_cast<unsigned>(__builtin_ia32_movmskps(lanes<float, 4>(mask)));
-    } else if constexpr (N == 8) {
-        const lanes<std::int32_t, 4> low = __builtin_shufflevector(mask, mask, 0, 1, 2, 3);
-        const lanes<std::int32_t, 4> high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
-        return set_lanes<4>(low) | set_lanes<4>(high) << 4;
-    } else
-#endif
-    {
-        std::int32_t values[static_cast<unsigned>(N)];
-        std::memcpy(values, &mask, sizeof values);
-        unsigned bits = 0;
-        for (int k = 0; k < N; ++k) bits |= values[k] != 0 ? 1u << k : 0u;
-        return bits;
-    }
-}
-
-/// One lane, to look at and to change.
-template <class Lanes>
-INSONIFY_INLINE auto lane(const Lanes& lanes, int i) {
-    if constexpr (std::is_arithmetic_v<Lanes>)
-        return lanes;
-    else
-        return lanes[i];
-}
-template <class Lanes, class T>
-INSONIFY_INLINE void set_lane(Lanes& lanes, int i, T value) {
-    if constexpr (std::is_arithmetic_v<Lanes>)
-        lanes = value;
-    else
-        lanes[i] = value;
-}
-
-/// Lane i is from(i).
-template <int N, class Lanes, class From>
-INSONIFY_INLINE void gather(Lanes& into, const From& from) {
-    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        into = Lanes{from(I)...};
-    }
-    (std::make_integer_sequence<int, N>{});
-}
-
-#if INSONIFY_SIMD
-/// What `work(half, from)` makes of the lower half of N lanes and of the upper one.
-template <int N, class Lanes, class Work>
-INSONIFY_INLINE void in_halves(Lanes& into, const Lanes& of, const Work& work) {
-    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        auto low = __builtin_shufflevector(of, of, I...), high = __builtin_shufflevector(of, of, N / 2 + I...);
-        work(low, low);
-        work(high, high);
-        into = __builtin_shufflevector(low, high, I..., N / 2 + I...);
-    }
-    (std::make_integer_sequence<int, N / 2>{});
-}
-#endif
-
-/// Correctly rounded, as numeric::square_root.
-template <int N>
-INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& of) {
-#if INSONIFY_SIMD && defined(__SSE2__)
-    if constexpr (N == 4) {
-        into = __builtin_ia32_sqrtps(of);
-    } else if constexpr (N % 4 == 0) {
-        in_halves<N>(into, of, [](auto& half, const auto& from) { square_root<N / 2>(half, from); });
-    } else
-#endif
-        gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
-}
-
-/// body(0), body(1), ... body(Count - 1), written out, which g++ doesn't do at -O2: what a body keeps in an array may
-/// then live in registers, and what hangs on the count alone is a constant.
-template <int Count, class Body>
-INSONIFY_INLINE void unroll(const Body& body) {
-    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        (body(I), ...);
-    }
-    (std::make_integer_sequence<int, Count>{});
-}
-
-/// Two neighbouring 32-bit values at N places: lane k of `first` and `second` is what from(k) points to.
-template <int N, class Lanes, class From>
-INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
-#if INSONIFY_SIMD
-    if constexpr (N > 1) {
-        constexpr int half = N / 2;
-        lanes<std::int64_t, half> low, high;
-        const auto pair = [&](int k) INSONIFY_INLINE_LAMBDA {
-            std::int64_t bits;
-            std::memcpy(&bits, from(k), sizeof bits);
-            return bits;
-        };
-        gather<half>(low, [&](int k) { return pair(k); });
-        gather<half>(high, [&](int k) { return pair(half + k); });
-        [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-            first = __builtin_shufflevector(Lanes(low), Lanes(high), 2 * I...);
-            second = __builtin_shufflevector(Lanes(low), Lanes(high), 2 * I + 1 ...);
-        }
-        (std::make_integer_sequence<int, N>{});
-    } else
-#endif
-    {
-        std::memcpy(&first, from(0), sizeof first);
-        std::memcpy(&second, from(0) + 1, sizeof second);
-    }
-}
-
-#if INSONIFY_SIMD
-/// Lane i is lane `from(i)` of two vectors side by side.
-template <int N, class From, class Into, class Lanes>
-INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second, const From&) {
-    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        into = __builtin_shufflevector(first, second, From{}(I)...);
-    }
-    (std::make_integer_sequence<int, N>{});
-}
-
-/// Four values from each of N / 4 places.
-template <int N, class From>
-INSONIFY_INLINE void load_fours(lanes<float, N>& into, const From& from) {
-    if constexpr (N == 4) {
-        load(into, from(0));
-    } else {
-        lanes<float, N / 2> low, high;
-        load_fours<N / 2>(low, from);
-        load_fours<N / 2>(high, [&](int i) { return from(N / 8 + i); });
-        shuffle<N>(into, low, high, [](int i) { return i; });
-    }
-}
-
-/// Within every four lanes, lane i of row[k] becomes lane k of into[i]; for N of 4, 8 or 16.
-template <int N>
-INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N> (&row)[4]) {
-    lanes<float, N> low[2], high[2];
-    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
-        const auto &a = row[2 * k], &b = row[2 * k + 1];
-        shuffle<N>(low[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2; });
-        shuffle<N>(high[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2 + 2; });
-    });
-    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
-        const auto &a = k == 0 ? low[0] : high[0], &b = k == 0 ? low[1] : high[1];
-        shuffle<N>(into[2 * k], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2; });
-        shuffle<N>(into[2 * k + 1], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2 + 2; });
-    });
-}
-#endif
-
-#if INSONIFY_SIMD
-/// Four rows of three floats, one after another, as three columns.
-INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* rows) {
-    lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
-    load(a, rows), load(b, rows + 4), load(c, rows + 8);
-    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
-                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
-    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
-    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
-    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
-}
-#endif
-
-/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 1, 4, 8 or 16.
-template <int N, class Rows>
-INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
-#if INSONIFY_SIMD
-    if constexpr (N > 1) {
-        // Four lanes of many lie side by side with the other fours and go the same way.
-        lanes<float, N> row[4];
-        unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
-        transpose_fours<N>(into, row);
-    } else
-#endif
-        std::memcpy(into, rows(0), 4 * sizeof(float));
-}
-
-/// 0, 1, ... N - 1.
-template <class T, int N>
-INSONIFY_INLINE void count_up(lanes<T, N>& into) {
-    T values[static_cast<unsigned>(N)];
-    for (int i = 0; i < N; ++i) values[i] = static_cast<T>(i);
-    load(into, values);
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
@@ -2796,7 +2839,6 @@ class screen_mesh {
             chunk.bad_index = bad_index(first, last, options.level);
             if (chunk.bad_index) return;
             chunk.stats.triangles = last - first;
-            chunk.runs.reserve(last - first);
             dispatch(assembly_kernel<screen_mesh, Shader>{*this, shader, tiles, first, last, chunk}, options.level);
         });
         for (const assembled_chunk& c : chunks)
@@ -2812,7 +2854,7 @@ class screen_mesh {
             runs.push_back(std::move(c.runs));
             stats_ += c.stats;
         }
-        bins_ = tile_bins(std::move(runs), tiles, ex);
+        bins_ = tile_bins(runs, tiles, ex);
     }
 
     const draw_stats& stats() const { return stats_; }
@@ -2899,7 +2941,7 @@ class screen_mesh {
         if (is_culled(area < 0)) return fate::culled;
         const pixel_box box = center_box(a, b, c, grid_);
         if (box.empty()) return fate::missed;
-        out.runs.add(name, tile_range::of(tiles.touched(box)), false);
+        out.runs.add(name, 1, tile_range::of(tiles.touched(box)), false);
         return fate::drawn;
     }
 
@@ -2931,7 +2973,7 @@ class screen_mesh {
             }
             part.triangle = triangle;
             part.run = is_run ? box : pixel_box{0, 0, -1, -1};
-            out.runs.add(whole() + static_cast<std::uint32_t>(out.wide.size()), tile_range::of(tiles.touched(box)),
+            out.runs.add(whole() + static_cast<std::uint32_t>(out.wide.size()), 1, tile_range::of(tiles.touched(box)),
                          false);
             out.wide.push_back(part);
             f = fate::drawn;
@@ -2993,17 +3035,27 @@ struct assembly_kernel {
         if (screen.cull_ == cull_mode::front) culled = ints(area < 0);
         const ints missed = ints((x1 < x0) | (y1 < y0));
 
+        const auto name = static_cast<std::uint32_t>(triangle);
+        const ints first_tile = ints((x0 >> tiles.log2_size) | (y0 >> tiles.log2_size << 16)),  // see tile_range
+            last_tile = ints((x1 >> tiles.log2_size) | (y1 >> tiles.log2_size << 16));
+        const ints none = ints{},
+                   fate = (degenerate ? none + 1 : none) | (culled ? none + 2 : none) | (missed ? none + 4 : none);
+        // Most of the time they all go the same way.
+        const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
+        if (!any(ints(fate | (first_tile ^ one_first) | (last_tile ^ one_last)))) {
+            out.stats.drawn += N;
+            out.runs.add(name, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
+            return true;
+        }
         std::int32_t fates[static_cast<unsigned>(N)];
-        std::uint32_t first_tile[static_cast<unsigned>(N)], last_tile[static_cast<unsigned>(N)];
-        const ints none = ints{};
-        store(fates, ints((degenerate ? none + 1 : none) | (culled ? none + 2 : none) | (missed ? none + 4 : none)));
-        store(first_tile, ints((x0 >> tiles.log2_size) | (y0 >> tiles.log2_size << 16)));  // see tile_range
-        store(last_tile, ints((x1 >> tiles.log2_size) | (y1 >> tiles.log2_size << 16)));
+        std::uint32_t firsts[static_cast<unsigned>(N)], lasts[static_cast<unsigned>(N)];
+        store(fates, fate);
+        store(firsts, first_tile);
+        store(lasts, last_tile);
         for (int k = 0; k < N; ++k) {
             if (fates[k] == 0) {
                 ++out.stats.drawn;
-                out.runs.add(static_cast<std::uint32_t>(triangle) + static_cast<std::uint32_t>(k),
-                             {first_tile[k], last_tile[k]}, true);
+                out.runs.add(name + static_cast<std::uint32_t>(k), 1, {firsts[k], lasts[k]}, true);
             } else if (fates[k] & 1) {
                 ++out.stats.degenerate;
             } else if (fates[k] & 2) {
@@ -3107,7 +3159,7 @@ class tile_buffer {
           count_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
           depth_(std::make_unique_for_overwrite<float[]>(count_)),
           winner_(Winners ? std::make_unique_for_overwrite<std::uint32_t[]>(count_) : nullptr) {
-        for (int i = 0; i < block * block; ++i) block_[i] = i / block * stride_ + i % block;
+        for (int i = 0; i < block * block; ++i) block_[i] = static_cast<std::uint32_t>(i / block * stride_ + i % block);
     }
 
     /// Puts the tile where its first pixel is (x, y) of the image.
@@ -3128,7 +3180,7 @@ class tile_buffer {
 
     std::ptrdiff_t stride() const { return stride_; }
     /// From a pixel to number 4 row + column of the 4 x 4 pixels that start with it.
-    const std::int32_t* in_block() const { return block_; }
+    const std::uint32_t* in_block() const { return block_; }
     /// Where pixels lie in the tile's memory, counted from depths() and winners().
     template <int N>
     INSONIFY_INLINE void index(lanes<std::int32_t, N>& into, const lanes<std::int32_t, N>& x,
@@ -3144,7 +3196,7 @@ class tile_buffer {
     std::ptrdiff_t index(int x, int y) const { return static_cast<std::ptrdiff_t>(y - y_) * stride_ + (x - x_); }
 
     int stride_;
-    std::int32_t block_[static_cast<unsigned>(block * block)];
+    std::uint32_t block_[static_cast<unsigned>(block * block)];
     int x_ = 0, y_ = 0;
     std::size_t count_;
     std::unique_ptr<float[]> depth_;
@@ -3302,16 +3354,17 @@ struct small_fill {
 
     /// Compares what is covered with the tile: triangle after triangle, so that who comes first keeps a tie.
     INSONIFY_INLINE void keep_covered(const box_pixels& found) const {
-        std::int32_t start[lane_count];
+        std::uint32_t start[lane_count];
         ints x0, y0, index;
         load(x0, t.x0), load(y0, t.y0);
         tile.template index<N>(index, x0, y0);
         store(start, index);
-        const std::int32_t* const in_block = tile.in_block();
+        const std::uint32_t* const in_block = tile.in_block();
         float* const depths = tile.depths();
         std::uint32_t* const winners = tile.winners();
         // Sixteen bits a triangle, four triangles a word.
-        constexpr int pixels = block * block, per_word = 64 / pixels, word_count = (N + per_word - 1) / per_word;
+        constexpr unsigned pixels = block * block, per_word = 64 / pixels;
+        constexpr int word_count = (N + static_cast<int>(per_word) - 1) / static_cast<int>(per_word);
         lanes<std::uint16_t, N> bits;
         convert(bits, found.covered);
         std::uint64_t words[static_cast<unsigned>(word_count)] = {};
@@ -3321,9 +3374,11 @@ struct small_fill {
             std::memcpy(words, &bits, sizeof bits);
         unroll<word_count>([&](int word) INSONIFY_INLINE_LAMBDA {
             for (std::uint64_t left = words[word]; left != 0; left &= left - 1) {
-                const int bit = std::countr_zero(left), k = word * per_word + bit / pixels, pixel = bit % pixels;
-                const std::ptrdiff_t at = start[k] + in_block[pixel];
-                const float z = found.depth[pixel * N + k];
+                // Unsigned throughout, so that no index has to be widened.
+                const auto bit = static_cast<unsigned>(std::countr_zero(left));
+                const std::size_t k = static_cast<unsigned>(word) * per_word + bit / pixels, pixel = bit % pixels;
+                const std::size_t at = start[k] + in_block[pixel];
+                const float z = found.depth[pixel * lane_count + k];
                 if (!(z < depths[at])) continue;
                 depths[at] = z;
                 if constexpr (Winners) winners[at] = names[k];
@@ -3527,7 +3582,8 @@ struct tile_kernel {
         while (!left.empty()) {
             draw_small_ones<N>(left);
             if (left.empty()) break;
-            for (const std::uint32_t name : left.take_run()) draw_one<N>(name);
+            const triangle_run run = left.take_run();
+            for (std::uint32_t i = 0; i < run.count; ++i) draw_one<N>(run.first + i);
         }
         copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
     }
@@ -3568,25 +3624,26 @@ struct tile_kernel {
     template <int N>
     INSONIFY_INLINE void draw_small_ones(run_reader& left) const {
         struct group {
-            std::uint32_t room[static_cast<unsigned>(N)];
-            std::span<const std::uint32_t> names;
+            std::uint32_t names[static_cast<unsigned>(N)];
+            int count;
         };
         group groups[3];
-        const auto take = [&](int i) {
+        const auto take = [&](int i) INSONIFY_INLINE_LAMBDA {
             group& g = groups[i % 3];
-            g.names = left.take_small(g.room, std::size_t{N});
-            for (const std::uint32_t name : g.names) triangles.prefetch_indices(name);
+            g.count = left.template take_small<N>(g.names);
+            for (int k = 0; k < g.count; k += 4) triangles.prefetch_indices(g.names[k]);
         };
-        const auto approach = [&](int i) {
-            for (const std::uint32_t name : groups[i % 3].names) triangles.prefetch_corners(name);
+        const auto approach = [&](int i) INSONIFY_INLINE_LAMBDA {
+            const group& g = groups[i % 3];
+            for (int k = 0; k < g.count; k += 2) triangles.prefetch_corners(g.names[k]);
         };
         take(0);
         take(1);
         approach(0);
-        for (int i = 0; !groups[i % 3].names.empty(); ++i) {
+        for (int i = 0; groups[i % 3].count > 0; ++i) {
             take(i + 2);
             approach(i + 1);
-            draw_small<N>(groups[i % 3].names.data(), static_cast<int>(groups[i % 3].names.size()));
+            draw_small<N>(groups[i % 3].names, groups[i % 3].count);
         }
     }
 
@@ -3654,6 +3711,8 @@ class fragment_lanes {
     std::uint32_t triangles[static_cast<unsigned>(N)];  ///< of the mesh
     ints front;                                         ///< seen from the counter-clockwise side
     floats weights[3];                                  ///< of the corners, perspective-correct
+    bool is_compact;           ///< whether none of the lanes' triangles is clipped or very large
+    floats right[3], down[3];  ///< where the corners are, in sub-pixels from the pixel's centre; of compact ones
 
     /// @param names  of what each lane shows: somebody's where a lane isn't visible
     template <class Screen>
@@ -3663,17 +3722,19 @@ class fragment_lanes {
         lanes<std::uint32_t, N> name;
         load(name, names);
         const glm::uvec3* corners[count];
-        if (!any(ints(name >= screen.compact_names()))) {
+        floats inverse_w[3];
+        is_compact = !any(ints(name >= screen.compact_names()));
+        if (is_compact) {
             std::memcpy(triangles, names, sizeof triangles);
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(names[k]); });
-            read_corners(records, corners);
-            weigh(screen.grid(), screen.vertices(), corners);
+            read_corners(inverse_w, screen, records, corners);
+            weigh(inverse_w);
         } else {
             for (int k = 0; k < N; ++k) {
                 triangles[k] = screen.triangle(names[k]);
                 corners[k] = &screen.indices(triangles[k]);
             }
-            read_corners(records, corners);
+            read_corners(inverse_w, screen, records, corners);
             weigh_one_by_one(screen, records, names);
         }
     }
@@ -3688,43 +3749,39 @@ class fragment_lanes {
   private:
     static constexpr auto count = static_cast<std::size_t>(N);
 
-    /// @param corners  of the lanes' triangles
-    INSONIFY_INLINE void read_corners(const record* records, const glm::uvec3* const (&corners)[count]) {
+    /// What is known of the corners of the lanes' triangles; the screen's part of it all together with the records',
+    /// so that a corner is looked for once.
+    template <class Screen>
+    INSONIFY_INLINE void read_corners(floats (&inverse_w)[3], const Screen& screen, const record* records,
+                                      const glm::uvec3* const (&corners)[count]) {
+        const pixel_grid& grid = screen.grid();
+        ints column;
+        count_up<std::int32_t, N>(column);
+        const ints px = ((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half());
+        const ints py = ints{} + static_cast<std::int32_t>(grid.center(y));
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            const float* from[count];
-            unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { from[k] = records[(*corners[k])[i]].values; });
+            std::size_t vertex[count];
+            unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { vertex[k] = (*corners[k])[i]; });
+            const kept_lanes<N, float> corner([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
+                return screen.vertices()[vertex[k]];
+            });
+            convert(right[i], ints(corner.x - px));
+            convert(down[i], ints(corner.y - py));
+            inverse_w[i] = corner.inverse_w;
             unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
-                transpose<N>(values_[i] + 4 * block, [&](int k) { return from[k] + 4 * block; });
+                transpose<N>(values_[i] + 4 * block,
+                             [&](int k) INSONIFY_INLINE_LAMBDA { return records[vertex[k]].values + 4 * block; });
             });
         });
     }
 
     /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out. In float a
     /// share is off by 2^-24 of the triangle's length squared.
-    INSONIFY_INLINE void weigh(const pixel_grid& grid, const kept_vertex<float>* vertices,
-                               const glm::uvec3* const (&corners)[count]) {
-        floats inverse_w[3];
-        const corner_lanes<N> at([&](int i, ints& right, ints& down) INSONIFY_INLINE_LAMBDA {
-            const kept_lanes<N, float> corner([&](int k) -> const auto& { return vertices[(*corners[k])[i]]; });
-            right = corner.x;
-            down = corner.y;
-            inverse_w[i] = corner.inverse_w;
-        });
-        ints column;
-        count_up<std::int32_t, N>(column);
-        const ints px = ((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half());
-        const ints py = ints{} + static_cast<std::int32_t>(grid.center(y));
-        floats ax, ay, bx, by, cx,
-            cy;  // from the pixel, so that exchanging two corners changes a sign and nothing else
-        convert(ax, ints(at.ax - px));
-        convert(ay, ints(at.ay - py));
-        convert(bx, ints(at.bx - px));
-        convert(by, ints(at.by - py));
-        convert(cx, ints(at.cx - px));
-        convert(cy, ints(at.cy - py));
-        weights[0] = bx * cy - by * cx;
-        weights[1] = cx * ay - cy * ax;
-        weights[2] = ax * by - ay * bx;
+    INSONIFY_INLINE void weigh(const floats (&inverse_w)[3]) {
+        // From the pixel, so that exchanging two corners changes a sign and nothing else.
+        weights[0] = right[1] * down[2] - down[1] * right[2];
+        weights[1] = right[2] * down[0] - down[2] * right[0];
+        weights[2] = right[0] * down[1] - down[0] * right[1];
         front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * inverse_w[i]; });
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
@@ -3913,7 +3970,7 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
         }
     };
     for (const triangle_run& run : triangles.runs())
-        for (const std::uint32_t name : run.names) shade_one(name);
+        for (std::uint32_t i = 0; i < run.count; ++i) shade_one(run.first + i);
     return shaded;
 }
 
@@ -5523,9 +5580,11 @@ class overhead_geometry {
     }
 
     glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
+    /// Metres from one pixel to the next, 1 m below the camera.
+    double ray_step() const { return 2 * tangent_ / rig_.size.x; }
     /// From the camera through a pixel's centre to 1 m below it.
     glm::dvec3 ray(int x, int y) const {
-        const double step = 2 * tangent_ / rig_.size.x;
+        const double step = ray_step();
         return {step * (x + 0.5 - 0.5 * rig_.size.x), step * (0.5 * rig_.size.y - y - 0.5), -1};
     }
 
@@ -6978,19 +7037,22 @@ namespace insonify::inline INSONIFY_ABI::shadow::detail {
 using insonify::detail::lanes;
 
 /// A grid as a sweep sees it: X counts its vertices along the axis that the light follows most, Y those across, both
-/// turned so that the light goes towards larger ones, by `slope` of Y for each of X.
+/// turned so that the light goes towards larger ones, by `slope` of Y for each of X. All points of a ray share
+/// u = X + drop z: where it meets z = 0.
 struct sweep_grid {
     int columns = 0, rows = 0;  ///< vertices along X, and along Y
     bool is_rising = true;      ///< cells are cut from (X, Y) to (X + 1, Y + 1), or else from (X, Y + 1) to (X + 1, Y)
     double slope = 0;           ///< in [0, 1]
+    double drop = 0;            ///< columns that the light passes while it sinks by 1 m
     std::ptrdiff_t first = 0, along = 1, across = 1;  ///< the mesh's number of vertex (0, 0), and steps to the next
     affine to_mesh;                                   ///< from (X, Y, z)
 
-    /// @param travel  where the light goes, in the mesh's frame
+    /// @param travel  where the light goes, in the mesh's frame: down
     sweep_grid(const regular_grid& grid, const glm::dvec3& travel)
         : columns(grid.columns), rows(grid.rows), is_rising(grid.is_rising), across(grid.columns) {
         glm::dvec2 x = grid.right, y = grid.up, origin = grid.origin;
-        double travel_x = travel.x * y.y - travel.y * y.x, travel_y = x.x * travel.y - x.y * travel.x;
+        const double area = x.x * y.y - x.y * y.x;
+        double travel_x = (travel.x * y.y - travel.y * y.x) / area, travel_y = (x.x * travel.y - x.y * travel.x) / area;
         const auto size = [](double v) { return v < 0 ? -v : v; };
         if (size(travel_y) > size(travel_x)) {
             std::swap(columns, rows);
@@ -7010,6 +7072,7 @@ struct sweep_grid {
         turn(travel_x, columns, along, x);
         turn(travel_y, rows, across, y);
         slope = travel_x > 0 ? travel_y / travel_x : 0;
+        drop = travel_x / -travel.z;
         to_mesh = {glm::dmat3(glm::dvec3(x, 0), glm::dvec3(y, 0), glm::dvec3(0, 0, 1)), glm::dvec3(origin, 0)};
     }
 };
@@ -7023,13 +7086,12 @@ struct sweep_relief {
     std::ptrdiff_t pitch;
     insonify::detail::unfilled_vector<float> u;
 
-    /// @param to_u  u of (X, Y, z) is dot(to_u, (X, Y, z)) + u_start
     template <executor E>
-    sweep_relief(const mesh& m, const sweep_grid& grid, const glm::dvec3& to_u, double u_start, E& ex)
+    sweep_relief(const mesh& m, const sweep_grid& grid, E& ex)
         : pitch(grid.rows + below + above), u(static_cast<std::size_t>(grid.columns * pitch)) {
         // In squares, so that both the mesh and what is made of it are read and written in runs.
         constexpr int square = 32;
-        const auto height = static_cast<float>(to_u.z);
+        const auto drop = static_cast<float>(grid.drop);
         bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
             const int left = static_cast<int>(from), right = static_cast<int>(to);
             for (int x = left; x < right; ++x) {
@@ -7040,10 +7102,10 @@ struct sweep_relief {
             for (int bottom = 0; bottom < grid.rows; bottom += square)
                 for (int x = left; x < right; ++x) {
                     float* const column = u.data() + x * pitch + below;
-                    const auto start = static_cast<float>(u_start + to_u.x * x), step = static_cast<float>(to_u.y);
+                    const auto start = static_cast<float>(x);
                     const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
                     for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y)
-                        column[y] = start + step * static_cast<float>(y) + height * vertex[y * grid.across].z;
+                        column[y] = start + drop * vertex[y * grid.across].z;
                 }
         });
     }
@@ -7069,19 +7131,16 @@ struct sweep_kernel {
     template <int N>
     INSONIFY_INLINE void run() const {
         line_lanes<N> lines[static_cast<unsigned>(block / N)];
-        lanes<float, N> number;
-        insonify::detail::count_up<float, N>(number);
-        for (int i = 0; i < block / N; ++i) {
-            lines[i].start = window.start + window.spacing * (number + static_cast<float>(first_line + i * N));
-            lines[i].enter(*this);
-        }
-        for (int column = 0; column < grid.columns; ++column) {
-            const int at = column - window.first_column;
-            float* keep = nullptr;
-            if (at >= 0 && at < window.columns)
-                keep = crests + std::ptrdiff_t{at} * window.slots * window.pitch + first_line;
+        // Before the first of the lines enters the grid, and when the last of them has left it, nothing changes.
+        const float lowest = window.start + window.spacing * static_cast<float>(first_line),
+                    highest = lowest + window.spacing * static_cast<float>(block);
+        const int first = column_at(-1.0f - highest), last = column_at(static_cast<float>(grid.rows) - lowest) + 2;
+        for (int i = 0; i < block / N; ++i) lines[i].enter(*this, first_line + i * N, first);
+        keep(lines, 0, first);
+        for (int column = first; column < (std::min)(last, grid.columns); ++column) {
+            float* const kept = kept_at(column);
             for (int i = 0; i < block / N; ++i) {
-                float* const to = keep == nullptr ? nullptr : keep + i * N;
+                float* const to = kept == nullptr ? nullptr : kept + i * N;
                 if (column + 1 == grid.columns)
                     lines[i].leave(*this, to);
                 else if (grid.is_rising)
@@ -7090,26 +7149,57 @@ struct sweep_kernel {
                     lines[i].template step<false>(*this, column, to);
             }
         }
+        keep(lines, last, grid.columns);
     }
 
   private:
+    /// Where a line has climbed so many rows, held to the grid.
+    int column_at(float climb) const {
+        if (!(climb > 0)) return 0;
+        const auto most = static_cast<float>(grid.columns - 1);
+        return climb < window.slope * most ? static_cast<int>(climb / window.slope) : grid.columns - 1;
+    }
+    /// Where a column's crests go, if they are kept.
+    float* kept_at(int column) const {
+        const int at = column - window.first_column;
+        if (at < 0 || at >= window.columns) return nullptr;
+        return crests + std::ptrdiff_t{at} * window.slots * window.pitch + first_line;
+    }
+    template <class Lines>
+    INSONIFY_INLINE void keep(const Lines& lines, int first, int last) const {
+        for (int column = first; column < last; ++column) {
+            float* const kept = kept_at(column);
+            for (int slot = 0; kept != nullptr && slot < window.slots; ++slot) {
+                float* to = kept + slot * window.pitch;
+                for (const auto& some : lines) {
+                    insonify::detail::store(to, some.crest);
+                    to += sizeof some.crest / sizeof *to;
+                }
+            }
+        }
+    }
+
     /// N lines where they cross a column.
     template <int N>
     struct line_lanes {
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
-        floats start;      ///< Y at X = 0
-        ints row;          ///< of the vertex before, counted from the first of the relief
+        floats start;      ///< Y at X = 0, counted from the relief's first row
+        ints row;          ///< of the vertex before
         floats beyond;     ///< how far beyond it, in [0, 1]
         floats vertex[3];  ///< u there and at the next two
         floats u, crest;
 
-        INSONIFY_INLINE void enter(const sweep_kernel& of) {
-            const floats y = y_at(of, 0);
+        INSONIFY_INLINE void enter(const sweep_kernel& of, int first, int column) {
+            floats number;
+            insonify::detail::count_up<float, N>(number);
+            start = (window_start(of) + of.window.spacing * static_cast<float>(first)) + of.window.spacing * number;
+            floats y, four[4];
+            y_at(y, of, column);
             insonify::detail::convert(row, y);
-            look(beyond, y, row);
-            floats four[4];
-            read(four, of, 0);
+            insonify::detail::convert(beyond, row);
+            beyond = y - beyond;
+            read(four, of, column);
             for (int i = 0; i < 3; ++i) vertex[i] = four[i];
             between(u, vertex[0], vertex[1], beyond);
             crest = floats{} + sweep_relief::nothing;
@@ -7119,19 +7209,19 @@ struct sweep_kernel {
         template <bool Rising>
         INSONIFY_INLINE void step(const sweep_kernel& of, int column, float* keep) {
             const float slope = of.window.slope;
-            floats ahead[4];
+            floats ahead[4], y;
             read(ahead, of, column + 1);
-            const floats y = y_at(of, column + 1);
+            y_at(y, of, column + 1);
             ints next_row;
             insonify::detail::convert(next_row, y);
             const ints climbs = ints(next_row > row);  // over the edge of a row
             next_row = climbs ? row + 1 : row;
-            floats next_beyond, next_u;
-            look(next_beyond, y, next_row);
+            floats next_beyond, next_u, on_edge;
+            insonify::detail::convert(next_beyond, next_row);
+            next_beyond = y - next_beyond;
             const floats next[3] = {climbs ? ahead[1] : ahead[0], climbs ? ahead[2] : ahead[1],
                                     climbs ? ahead[3] : ahead[2]};
             between(next_u, next[0], next[1], next_beyond);
-            floats on_edge;
             between(on_edge, vertex[1], ahead[1], (1.0f - beyond) * (slope > 0 ? 1 / slope : 0.0f));
             if constexpr (Rising) {
                 floats on_diagonal;
@@ -7144,12 +7234,13 @@ struct sweep_kernel {
                 floats on_first, on_second;
                 between(on_first, vertex[1], ahead[0], (1.0f - beyond) * (1 / (1 + slope)));
                 between(on_second, vertex[2], ahead[1], (2.0f - beyond) * (1 / (1 + slope)));
+                const floats third = climbs ? on_edge : next_u, fourth = climbs ? on_second : next_u;
                 fall(u, on_first);
                 if (keep != nullptr) insonify::detail::store(keep, crest);
-                fall(on_first, climbs ? on_edge : next_u);
-                fall(climbs ? on_edge : next_u, climbs ? on_second : next_u);
+                fall(on_first, third);
+                fall(third, fourth);
                 if (keep != nullptr) insonify::detail::store(keep + of.window.pitch, crest);
-                fall(climbs ? on_second : next_u, next_u);
+                fall(fourth, next_u);
             }
             row = next_row;
             beyond = next_beyond;
@@ -7166,25 +7257,25 @@ struct sweep_kernel {
         }
 
       private:
-        /// Counted from the relief's first row, and held to its rows.
-        INSONIFY_INLINE floats y_at(const sweep_kernel& of, int column) const {
-            const auto most = static_cast<float>(of.grid.rows + sweep_relief::below);
-            floats y = start + (of.window.slope * static_cast<float>(column) + static_cast<float>(sweep_relief::below));
-            y = y > 0.0f ? y : floats{};
-            return y < most ? y : floats{} + most;
+        static float window_start(const sweep_kernel& of) {
+            return of.window.start + static_cast<float>(sweep_relief::below);
         }
-        INSONIFY_INLINE static void look(floats& past, const floats& y, const ints& vertex_row) {
-            insonify::detail::convert(past, vertex_row);
-            past = y - past;
+        /// Held to the relief's rows.
+        INSONIFY_INLINE void y_at(floats& y, const sweep_kernel& of, int column) const {
+            const auto most = static_cast<float>(of.grid.rows + sweep_relief::below);
+            y = start + of.window.slope * static_cast<float>(column);
+            y = y > 0.0f ? y : floats{};
+            y = y < most ? y : floats{} + most;
         }
         /// u of the vertex in the line's row, and of the next three.
         INSONIFY_INLINE void read(floats (&four)[4], const sweep_kernel& of, int column) const {
             const float* const from = of.relief.u.data() + column * of.relief.pitch;
             insonify::detail::transpose<N>(four, [&](int k) { return from + insonify::detail::lane(row, k); });
         }
-        /// Exact at both ends, though one may be nothing.
+        /// Exact at both ends, though one may be nothing; never beyond the second.
         INSONIFY_INLINE static void between(floats& into, const floats& a, const floats& b, const floats& share) {
-            into = a * (1.0f - share) + b * share;
+            const floats held = share < 1.0f ? share : floats{} + 1.0f;
+            into = a * (1.0f - held) + b * held;
         }
         INSONIFY_INLINE void fall(const floats& from, const floats& to) {
             crest = ints(to < from) & ints(from > crest) ? from : crest;
@@ -7199,7 +7290,7 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/shadow/horizon.hpp ---------------------------------------------------------------
 // Hard shadows of a heightfield over a regular grid: how far the light is blocked, swept once over its cells.
 //
-// All points of a ray of parallel light share their u (see light.hpp), so a point is dark if some surface up the light
+// All points of a ray of parallel light share their u (see sweep.hpp), so a point is dark if some surface up the light
 // from it has a larger u. The largest so far is carried along lines that run with the light, kept where they enter a
 // cell, and interpolated between two lines.
 //
@@ -7239,10 +7330,11 @@ class horizon {
         const linear_map x = linear_map::row_of(back, 0), y = linear_map::row_of(back, 1);
         const linear_map line{y.along - sweep.slope * x.along, y.start - sweep.slope * x.start};  // its Y at X = 0
 
-        const glm::dvec3 origin = frame(placed.offset);
-        glm::dvec3 to_u;
-        for (int i = 0; i < 3; ++i) to_u[i] = frame(placed.offset + placed.linear[i]).x - origin.x;
-        const double across = frame(placed.offset + placed.linear[1]).y - origin.y;
+        const linear_map z = linear_map::row_of(back, 2);
+        // From line to line, if they are a row apart.
+        const glm::dvec3 run = placed.linear[0] + sweep.slope * placed.linear[1];
+        const auto length = [](const glm::dvec3& v) { return numeric::square_root(numeric::dot(v, v)); };
+        const double apart = length(numeric::cross(run, placed.linear[1])) / length(run);
 
         const glm::dvec2 asked_x = x.range(receivers), asked_lines = line.range(receivers);
         const double first = (std::max)(asked_lines.x, -sweep.slope * (sweep.columns - 1));
@@ -7256,7 +7348,7 @@ class horizon {
         window_.slots = sweep.is_rising ? 1 : 2;
         const int most = (std::min)(largest, (1 << 30) / (window_.columns * window_.slots));
         constexpr double closer = 1.5;  // than texels: a dB or two for one part in forty of a picture's time
-        const double finest = texel / (closer * (across < 0 ? -across : across));
+        const double finest = texel / (closer * apart);
         const double step = (std::max)(finest, (last - first) / (std::max)(1, most - 3));
         window_.start = static_cast<float>(first - step);  // one more on either side, to interpolate
         window_.spacing = static_cast<float>(step);
@@ -7265,7 +7357,7 @@ class horizon {
         window_.pitch = (window_.lines + detail::sweep_kernel::block - 1) / detail::sweep_kernel::block *
                         detail::sweep_kernel::block;
 
-        const detail::sweep_relief relief(m, sweep, to_u, origin.x, ex);
+        const detail::sweep_relief relief(m, sweep, ex);
         crests_.resize(static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.slots) *
                        static_cast<std::size_t>(window_.pitch));
         bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
@@ -7277,11 +7369,10 @@ class horizon {
 
         to_x_ = x.narrowed();
         to_line_ = linear_map{line.along / step, (line.start - first) / step + 1}.narrowed();
-        const glm::dvec2& along = frame.travel();
-        const linear_map u{{along.x, along.y, frame.cot_elevation()}, 0};
+        const linear_map u{x.along + sweep.drop * z.along, x.start + sweep.drop * z.start};
         const glm::dvec2 all_u = u.range(receivers);
-        // Floats hold places no better.
-        to_u_ = linear_map{u.along, 0x1p-21 * (std::max)(-all_u.x, all_u.y)}.narrowed();
+        to_u_ = u.narrowed();
+        to_u_.w += static_cast<float>(0x1p-21 * (std::max)(-all_u.x, all_u.y));  // floats hold places no better
     }
 
     bool empty() const { return crests_.empty(); }
@@ -7320,21 +7411,25 @@ class horizon {
         convert(left_of, number);
         const floats share = line - left_of;
 
-        ints slot = column - window_.first_column;
-        if (window_.slots == 2) {
-            // Has it passed the edge of a row since it entered the cell? Rows are counted from the one before the
-            // first.
-            const floats entered_y = (window_.start + 1.0f) + line * window_.spacing + entered_x * window_.slope;
-            const floats y = entered_y + (x - entered_x) * window_.slope;
-            ints row;
-            convert(row, y);
-            floats edge;
-            convert(edge, row);
-            slot = slot + slot + (entered_y < edge ? ints{} + 1 : ints{});
-        }
-        const ints index = on_map ? slot * window_.pitch + number : ints{};
+        const ints start = on_map ? (column - window_.first_column) * (window_.slots * window_.pitch) + number : ints{};
         floats left, right, u;
-        gather_pairs<N>(left, right, [&](int k) { return crests_.data() + lane(index, k); });
+        if (window_.slots == 1) {
+            gather_pairs<N>(left, right, [&](int k) { return crests_.data() + lane(start, k); });
+        } else {
+            // Behind the edge of a row that a line has passed since it entered the cell, its second slot counts. Rows
+            // are counted from the one before the first.
+            const floats left_y = (window_.start + 1.0f) + left_of * window_.spacing + entered_x * window_.slope;
+            const floats y = left_y + share * window_.spacing + (x - entered_x) * window_.slope;
+            ints row;
+            floats edge;
+            convert(row, y);
+            convert(edge, row);
+            const ints past = ints{} + window_.pitch;
+            const ints left_at = start + (left_y < edge ? past : ints{}),
+                       right_at = start + 1 + (left_y + window_.spacing < edge ? past : ints{});
+            gather<N>(left, [&](int k) { return crests_[static_cast<std::size_t>(lane(left_at, k))]; });
+            gather<N>(right, [&](int k) { return crests_[static_cast<std::size_t>(lane(right_at, k))]; });
+        }
         // One line may have met nothing yet.
         const ints is_open = ints(left < detail::sweep_relief::least) | ints(right < detail::sweep_relief::least);
         const floats crest = is_open ? (share < 0.5f ? left : right) : left + share * (right - left);
@@ -7442,9 +7537,17 @@ namespace insonify::inline INSONIFY_ABI::detail {
 template <class T, executor E>
 image<T> filled(int width, int height, T value, E& ex) {
     image<T> result(width, height, unfilled{});
+    if (result.empty()) return result;
     const std::size_t rows = (std::size_t{1} << 18) / (static_cast<std::size_t>((std::max)(width, 1)) * sizeof(T)) + 1;
     bulk_ranges(ex, static_cast<std::size_t>(height), rows, [&](std::size_t first, std::size_t last) {
-        for (std::size_t y = first; y < last; ++y) std::ranges::fill(result.row(static_cast<int>(y)), value);
+        T* const start = result.row(static_cast<int>(first)).data();
+        const std::size_t count = (last - first) * static_cast<std::size_t>(width);
+        // Most values are the same byte over and over, which the system writes fastest.
+        const auto bytes = std::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
+        if (std::ranges::count(bytes, bytes[0]) == std::ssize(bytes))
+            std::memset(start, bytes[0], count * sizeof(T));
+        else
+            std::fill_n(start, count, value);
     });
     return result;
 }
@@ -11130,10 +11233,10 @@ struct no_labels {};
 
 namespace detail {
 
-/// What pixels between the vertices are shaded from, in the rig's frame.
+/// What pixels between the vertices are shaded from, in the rig's frame. Which pixel it is says the rest.
 struct surface_varyings {
-    glm::vec3 position;
     glm::vec3 normal;
+    float height;
 };
 
 /// Places the vertices of an object in the rig's frame and in its picture.
@@ -11147,17 +11250,20 @@ struct surface_placement {
         : view(rig), linear(shape.to_rig.linear), offset(shape.to_rig.offset), normals(shape.normals) {}
 
     placed_vertex<surface_varyings> operator()(const vertex& v) const {
-        const glm::vec3 position = numeric::product(linear, v.position) + offset;
-        return {view.clip(position), {position, numeric::product(normals, v.normal)}};
+        const glm::vec3 position = place(v.position);
+        return {view.clip(position), {numeric::product(normals, v.normal), position.z}};
     }
+    glm::vec3 place(const glm::vec3& position) const { return numeric::product(linear, position) + offset; }
     /// See lane_shader.
     template <class Floats>
     INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats* varyings, const Floats (&position)[3],
                                     const Floats (&normal)[3]) const {
-        numeric::product(varyings, linear, position);
-        for (int i = 0; i < 3; ++i) varyings[i] = varyings[i] + offset[i];
-        numeric::product(varyings + 3, normals, normal);
-        view.clip(clip, varyings);
+        Floats placed[3];
+        numeric::product(placed, linear, position);
+        for (int i = 0; i < 3; ++i) placed[i] = placed[i] + offset[i];
+        numeric::product(varyings, normals, normal);
+        varyings[3] = placed[2];
+        view.clip(clip, placed);
     }
 };
 
@@ -11191,9 +11297,14 @@ struct typed_bottom {
 template <class Shadows, class Labels, class Law, class Object>
 class surface_shader {
   public:
-    surface_shader(const overhead_geometry& view, const Law& law, const Shadows& shadows, const Object& object,
+    surface_shader(const overhead_geometry& view, const surface_placement& placement, const mesh& shape,
+                   int subpixel_bits, const Law& law, const Shadows& shadows, const Object& object,
                    image<float>& picture, Labels& marks)
         : rig_(view.rig()),
+          ray_step_(static_cast<float>(view.ray_step())),
+          subpixel_(1 / static_cast<float>(1 << subpixel_bits)),
+          placement_(placement),
+          mesh_(shape),
           is_near_(view.has_near_light()),
           to_light_(is_near_ ? view.light_position() : view.light().to_light()),
           law_(law),
@@ -11208,7 +11319,7 @@ class surface_shader {
         using floats = lanes<float, N>;
         const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
         floats normal[3];
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(normal[i], 3 + i); });
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(normal[i], i); });
         const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
         floats length;
         square_root<N>(length, square);
@@ -11228,8 +11339,9 @@ class surface_shader {
                 surface_points<N> at;
                 at.visible = f.visible;
                 at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
-                unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(at.position[i], i); });
-                facet_normal<N>(at.facet, f, side);
+                const pixel_rays<N> rays(rig_, ray_step_, f);
+                rays.position(at.position, f);
+                facet_normal<N>(at.facet, rays, f, side);
                 shadows_(shares, at, useful);
             }
         }
@@ -11272,10 +11384,10 @@ class surface_shader {
         using floats = lanes<float, N>;
         for (int i = 0; i < 3; ++i) into[i] = floats{} + to_light_[i];
         if (!is_near_) return;
-        floats position, square = floats{}, length;
+        floats position[3], square = floats{}, length;
+        pixel_rays<N>(rig_, ray_step_, f).position(position, f);
         for (int i = 0; i < 3; ++i) {
-            f.interpolate(position, i);
-            into[i] = into[i] - position;
+            into[i] = into[i] - position[i];
             square = square + into[i] * into[i];
         }
         square_root<N>(length, square);
@@ -11283,19 +11395,65 @@ class surface_shader {
         for (int i = 0; i < 3; ++i) into[i] = into[i] / length;
     }
 
+    /// Rays from the camera through pixels' centres, over what they go down.
+    template <int N>
+    struct pixel_rays {
+        using floats = lanes<float, N>;
+        using fragments = fragment_lanes<N, surface_varyings>;
+        float altitude, step;
+        floats x, y;
+
+        /// @param one  how far the ground is from pixel to pixel, seen from a height of one
+        INSONIFY_INLINE pixel_rays(const overhead& rig, float one, const fragments& f)
+            : altitude(rig.altitude), step(one) {
+            floats column;
+            count_up<float, N>(column);
+            x = (column + (static_cast<float>(f.x) + 0.5f * static_cast<float>(1 - rig.size.x))) * step;
+            y = floats{} + (0.5f * static_cast<float>(rig.size.y - 1) - static_cast<float>(f.y)) * step;
+        }
+        /// Of what the pixels show.
+        INSONIFY_INLINE void position(floats (&into)[3], const fragments& f) const {
+            f.interpolate(into[2], 3);
+            const floats down = altitude - into[2];
+            into[0] = x * down;
+            into[1] = y * down;
+        }
+        /// Of the corner of a compact triangle.
+        INSONIFY_INLINE void corner(floats (&into)[3], const fragments& f, int i, float subpixel) const {
+            into[2] = f.at_corner(i, 3);
+            const floats down = altitude - into[2];
+            into[0] = (x + f.right[i] * (step * subpixel)) * down;
+            into[1] = (y - f.down[i] * (step * subpixel)) * down;
+        }
+    };
+
     /// Normal of the triangle that a pixel shows, on the side that is seen; not unit.
     template <int N>
-    INSONIFY_INLINE static void facet_normal(lanes<float, N> (&into)[3], const fragment_lanes<N, surface_varyings>& f,
-                                             const lanes<float, N>& side) {
+    INSONIFY_INLINE void facet_normal(lanes<float, N> (&into)[3], const pixel_rays<N>& rays,
+                                      const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& side) const {
         using floats = lanes<float, N>;
-        floats ab[3], ac[3];
+        floats corner[3][3], ab[3], ac[3];
+        if (f.is_compact)
+            unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { rays.corner(corner[i], f, i, subpixel_); });
+        else
+            place_corners<N>(corner, f);
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            ab[i] = f.at_corner(1, i) - f.at_corner(0, i);
-            ac[i] = f.at_corner(2, i) - f.at_corner(0, i);
+            ab[i] = corner[1][i] - corner[0][i];
+            ac[i] = corner[2][i] - corner[0][i];
         });
         into[0] = side * (ab[1] * ac[2] - ac[1] * ab[2]);
         into[1] = side * (ab[2] * ac[0] - ac[2] * ab[0]);
         into[2] = side * (ab[0] * ac[1] - ac[0] * ab[1]);
+    }
+    /// From the mesh, whatever became of them on the screen.
+    template <int N>
+    INSONIFY_INLINE void place_corners(lanes<float, N> (&corner)[3][3],
+                                       const fragment_lanes<N, surface_varyings>& f) const {
+        for (int k = 0; k < N; ++k)
+            for (int i = 0; i < 3; ++i) {
+                const glm::vec3 at = placement_.place(mesh_.positions[mesh_.triangles[f.triangles[k]][i]]);
+                for (int axis = 0; axis < 3; ++axis) set_lane(corner[i][axis], k, at[axis]);
+            }
     }
 
     template <int N>
@@ -11317,6 +11475,9 @@ class surface_shader {
     }
 
     overhead rig_;
+    float ray_step_, subpixel_;
+    const surface_placement& placement_;
+    const mesh& mesh_;
     bool is_near_;
     glm::vec3 to_light_;  ///< where it stands, if it is near
     Law law_;
@@ -11546,9 +11707,11 @@ class overhead_painter {
     template <class Shadows, class Object, executor E>
     draw_stats draw_one(const placed_mesh& shape, depth_load load, const Shadows& shadows, const Object& object,
                         E& ex) {
-        const surface_shader<Shadows, Labels, Law, Object> shader(view_, options_.law, shadows, object, out_.image,
-                                                                  out_.labels);
-        return draw_lanes(*shape.shape, surface_placement(view_, shape), shader, depth_,
+        const surface_placement placement(view_, shape);
+        const surface_shader<Shadows, Labels, Law, Object> shader(view_, placement, *shape.shape,
+                                                                  options_.subpixel_bits, options_.law, shadows, object,
+                                                                  out_.image, out_.labels);
+        return draw_lanes(*shape.shape, placement, shader, depth_,
                           {.keep = keep_depth::larger,
                            .load = load,
                            .subpixel_bits = options_.subpixel_bits,

@@ -5,11 +5,13 @@
 #include <insonify/core/dispatch.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/core/lanes.hpp>
+#include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include <glm/vec2.hpp>

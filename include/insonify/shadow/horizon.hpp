@@ -128,21 +128,25 @@ class horizon {
         convert(left_of, number);
         const floats share = line - left_of;
 
-        ints slot = column - window_.first_column;
-        if (window_.slots == 2) {
-            // Has it passed the edge of a row since it entered the cell? Rows are counted from the one before the
-            // first.
-            const floats entered_y = (window_.start + 1.0f) + line * window_.spacing + entered_x * window_.slope;
-            const floats y = entered_y + (x - entered_x) * window_.slope;
-            ints row;
-            convert(row, y);
-            floats edge;
-            convert(edge, row);
-            slot = slot + slot + (entered_y < edge ? ints{} + 1 : ints{});
-        }
-        const ints index = on_map ? slot * window_.pitch + number : ints{};
+        const ints start = on_map ? (column - window_.first_column) * (window_.slots * window_.pitch) + number : ints{};
         floats left, right, u;
-        gather_pairs<N>(left, right, [&](int k) { return crests_.data() + lane(index, k); });
+        if (window_.slots == 1) {
+            gather_pairs<N>(left, right, [&](int k) { return crests_.data() + lane(start, k); });
+        } else {
+            // Behind the edge of a row that a line has passed since it entered the cell, its second slot counts. Rows
+            // are counted from the one before the first.
+            const floats left_y = (window_.start + 1.0f) + left_of * window_.spacing + entered_x * window_.slope;
+            const floats y = left_y + share * window_.spacing + (x - entered_x) * window_.slope;
+            ints row;
+            floats edge;
+            convert(row, y);
+            convert(edge, row);
+            const ints past = ints{} + window_.pitch;
+            const ints left_at = start + (left_y < edge ? past : ints{}),
+                       right_at = start + 1 + (left_y + window_.spacing < edge ? past : ints{});
+            gather<N>(left, [&](int k) { return crests_[static_cast<std::size_t>(lane(left_at, k))]; });
+            gather<N>(right, [&](int k) { return crests_[static_cast<std::size_t>(lane(right_at, k))]; });
+        }
         // One line may have met nothing yet.
         const ints is_open = ints(left < detail::sweep_relief::least) | ints(right < detail::sweep_relief::least);
         const floats crest = is_open ? (share < 0.5f ? left : right) : left + share * (right - left);

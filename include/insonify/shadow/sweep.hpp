@@ -255,9 +255,10 @@ struct sweep_kernel {
             const float* const from = of.relief.u.data() + column * of.relief.pitch;
             insonify::detail::transpose<N>(four, [&](int k) { return from + insonify::detail::lane(row, k); });
         }
-        /// Exact at both ends, though one may be nothing.
+        /// Exact at both ends, though one may be nothing; never beyond the second.
         INSONIFY_INLINE static void between(floats& into, const floats& a, const floats& b, const floats& share) {
-            into = a * (1.0f - share) + b * share;
+            const floats held = share < 1.0f ? share : floats{} + 1.0f;
+            into = a * (1.0f - held) + b * held;
         }
         INSONIFY_INLINE void fall(const floats& from, const floats& to) {
             crest = ints(to < from) & ints(from > crest) ? from : crest;

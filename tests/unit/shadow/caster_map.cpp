@@ -1,5 +1,5 @@
-// Refined shadows: edges where the casters have them, however large the texels, against closed forms and against rays
-// that are tried on every triangle.
+// Maps that name their casters: edges where the casters have them, however large the texels, against closed forms and
+// against rays that are tried on every triangle.
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/cube.hpp>
@@ -7,52 +7,20 @@
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/tessellate.hpp>
-#include <insonify/shadow/refined.hpp>
+#include <insonify/shadow/caster_map.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "../../catch.hpp"
+#include "points.hpp"
 
 namespace in = insonify;
 namespace shadow = insonify::shadow;
+using points::ask, points::radians;
 
 namespace {
-
-double radians(double degrees) {
-    return in::numeric::to_radians(degrees);
-}
-
-/// Asks a map about points, as many at a time as the instruction set has lanes.
-struct question {
-    const shadow::caster_map& map;
-    const std::vector<glm::vec3>& points;
-    std::vector<bool>& dark;
-
-    template <int N>
-    INSONIFY_INLINE void run() const {
-        using namespace in::detail;
-        for (std::size_t first = 0; first < points.size(); first += N) {
-            const auto point = [&](int k) {
-                return points[(std::min)(first + static_cast<std::size_t>(k), points.size() - 1)];
-            };
-            lanes<float, N> position[3];
-            for (int axis = 0; axis < 3; ++axis) gather<N>(position[axis], [&](int k) { return point(k)[axis]; });
-            lanes<std::int32_t, N> answer;
-            map.darken<N>(answer, lanes<std::int32_t, N>{} - 1, position);
-            for (std::size_t k = 0; k < std::size_t{N} && first + k < points.size(); ++k)
-                dark[first + k] = lane(answer, static_cast<int>(k)) != 0;
-        }
-    }
-};
-
-std::vector<bool> ask(const shadow::caster_map& map, const std::vector<glm::vec3>& points,
-                      in::isa level = in::best_isa()) {
-    std::vector<bool> dark(points.size());
-    in::detail::dispatch(question{map, points, dark}, level);
-    return dark;
-}
 
 template <class E = in::serial_executor>
 shadow::caster_map map_of(const in::mesh& m, const shadow::light_frame& light, double texel, bool is_solid = true,
@@ -63,21 +31,6 @@ shadow::caster_map map_of(const in::mesh& m, const shadow::light_frame& light, d
 
 in::mesh standing_cube() {
     return in::transformed(to_mesh(in::cube{}), {glm::dmat3(1), {0, 0, 0.5}});
-}
-
-/// Whether the ray from a point towards the light meets any triangle beyond a tenth of a millimetre.
-bool is_blocked(const in::mesh& m, const glm::dvec3& from, const glm::dvec3& along) {
-    for (const glm::uvec3& t : m.triangles) {
-        const glm::dvec3 a(m.positions[t.x]), ab = glm::dvec3(m.positions[t.y]) - a,
-                                              ac = glm::dvec3(m.positions[t.z]) - a;
-        const glm::dvec3 p = in::numeric::cross(along, ac);
-        const double determinant = in::numeric::dot(ab, p);
-        if (determinant == 0) continue;
-        const glm::dvec3 s = from - a, q = in::numeric::cross(s, ab);
-        const double u = in::numeric::dot(s, p) / determinant, v = in::numeric::dot(along, q) / determinant;
-        if (u >= 0 && v >= 0 && u + v <= 1 && in::numeric::dot(ac, q) / determinant > 1e-4) return true;
-    }
-    return false;
 }
 
 }  // namespace
@@ -124,22 +77,8 @@ TEST_CASE("Points are dark where a ray meets a triangle, whichever way the mesh'
         const in::mesh bottom = in::seabed::tessellate(in::seabed::sample(recipe, grid));
         for (const double elevation : {3.0, 6.0, 20.0, 45.0}) {
             const shadow::light_frame light({radians(azimuth), radians(elevation)});
-            std::vector<glm::vec3> points;
-            while (points.size() < 1000) {
-                const glm::uvec3& t =
-                    bottom.triangles[random.below(static_cast<std::uint32_t>(bottom.triangles.size()))];
-                const glm::vec3 a = bottom.positions[t.x], ab = bottom.positions[t.y] - a,
-                                ac = bottom.positions[t.z] - a;
-                // What faces away is dark without asking.
-                if (in::numeric::dot(glm::dvec3(in::numeric::cross(ab, ac)), light.to_light()) <= 0) continue;
-                const auto u = static_cast<float>(random.uniform(0, 0.5)),
-                           v = static_cast<float>(random.uniform(0, 0.5));
-                points.push_back(a + u * ab + v * ac);
-            }
-            const std::vector<bool> dark = ask(map_of(bottom, light, 3.0 / 128), points);
-            int wrong = 0;
-            for (std::size_t i = 0; i < points.size(); ++i)
-                wrong += dark[i] != is_blocked(bottom, glm::dvec3(points[i]), light.to_light());
+            const std::vector<glm::vec3> asked = points::facing(bottom, light.to_light(), 1000, random);
+            const int wrong = points::wrong(map_of(bottom, light, 3.0 / 128), asked, bottom, light.to_light());
             CAPTURE(recipe.index(), azimuth, elevation);
             CHECK(wrong <= most_wrong);
         }
@@ -190,7 +129,7 @@ TEST_CASE("The answers are the same at every instruction set and for any executo
 TEST_CASE("An empty map leaves everything lit, and so does one far from the point") {
     const shadow::light_frame light({0, radians(45)});
     const in::mesh cube = standing_cube();
-    CHECK(ask({}, {{0, 0, 0}}) == std::vector<bool>{false});
+    CHECK(ask(shadow::caster_map(), {{0, 0, 0}}) == std::vector<bool>{false});
     CHECK(ask(map_of({}, light, 0.1), {{0, 0, 0}}) == std::vector<bool>{false});
     const float far_away = 1e30f, nan = std::nanf("");
     CHECK(ask(map_of(cube, light, 0.1), {{far_away, 0, 0}, {0, -far_away, 0}, {nan, 0, 0}, {0, 0, nan}}) ==

@@ -1,0 +1,104 @@
+// Which meshes are a heightfield over a regular grid, and how they lie on it.
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/geometry/regular_grid.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+
+namespace {
+
+/// Vertices at (x, y) = (2 + 0.5 i - 0.1 j, -1 + 0.2 i + 0.4 j), any heights, each cell cut into two triangles.
+in::mesh grid_of(int columns, int rows, bool is_rising = true, int turned = 0) {
+    in::mesh m;
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i) {
+            m.positions.emplace_back(2 + 0.5 * i - 0.1 * j, -1 + 0.2 * i + 0.4 * j, std::sin(i) * j);
+            if (i + 1 == columns || j + 1 == rows) continue;
+            const auto a = static_cast<std::uint32_t>(j * columns + i), d = a + static_cast<std::uint32_t>(columns);
+            glm::uvec3 both[2] = {{a, a + 1, is_rising ? d + 1 : d}, {is_rising ? a : a + 1, d + 1, d}};
+            for (glm::uvec3& t : both) {
+                for (int k = 0; k < turned; ++k) t = {t.y, t.z, t.x};
+                m.triangles.push_back(t);
+            }
+        }
+    return m;
+}
+
+}  // namespace
+
+TEST_CASE("A grid is known by its size, its steps and the way its cells are cut") {
+    for (const bool is_rising : {true, false})
+        for (int turned = 0; turned < 3; ++turned)
+            for (const auto& [columns, rows] : {std::pair{2, 2}, {2, 9}, {9, 2}, {3, 4}, {41, 67}}) {
+                CAPTURE(is_rising, turned, columns, rows);
+                const auto grid = in::regular_grid_of(grid_of(columns, rows, is_rising, turned));
+                REQUIRE(grid);
+                CHECK(grid->columns == columns);
+                CHECK(grid->rows == rows);
+                CHECK(grid->is_rising == is_rising);
+                CHECK(grid->origin.x == Approx(2));
+                CHECK(grid->origin.y == Approx(-1));
+                CHECK(grid->right.x == Approx(0.5));
+                CHECK(grid->right.y == Approx(0.2));
+                CHECK(grid->up.x == Approx(-0.1));
+                CHECK(grid->up.y == Approx(0.4));
+            }
+    in::thread_pool pool(2);
+    CHECK(in::regular_grid_of(grid_of(100, 200), pool));
+}
+
+TEST_CASE("Whatever else a mesh is, it isn't a grid") {
+    const auto refused = [](const auto& change) {
+        in::mesh m = grid_of(21, 30);
+        change(m);
+        return !in::regular_grid_of(m);
+    };
+    REQUIRE_FALSE(refused([](in::mesh&) {}));
+    CHECK_FALSE(in::regular_grid_of({}));
+    CHECK(refused([](in::mesh& m) { m.triangles.clear(); }));
+    CHECK(refused([](in::mesh& m) { m.triangles.resize(1); }));
+    CHECK(refused([](in::mesh& m) { m.triangles.pop_back(); }));
+    CHECK(refused([](in::mesh& m) { m.triangles.push_back({0, 1, 2}); }));
+    CHECK(refused([](in::mesh& m) { m.positions.pop_back(); }));
+    CHECK(refused([](in::mesh& m) { m.positions.emplace_back(0, 0, 0); }));
+    CHECK(refused([](in::mesh& m) { m.positions.clear(); }));
+    CHECK(refused([](in::mesh& m) { m.positions.resize(20); }));
+    // Any triangle of another shape, the first, one in the middle or the last.
+    for (const std::size_t i : {0u, 1u, 2u, 500u, 777u, 1159u}) {
+        CAPTURE(i);
+        CHECK(refused([&](in::mesh& m) { ++m.triangles[i].x; }));
+        CHECK(refused([&](in::mesh& m) { m.triangles[i].z = 0xFFFFFFFFu; }));
+        CHECK(refused([&](in::mesh& m) { std::swap(m.triangles[i].x, m.triangles[i].y); }));
+    }
+    // Any vertex beside its place.
+    for (const std::size_t i : {0u, 20u, 21u, 300u, 609u, 629u})
+        for (const float by : {0.01f, -0.01f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
+            CAPTURE(i, by);
+            CHECK(refused([&](in::mesh& m) { m.positions[i].x += by; }));
+            CHECK(refused([&](in::mesh& m) { m.positions[i].y += by; }));
+        }
+    CHECK_FALSE(refused([](in::mesh& m) { m.positions[300].x += 0.001f; }));
+    CHECK_FALSE(refused([](in::mesh& m) { m.positions[300].z += 1e6f; }));
+    CHECK(refused([](in::mesh& m) { m.positions[300].z = std::nanf(""); }));
+    CHECK(refused([](in::mesh& m) { m.positions[300].z = -std::numeric_limits<float>::infinity(); }));
+    // Seen from below, or from its edge.
+    CHECK(refused([](in::mesh& m) {
+        for (glm::uvec3& t : m.triangles) std::swap(t.x, t.y);
+    }));
+    CHECK(refused([](in::mesh& m) {
+        for (glm::vec3& p : m.positions) p.x = -p.x;
+    }));
+    CHECK(refused([](in::mesh& m) {
+        for (glm::vec3& p : m.positions) p.y = 0;
+    }));
+    // Cut alternately.
+    CHECK(refused([](in::mesh& m) {
+        const in::mesh other = grid_of(21, 30, false);
+        m.triangles[60] = other.triangles[60];
+        m.triangles[61] = other.triangles[61];
+    }));
+}
