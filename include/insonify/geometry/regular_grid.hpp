@@ -54,24 +54,25 @@ struct pattern_kernel {
     template <int N>
     INSONIFY_INLINE bool differ(std::size_t first, std::size_t last) const {
         using numbers_of = lanes<T, N>;
-        numbers_of expected[static_cast<unsigned>(Period)], step[static_cast<unsigned>(Period)],
-            tolerance[static_cast<unsigned>(Period)];
+        constexpr auto period = static_cast<unsigned>(Period);
+        numbers_of block[period], start[period], step[period], tolerance[period];
         unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
             for (int k = 0; k < N; ++k) {
                 const int at = v * N + k;
                 const term& t = pattern[at % Period];
-                set_lane(expected[v], k, static_cast<T>(t.start + static_cast<T>(at / Period) * t.step));
+                set_lane(block[v], k, static_cast<T>(at / Period));
+                set_lane(start[v], k, t.start);
                 set_lane(step[v], k, t.step);
                 set_lane(tolerance[v], k, t.tolerance);
             }
         });
         lanes<std::int32_t, N> wrong{};
-        for (std::size_t block = first; block < last; block += N) {
-            const T steps = static_cast<T>(block);
+        for (std::size_t i = first; i < last; i += N) {
+            const T before = static_cast<T>(i);
             unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
                 numbers_of number;
-                load(number, numbers + block * Period + static_cast<std::size_t>(v * N));
-                const numbers_of off = number - (expected[v] + steps * step[v]);
+                load(number, numbers + i * Period + static_cast<std::size_t>(v * N));
+                const numbers_of off = number - (start[v] + (block[v] + before) * step[v]);
                 wrong |= lanes<std::int32_t, N>((off > tolerance[v]) | (off < 0 - tolerance[v]) | (off != off));
             });
         }

@@ -36,9 +36,10 @@ class horizon {
     /// @param texel      metres, of which lines keep two thirds apart; grows if more than `largest` lines were needed,
     /// or
     ///                   more than 2^30 values
+    /// @param level      the widest instruction set to use; the answers are the same
     template <executor E>
     horizon(const light_frame& frame, const mesh& m, const regular_grid& grid, const affine& to_world,
-            const bounding_box& receivers, double texel, int largest, E& ex) {
+            const bounding_box& receivers, double texel, int largest, E& ex, isa level = best_isa()) {
         if (receivers.empty()) return;
         const glm::dvec3 travel = numeric::product(inverse(to_world).linear, -frame.to_light());
         const detail::sweep_grid sweep(grid, travel);
@@ -81,7 +82,7 @@ class horizon {
                     [&](std::size_t start, std::size_t) {
                         insonify::detail::dispatch(
                             detail::sweep_kernel{sweep, relief, window_, static_cast<int>(start), crests_.data()},
-                            best_isa());
+                            level);
                     });
 
         to_x_ = x.narrowed();

@@ -23,12 +23,13 @@ struct pcf {
     int radius = 1;  ///< texels, 0 to 8
 };
 
-/// Hard edges where the casters' triangles have them: the map says who casts near a point, and where its texels
-/// disagree the triangles are asked. What no texel's centre meets is missed, so texels should not be larger than
-/// pixels.
+/// Hard edges where the casters' triangles have them. A heightfield over a regular grid, as seabeds mostly are, is
+/// swept along lines of the light, two thirds of a texel apart. Of anything else a map says who casts near a point, and
+/// where its texels disagree the triangles are asked. What lies between two lines or meets no texel's centre is missed,
+/// so texels should not be larger than pixels.
 struct refined {
     float texels_per_pixel = 1;  ///< across the light; along it up to a third fewer
-    int largest = 8192;
+    int largest = 8192;          ///< texels a side, or lines
 };
 
 /// The edges of the casters themselves in every pixel: each is asked about every triangle that may stand in its light.

@@ -176,7 +176,8 @@ struct sweep_kernel {
         INSONIFY_INLINE void enter(const sweep_kernel& of, int first, int column) {
             floats number;
             insonify::detail::count_up<float, N>(number);
-            start = (window_start(of) + of.window.spacing * static_cast<float>(first)) + of.window.spacing * number;
+            number = number + static_cast<float>(first);
+            start = number * of.window.spacing + (of.window.start + static_cast<float>(sweep_relief::below));
             floats y, four[4];
             y_at(y, of, column);
             insonify::detail::convert(row, y);
@@ -240,9 +241,6 @@ struct sweep_kernel {
         }
 
       private:
-        static float window_start(const sweep_kernel& of) {
-            return of.window.start + static_cast<float>(sweep_relief::below);
-        }
         /// Held to the relief's rows.
         INSONIFY_INLINE void y_at(floats& y, const sweep_kernel& of, int column) const {
             const auto most = static_cast<float>(of.grid.rows + sweep_relief::below);
