@@ -6486,12 +6486,13 @@ struct pcf {
     int radius = 1;  ///< texels, 0 to 8
 };
 
-/// Hard edges where the casters' triangles have them: the map says who casts near a point, and where its texels
-/// disagree the triangles are asked. What no texel's centre meets is missed, so texels should not be larger than
-/// pixels.
+/// Hard edges where the casters' triangles have them. A heightfield over a regular grid, as seabeds mostly are, is
+/// swept along lines of the light, two thirds of a texel apart. Of anything else a map says who casts near a point, and
+/// where its texels disagree the triangles are asked. What lies between two lines or meets no texel's centre is missed,
+/// so texels should not be larger than pixels.
 struct refined {
     float texels_per_pixel = 1;  ///< across the light; along it up to a third fewer
-    int largest = 8192;
+    int largest = 8192;          ///< texels a side, or lines
 };
 
 /// The edges of the casters themselves in every pixel: each is asked about every triangle that may stand in its light.
@@ -6920,24 +6921,25 @@ struct pattern_kernel {
     template <int N>
     INSONIFY_INLINE bool differ(std::size_t first, std::size_t last) const {
         using numbers_of = lanes<T, N>;
-        numbers_of expected[static_cast<unsigned>(Period)], step[static_cast<unsigned>(Period)],
-            tolerance[static_cast<unsigned>(Period)];
+        constexpr auto period = static_cast<unsigned>(Period);
+        numbers_of block[period], start[period], step[period], tolerance[period];
         unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
             for (int k = 0; k < N; ++k) {
                 const int at = v * N + k;
                 const term& t = pattern[at % Period];
-                set_lane(expected[v], k, static_cast<T>(t.start + static_cast<T>(at / Period) * t.step));
+                set_lane(block[v], k, static_cast<T>(at / Period));
+                set_lane(start[v], k, t.start);
                 set_lane(step[v], k, t.step);
                 set_lane(tolerance[v], k, t.tolerance);
             }
         });
         lanes<std::int32_t, N> wrong{};
-        for (std::size_t block = first; block < last; block += N) {
-            const T steps = static_cast<T>(block);
+        for (std::size_t i = first; i < last; i += N) {
+            const T before = static_cast<T>(i);
             unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
                 numbers_of number;
-                load(number, numbers + block * Period + static_cast<std::size_t>(v * N));
-                const numbers_of off = number - (expected[v] + steps * step[v]);
+                load(number, numbers + i * Period + static_cast<std::size_t>(v * N));
+                const numbers_of off = number - (start[v] + (block[v] + before) * step[v]);
                 wrong |= lanes<std::int32_t, N>((off > tolerance[v]) | (off < 0 - tolerance[v]) | (off != off));
             });
         }
@@ -7193,7 +7195,8 @@ struct sweep_kernel {
         INSONIFY_INLINE void enter(const sweep_kernel& of, int first, int column) {
             floats number;
             insonify::detail::count_up<float, N>(number);
-            start = (window_start(of) + of.window.spacing * static_cast<float>(first)) + of.window.spacing * number;
+            number = number + static_cast<float>(first);
+            start = number * of.window.spacing + (of.window.start + static_cast<float>(sweep_relief::below));
             floats y, four[4];
             y_at(y, of, column);
             insonify::detail::convert(row, y);
@@ -7257,9 +7260,6 @@ struct sweep_kernel {
         }
 
       private:
-        static float window_start(const sweep_kernel& of) {
-            return of.window.start + static_cast<float>(sweep_relief::below);
-        }
         /// Held to the relief's rows.
         INSONIFY_INLINE void y_at(floats& y, const sweep_kernel& of, int column) const {
             const auto most = static_cast<float>(of.grid.rows + sweep_relief::below);
@@ -7319,9 +7319,10 @@ class horizon {
     /// @param texel      metres, of which lines keep two thirds apart; grows if more than `largest` lines were needed,
     /// or
     ///                   more than 2^30 values
+    /// @param level      the widest instruction set to use; the answers are the same
     template <executor E>
     horizon(const light_frame& frame, const mesh& m, const regular_grid& grid, const affine& to_world,
-            const bounding_box& receivers, double texel, int largest, E& ex) {
+            const bounding_box& receivers, double texel, int largest, E& ex, isa level = best_isa()) {
         if (receivers.empty()) return;
         const glm::dvec3 travel = numeric::product(inverse(to_world).linear, -frame.to_light());
         const detail::sweep_grid sweep(grid, travel);
@@ -7364,7 +7365,7 @@ class horizon {
                     [&](std::size_t start, std::size_t) {
                         insonify::detail::dispatch(
                             detail::sweep_kernel{sweep, relief, window_, static_cast<int>(start), crests_.data()},
-                            best_isa());
+                            level);
                     });
 
         to_x_ = x.narrowed();
