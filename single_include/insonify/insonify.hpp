@@ -7312,11 +7312,9 @@ class horizon {
     /// @param frame      of the light
     /// @param m          the mesh
     /// @param grid       how it lies; nothing that can be asked about lies below it
-    /// @param to_world   from the mesh's frame to the one in which the light is described; the light comes from above
-    /// in
-    ///                   both
+    /// @param to_world   from the mesh's frame to the one in which the light is described; it comes from above in both
     /// @param receivers  what can be asked about lies in this box, in the latter frame
-    /// @param texel      metres, of which lines keep two thirds apart; grows if more than `largest` lines were needed,
+    /// @param texel      metres, of which lines lie two thirds apart; grows if more than `largest` lines were needed,
     /// or
     ///                   more than 2^30 values
     /// @param level      the widest instruction set to use; the answers are the same
@@ -7328,10 +7326,10 @@ class horizon {
         const detail::sweep_grid sweep(grid, travel);
         const affine placed = compose(to_world, sweep.to_mesh);
         const affine back = inverse(placed);
-        const linear_map x = linear_map::row_of(back, 0), y = linear_map::row_of(back, 1);
+        const linear_map x = linear_map::row_of(back, 0), y = linear_map::row_of(back, 1),
+                         z = linear_map::row_of(back, 2);
         const linear_map line{y.along - sweep.slope * x.along, y.start - sweep.slope * x.start};  // its Y at X = 0
-
-        const linear_map z = linear_map::row_of(back, 2);
+        const linear_map u{x.along + sweep.drop * z.along, x.start + sweep.drop * z.start};
         // From line to line, if they are a row apart.
         const glm::dvec3 run = placed.linear[0] + sweep.slope * placed.linear[1];
         const auto length = [](const glm::dvec3& v) { return numeric::square_root(numeric::dot(v, v)); };
@@ -7360,7 +7358,8 @@ class horizon {
 
         const detail::sweep_relief relief(m, sweep, ex);
         crests_.resize(static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.slots) *
-                       static_cast<std::size_t>(window_.pitch));
+                           static_cast<std::size_t>(window_.pitch) +
+                       lines_ahead);
         bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
                     [&](std::size_t start, std::size_t) {
                         insonify::detail::dispatch(
@@ -7370,7 +7369,6 @@ class horizon {
 
         to_x_ = x.narrowed();
         to_line_ = linear_map{line.along / step, (line.start - first) / step + 1}.narrowed();
-        const linear_map u{x.along + sweep.drop * z.along, x.start + sweep.drop * z.start};
         const glm::dvec2 all_u = u.range(receivers);
         to_u_ = u.narrowed();
         to_u_.w += static_cast<float>(0x1p-21 * (std::max)(-all_u.x, all_u.y));  // floats hold places no better
@@ -7413,6 +7411,11 @@ class horizon {
         const floats share = line - left_of;
 
         const ints start = on_map ? (column - window_.first_column) * (window_.slots * window_.pitch) + number : ints{};
+        // Pictures are drawn row by row towards -y: what the next rows will ask is on its way.
+        const std::int32_t ahead = to_line_.y > 0 ? -lines_ahead : lines_ahead;
+        ints soon = start + ahead;
+        soon = soon > 0 ? soon : ints{};
+        for (int k = 0; k < N; k += 2) prefetch(crests_.data() + lane(soon, k));
         floats left, right, u;
         if (window_.slots == 1) {
             gather_pairs<N>(left, right, [&](int k) { return crests_.data() + lane(start, k); });
@@ -7458,6 +7461,8 @@ class horizon {
             return both;
         }
     };
+
+    static constexpr int lines_ahead = 20;
 
     detail::sweep_window window_;
     glm::vec4 to_x_{0}, to_line_{0}, to_u_{0};         ///< from positions, with one for a fourth
