@@ -3621,6 +3621,7 @@ struct tile_kernel {
 
     /// As many as come before one that isn't small. A tile's triangles lie far apart in the mesh, in rows of a few: so
     /// while a group of them is drawn, the next one's corners and the indices of the one after that are on their way.
+    /// Neighbours share corners, and cache lines: every second triangle, and every fourth, stand for the others.
     template <int N>
     INSONIFY_INLINE void draw_small_ones(run_reader& left) const {
         struct group {
@@ -3711,8 +3712,8 @@ class fragment_lanes {
     std::uint32_t triangles[static_cast<unsigned>(N)];  ///< of the mesh
     ints front;                                         ///< seen from the counter-clockwise side
     floats weights[3];                                  ///< of the corners, perspective-correct
-    bool is_compact;           ///< whether none of the lanes' triangles is clipped or very large
-    floats right[3], down[3];  ///< where the corners are, in sub-pixels from the pixel's centre; of compact ones
+    bool is_compact;                                    ///< none of the lanes' triangles is clipped or very large
+    floats right[3], down[3];  ///< if so, from the pixel's centre to the corners, in sub-pixels
 
     /// @param names  of what each lane shows: somebody's where a lane isn't visible
     template <class Screen>
@@ -3722,19 +3723,18 @@ class fragment_lanes {
         lanes<std::uint32_t, N> name;
         load(name, names);
         const glm::uvec3* corners[count];
-        floats inverse_w[3];
         is_compact = !any(ints(name >= screen.compact_names()));
         if (is_compact) {
             std::memcpy(triangles, names, sizeof triangles);
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(names[k]); });
-            read_corners(inverse_w, screen, records, corners);
-            weigh(inverse_w);
+            read_corners(screen, records, corners);
+            weigh();
         } else {
             for (int k = 0; k < N; ++k) {
                 triangles[k] = screen.triangle(names[k]);
                 corners[k] = &screen.indices(triangles[k]);
             }
-            read_corners(inverse_w, screen, records, corners);
+            read_corners(screen, records, corners);
             weigh_one_by_one(screen, records, names);
         }
     }
@@ -3749,10 +3749,10 @@ class fragment_lanes {
   private:
     static constexpr auto count = static_cast<std::size_t>(N);
 
-    /// What is known of the corners of the lanes' triangles; the screen's part of it all together with the records',
-    /// so that a corner is looked for once.
+    /// What the records know of the corners of the lanes' triangles and, of compact ones, the screen: both at once, so
+    /// that a corner is looked for once.
     template <class Screen>
-    INSONIFY_INLINE void read_corners(floats (&inverse_w)[3], const Screen& screen, const record* records,
+    INSONIFY_INLINE void read_corners(const Screen& screen, const record* records,
                                       const glm::uvec3* const (&corners)[count]) {
         const pixel_grid& grid = screen.grid();
         ints column;
@@ -3762,12 +3762,14 @@ class fragment_lanes {
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             std::size_t vertex[count];
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { vertex[k] = (*corners[k])[i]; });
-            const kept_lanes<N, float> corner([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
-                return screen.vertices()[vertex[k]];
-            });
-            convert(right[i], ints(corner.x - px));
-            convert(down[i], ints(corner.y - py));
-            inverse_w[i] = corner.inverse_w;
+            if (is_compact) {
+                const kept_lanes<N, float> corner([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
+                    return screen.vertices()[vertex[k]];
+                });
+                convert(right[i], ints(corner.x - px));
+                convert(down[i], ints(corner.y - py));
+                inverse_w_[i] = corner.inverse_w;
+            }
             unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
                 transpose<N>(values_[i] + 4 * block,
                              [&](int k) INSONIFY_INLINE_LAMBDA { return records[vertex[k]].values + 4 * block; });
@@ -3777,13 +3779,13 @@ class fragment_lanes {
 
     /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out. In float a
     /// share is off by 2^-24 of the triangle's length squared.
-    INSONIFY_INLINE void weigh(const floats (&inverse_w)[3]) {
+    INSONIFY_INLINE void weigh() {
         // From the pixel, so that exchanging two corners changes a sign and nothing else.
         weights[0] = right[1] * down[2] - down[1] * right[2];
         weights[1] = right[2] * down[0] - down[2] * right[0];
         weights[2] = right[0] * down[1] - down[0] * right[1];
         front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * inverse_w[i]; });
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * inverse_w_[i]; });
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * scale; });
     }
@@ -3816,6 +3818,7 @@ class fragment_lanes {
     }
 
     floats values_[3][static_cast<unsigned>(4 * record::blocks)];  ///< of the corners
+    floats inverse_w_[3];                                          ///< of those of compact triangles
 };
 
 /// Hands the pixels of one tile that this draw has won to `shader(fragment_lanes)`.
@@ -6887,13 +6890,13 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// Vertex (i, j) is number j columns + i and lies at origin + i right + j up, at any height. Each cell is cut into two
-/// triangles the same way; all of them are counter-clockwise seen from +z.
+/// Vertex (i, j) is number j columns + i and lies at origin + i right + j up in x and y, at any height. Each cell is
+/// cut into two triangles the same way; all of them are counter-clockwise seen from +z.
 struct regular_grid {
-    int columns = 0, rows = 0;  ///< vertices
-    glm::dvec2 origin{0}, right{0}, up{0};
-    bool is_rising =
-        true;  ///< cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1)
+    int columns = 0, rows = 0;              ///< vertices
+    glm::dvec2 origin{0}, right{0}, up{0};  ///< metres, in the mesh's frame
+    /// Cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1).
+    bool is_rising = true;
 };
 
 namespace detail {
@@ -6975,8 +6978,8 @@ struct cell_cut {
 
 }  // namespace detail
 
-/// How a mesh lies on a regular grid; nothing if it doesn't: vertices may be off by a 256th of a step, and every height
-/// must be a number.
+/// How a mesh lies on a regular grid; nothing if it doesn't. Vertices may be off by a 256th of a step; all heights are
+/// finite.
 template <executor_argument E = serial_executor>
 std::optional<regular_grid> regular_grid_of(const mesh& m, E&& ex = {}) {
     if (m.triangles.size() < 2) return std::nullopt;
@@ -6995,8 +6998,9 @@ std::optional<regular_grid> regular_grid_of(const mesh& m, E&& ex = {}) {
     grid.up = (place((rows - 1) * columns) - grid.origin) / static_cast<double>(rows - 1);
     // Written so that NaN doesn't pass.
     if (!(grid.right.x * grid.up.y - grid.right.y * grid.up.x > 0)) return std::nullopt;
-    const auto length = [](const glm::dvec2& v) { return numeric::square_root(v.x * v.x + v.y * v.y); };
-    const auto tolerance = static_cast<float>((std::min)(length(grid.right), length(grid.up)) / 256);
+    const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
+    const double shorter = numeric::square_root((std::min)(square(grid.right), square(grid.up)));
+    const auto tolerance = static_cast<float>(shorter / 256);
 
     std::atomic<bool> differs = false;
     bulk_ranges(ex, rows, 16, [&](std::size_t first, std::size_t last) {
@@ -7036,7 +7040,8 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::shadow::detail {
 
-using insonify::detail::lanes;
+using insonify::detail::convert, insonify::detail::count_up, insonify::detail::lanes, insonify::detail::store,
+    insonify::detail::transpose, insonify::detail::unfilled_vector;
 
 /// A grid as a sweep sees it: X counts its vertices along the axis that the light follows most, Y those across, both
 /// turned so that the light goes towards larger ones, by `slope` of Y for each of X. All points of a ray share
@@ -7086,7 +7091,7 @@ struct sweep_relief {
     static constexpr float least = -1e20f;  ///< of any u; what is interpolated with nothing lies below it
 
     std::ptrdiff_t pitch;
-    insonify::detail::unfilled_vector<float> u;
+    unfilled_vector<float> u;
 
     template <executor E>
     sweep_relief(const mesh& m, const sweep_grid& grid, E& ex)
@@ -7167,6 +7172,7 @@ struct sweep_kernel {
         if (at < 0 || at >= window.columns) return nullptr;
         return crests + std::ptrdiff_t{at} * window.slots * window.pitch + first_line;
     }
+    /// The same crests in some columns.
     template <class Lines>
     INSONIFY_INLINE void keep(const Lines& lines, int first, int last) const {
         for (int column = first; column < last; ++column) {
@@ -7174,7 +7180,7 @@ struct sweep_kernel {
             for (int slot = 0; kept != nullptr && slot < window.slots; ++slot) {
                 float* to = kept + slot * window.pitch;
                 for (const auto& some : lines) {
-                    insonify::detail::store(to, some.crest);
+                    store(to, some.crest);
                     to += sizeof some.crest / sizeof *to;
                 }
             }
@@ -7194,13 +7200,13 @@ struct sweep_kernel {
 
         INSONIFY_INLINE void enter(const sweep_kernel& of, int first, int column) {
             floats number;
-            insonify::detail::count_up<float, N>(number);
+            count_up<float, N>(number);
             number = number + static_cast<float>(first);
             start = number * of.window.spacing + (of.window.start + static_cast<float>(sweep_relief::below));
             floats y, four[4];
             y_at(y, of, column);
-            insonify::detail::convert(row, y);
-            insonify::detail::convert(beyond, row);
+            convert(row, y);
+            convert(beyond, row);
             beyond = y - beyond;
             read(four, of, column);
             for (int i = 0; i < 3; ++i) vertex[i] = four[i];
@@ -7209,18 +7215,19 @@ struct sweep_kernel {
         }
 
         /// From one column to the next, over edges whose ends are vertices of both.
+        /// @param kept  where the column's crests go, or null
         template <bool Rising>
-        INSONIFY_INLINE void step(const sweep_kernel& of, int column, float* keep) {
+        INSONIFY_INLINE void step(const sweep_kernel& of, int column, float* kept) {
             const float slope = of.window.slope;
             floats ahead[4], y;
             read(ahead, of, column + 1);
             y_at(y, of, column + 1);
             ints next_row;
-            insonify::detail::convert(next_row, y);
+            convert(next_row, y);
             const ints climbs = ints(next_row > row);  // over the edge of a row
             next_row = climbs ? row + 1 : row;
             floats next_beyond, next_u, on_edge;
-            insonify::detail::convert(next_beyond, next_row);
+            convert(next_beyond, next_row);
             next_beyond = y - next_beyond;
             const floats next[3] = {climbs ? ahead[1] : ahead[0], climbs ? ahead[2] : ahead[1],
                                     climbs ? ahead[3] : ahead[2]};
@@ -7231,7 +7238,7 @@ struct sweep_kernel {
                 between(on_diagonal, vertex[0], ahead[1], beyond * (slope < 1 ? 1 / (1 - slope) : 0.0f));
                 const floats middle = climbs ? on_edge : on_diagonal;
                 fall(u, middle);
-                if (keep != nullptr) insonify::detail::store(keep, crest);
+                if (kept != nullptr) store(kept, crest);
                 fall(middle, next_u);
             } else {
                 floats on_first, on_second;
@@ -7239,10 +7246,10 @@ struct sweep_kernel {
                 between(on_second, vertex[2], ahead[1], (2.0f - beyond) * (1 / (1 + slope)));
                 const floats third = climbs ? on_edge : next_u, fourth = climbs ? on_second : next_u;
                 fall(u, on_first);
-                if (keep != nullptr) insonify::detail::store(keep, crest);
+                if (kept != nullptr) store(kept, crest);
                 fall(on_first, third);
                 fall(third, fourth);
-                if (keep != nullptr) insonify::detail::store(keep + of.window.pitch, crest);
+                if (kept != nullptr) store(kept + of.window.pitch, crest);
                 fall(fourth, next_u);
             }
             row = next_row;
@@ -7252,11 +7259,10 @@ struct sweep_kernel {
         }
 
         /// Behind the last column there is nothing.
-        INSONIFY_INLINE void leave(const sweep_kernel& of, float* keep) {
+        INSONIFY_INLINE void leave(const sweep_kernel& of, float* kept) {
             fall(u, floats{} + sweep_relief::nothing);
-            if (keep == nullptr) return;
-            for (int slot = 0; slot < of.window.slots; ++slot)
-                insonify::detail::store(keep + slot * of.window.pitch, crest);
+            if (kept == nullptr) return;
+            for (int slot = 0; slot < of.window.slots; ++slot) store(kept + slot * of.window.pitch, crest);
         }
 
       private:
@@ -7270,7 +7276,7 @@ struct sweep_kernel {
         /// u of the vertex in the line's row, and of the next three.
         INSONIFY_INLINE void read(floats (&four)[4], const sweep_kernel& of, int column) const {
             const float* const from = of.relief.u.data() + column * of.relief.pitch;
-            insonify::detail::transpose<N>(four, [&](int k) { return from + insonify::detail::lane(row, k); });
+            transpose<N>(four, [&](int k) { return from + insonify::detail::lane(row, k); });
         }
         /// Exact at both ends, though one may be nothing; never beyond the second.
         INSONIFY_INLINE static void between(floats& into, const floats& a, const floats& b, const floats& share) {
@@ -7396,47 +7402,8 @@ class horizon {
         const ints on_map =
             asked & ints(x >= 0.0f) & ints(line >= 0.0f) & ints(line < static_cast<float>(window_.lines - 1));
         if (!any(on_map)) return;
-        // Behind the last column, what it says goes on.
-        const auto first = static_cast<float>(window_.first_column),
-                   last = static_cast<float>(window_.first_column + window_.columns - 1);
-        x = x > first ? x : floats{} + first;
-        x = x < last ? x : floats{} + last;
-        line = on_map ? line : floats{};
-        ints column, number;
-        convert(column, x);
-        convert(number, line);
-        floats entered_x, left_of;
-        convert(entered_x, column);
-        convert(left_of, number);
-        const floats share = line - left_of;
-
-        const ints start = on_map ? (column - window_.first_column) * (window_.slots * window_.pitch) + number : ints{};
-        // Pictures are drawn row by row towards -y: what the next rows will ask is on its way.
-        const std::int32_t ahead = to_line_.y > 0 ? -lines_ahead : lines_ahead;
-        ints soon = start + ahead;
-        soon = soon > 0 ? soon : ints{};
-        for (int k = 0; k < N; k += 2) prefetch(crests_.data() + lane(soon, k));
-        floats left, right, u;
-        if (window_.slots == 1) {
-            gather_pairs<N>(left, right, [&](int k) { return crests_.data() + lane(start, k); });
-        } else {
-            // Behind the edge of a row that a line has passed since it entered the cell, its second slot counts. Rows
-            // are counted from the one before the first.
-            const floats left_y = (window_.start + 1.0f) + left_of * window_.spacing + entered_x * window_.slope;
-            const floats y = left_y + share * window_.spacing + (x - entered_x) * window_.slope;
-            ints row;
-            floats edge;
-            convert(row, y);
-            convert(edge, row);
-            const ints past = ints{} + window_.pitch;
-            const ints left_at = start + (left_y < edge ? past : ints{}),
-                       right_at = start + 1 + (left_y + window_.spacing < edge ? past : ints{});
-            gather<N>(left, [&](int k) { return crests_[static_cast<std::size_t>(lane(left_at, k))]; });
-            gather<N>(right, [&](int k) { return crests_[static_cast<std::size_t>(lane(right_at, k))]; });
-        }
-        // One line may have met nothing yet.
-        const ints is_open = ints(left < detail::sweep_relief::least) | ints(right < detail::sweep_relief::least);
-        const floats crest = is_open ? (share < 0.5f ? left : right) : left + share * (right - left);
+        floats crest, u;
+        find_crest<N>(crest, on_map, x, line);
         at(u, to_u_);
         dark = on_map & ints(u < crest);
     }
@@ -7462,6 +7429,60 @@ class horizon {
         }
     };
 
+    /// How far the light is blocked where lines enter the cells of some points, which lie between two lines each.
+    /// @param x     the points' columns, continuous, and `line` their lines; where they aren't on the map, anything
+    template <int N>
+    INSONIFY_INLINE void find_crest(insonify::detail::lanes<float, N>& crest,
+                                    const insonify::detail::lanes<std::int32_t, N>& on_map,
+                                    const insonify::detail::lanes<float, N>& point_x,
+                                    const insonify::detail::lanes<float, N>& point_line) const {
+        using namespace insonify::detail;
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        // Behind the last column, what it says goes on.
+        const auto first = static_cast<float>(window_.first_column),
+                   last = static_cast<float>(window_.first_column + window_.columns - 1);
+        floats x = point_x > first ? point_x : floats{} + first;
+        x = x < last ? x : floats{} + last;
+        const floats line = on_map ? point_line : floats{};
+        ints column, number;
+        convert(column, x);
+        convert(number, line);
+        floats entered_x, left_line;
+        convert(entered_x, column);
+        convert(left_line, number);
+        const floats share = line - left_line;
+
+        const ints start = on_map ? (column - window_.first_column) * (window_.slots * window_.pitch) + number : ints{};
+        // Pictures are drawn row by row towards -y: what the next rows will ask is on its way.
+        const std::int32_t ahead = to_line_.y > 0 ? -lines_ahead : lines_ahead;
+        ints soon = start + ahead;
+        soon = soon > 0 ? soon : ints{};
+        for (int k = 0; k < N; k += 2) prefetch(crests_.data() + lane(soon, k));
+
+        floats left, right;
+        if (window_.slots == 1) {
+            gather_pairs<N>(left, right, [&](int k) { return crests_.data() + lane(start, k); });
+        } else {
+            // Behind the edge of a row that a line has passed since it entered the cell, its second slot counts. Rows
+            // are counted from the one before the first.
+            const floats left_y = (window_.start + 1.0f) + left_line * window_.spacing + entered_x * window_.slope;
+            const floats y = left_y + share * window_.spacing + (x - entered_x) * window_.slope;
+            ints row;
+            floats edge;
+            convert(row, y);
+            convert(edge, row);
+            const ints past = ints{} + window_.pitch;
+            const ints left_at = start + (left_y < edge ? past : ints{}),
+                       right_at = start + 1 + (left_y + window_.spacing < edge ? past : ints{});
+            gather<N>(left, [&](int k) { return crests_[static_cast<std::size_t>(lane(left_at, k))]; });
+            gather<N>(right, [&](int k) { return crests_[static_cast<std::size_t>(lane(right_at, k))]; });
+        }
+        // One line may have met nothing yet.
+        const ints is_open = ints(left < detail::sweep_relief::least) | ints(right < detail::sweep_relief::least);
+        crest = is_open ? (share < 0.5f ? left : right) : left + share * (right - left);
+    }
+
     static constexpr int lines_ahead = 20;
 
     detail::sweep_window window_;
@@ -7481,6 +7502,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::shadow {
 
+/// One mesh as a caster, whatever its shape.
 class refined_caster {
   public:
     /// Casts nothing.
@@ -7544,7 +7566,7 @@ template <class T, executor E>
 image<T> filled(int width, int height, T value, E& ex) {
     image<T> result(width, height, unfilled{});
     if (result.empty()) return result;
-    const std::size_t rows = (std::size_t{1} << 18) / (static_cast<std::size_t>((std::max)(width, 1)) * sizeof(T)) + 1;
+    const std::size_t rows = (std::size_t{1} << 18) / (static_cast<std::size_t>(width) * sizeof(T)) + 1;
     bulk_ranges(ex, static_cast<std::size_t>(height), rows, [&](std::size_t first, std::size_t last) {
         T* const start = result.row(static_cast<int>(first)).data();
         const std::size_t count = (last - first) * static_cast<std::size_t>(width);
@@ -10897,8 +10919,8 @@ inline void describe_targets(labels& l, const std::vector<target>& targets) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/illumination.hpp -----------------------------------------------------------
-// Who is in whose shadow: one map for the seabed, and a small tight one for each target, so that a target's shadow is
-// fine whatever the size of the picture, and the label of a shadow is the name of who casts it.
+// Who is in whose shadow: one caster for the seabed, and a small tight one for each target, so that a target's shadow
+// is fine whatever the size of the picture, and the label of a shadow is the name of who casts it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10948,16 +10970,16 @@ struct placed_mesh {
         : shape(&m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
 };
 
-/// The maps of all casters of a scene.
+/// All casters of a scene, each in the form that the policy asks for.
 template <class Policy>
 class shadow_maps {
     static constexpr bool refined = std::same_as<Policy, shadow::refined>;
-    using caster_map = std::conditional_t<refined, shadow::refined_caster, shadow::height_map>;
+    using caster_form = std::conditional_t<refined, shadow::refined_caster, shadow::height_map>;
 
   public:
     /// @param bottom     the seabed, which also receives; it need not cast beyond `receivers`. Null for none
     /// @param targets    in the order of their instance numbers
-    /// @param receivers  which rays reach something that the picture may show
+    /// @param receivers  around all that the picture may show
     /// @param texel      metres
     template <executor E>
     shadow_maps(const Policy& policy, const shadow::light_frame& light, const placed_mesh* bottom,
@@ -11026,10 +11048,10 @@ class shadow_maps {
     }
 
     template <executor E>
-    caster_map cast(const placed_mesh& caster, const bounding_box& receivers, double texel, E& ex) const {
+    caster_form cast(const placed_mesh& caster, const bounding_box& receivers, double texel, E& ex) const {
         if constexpr (refined) {
-            return caster_map(light_, *caster.shape, caster.box, caster.to_rig, caster.is_solid, receivers, texel,
-                              policy_.largest, ex);
+            return caster_form(light_, *caster.shape, caster.box, caster.to_rig, caster.is_solid, receivers, texel,
+                               policy_.largest, ex);
         } else {
             const shadow::map_extent all = shadow::extent_of(receivers, {}, light_);
             const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(all);
@@ -11041,8 +11063,8 @@ class shadow_maps {
 
     Policy policy_;
     shadow::light_frame light_;
-    caster_map bottom_;
-    std::vector<caster_map> targets_;
+    caster_form bottom_;
+    std::vector<caster_form> targets_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail

@@ -16,7 +16,7 @@ template <class T, executor E>
 image<T> filled(int width, int height, T value, E& ex) {
     image<T> result(width, height, unfilled{});
     if (result.empty()) return result;
-    const std::size_t rows = (std::size_t{1} << 18) / (static_cast<std::size_t>((std::max)(width, 1)) * sizeof(T)) + 1;
+    const std::size_t rows = (std::size_t{1} << 18) / (static_cast<std::size_t>(width) * sizeof(T)) + 1;
     bulk_ranges(ex, static_cast<std::size_t>(height), rows, [&](std::size_t first, std::size_t last) {
         T* const start = result.row(static_cast<int>(first)).data();
         const std::size_t count = (last - first) * static_cast<std::size_t>(width);

@@ -20,13 +20,13 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// Vertex (i, j) is number j columns + i and lies at origin + i right + j up, at any height. Each cell is cut into two
-/// triangles the same way; all of them are counter-clockwise seen from +z.
+/// Vertex (i, j) is number j columns + i and lies at origin + i right + j up in x and y, at any height. Each cell is
+/// cut into two triangles the same way; all of them are counter-clockwise seen from +z.
 struct regular_grid {
-    int columns = 0, rows = 0;  ///< vertices
-    glm::dvec2 origin{0}, right{0}, up{0};
-    bool is_rising =
-        true;  ///< cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1)
+    int columns = 0, rows = 0;              ///< vertices
+    glm::dvec2 origin{0}, right{0}, up{0};  ///< metres, in the mesh's frame
+    /// Cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1).
+    bool is_rising = true;
 };
 
 namespace detail {
@@ -108,8 +108,8 @@ struct cell_cut {
 
 }  // namespace detail
 
-/// How a mesh lies on a regular grid; nothing if it doesn't: vertices may be off by a 256th of a step, and every height
-/// must be a number.
+/// How a mesh lies on a regular grid; nothing if it doesn't. Vertices may be off by a 256th of a step; all heights are
+/// finite.
 template <executor_argument E = serial_executor>
 std::optional<regular_grid> regular_grid_of(const mesh& m, E&& ex = {}) {
     if (m.triangles.size() < 2) return std::nullopt;
@@ -128,8 +128,9 @@ std::optional<regular_grid> regular_grid_of(const mesh& m, E&& ex = {}) {
     grid.up = (place((rows - 1) * columns) - grid.origin) / static_cast<double>(rows - 1);
     // Written so that NaN doesn't pass.
     if (!(grid.right.x * grid.up.y - grid.right.y * grid.up.x > 0)) return std::nullopt;
-    const auto length = [](const glm::dvec2& v) { return numeric::square_root(v.x * v.x + v.y * v.y); };
-    const auto tolerance = static_cast<float>((std::min)(length(grid.right), length(grid.up)) / 256);
+    const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
+    const double shorter = numeric::square_root((std::min)(square(grid.right), square(grid.up)));
+    const auto tolerance = static_cast<float>(shorter / 256);
 
     std::atomic<bool> differs = false;
     bulk_ranges(ex, rows, 16, [&](std::size_t first, std::size_t last) {

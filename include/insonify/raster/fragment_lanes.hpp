@@ -26,8 +26,8 @@ class fragment_lanes {
     std::uint32_t triangles[static_cast<unsigned>(N)];  ///< of the mesh
     ints front;                                         ///< seen from the counter-clockwise side
     floats weights[3];                                  ///< of the corners, perspective-correct
-    bool is_compact;           ///< whether none of the lanes' triangles is clipped or very large
-    floats right[3], down[3];  ///< where the corners are, in sub-pixels from the pixel's centre; of compact ones
+    bool is_compact;                                    ///< none of the lanes' triangles is clipped or very large
+    floats right[3], down[3];  ///< if so, from the pixel's centre to the corners, in sub-pixels
 
     /// @param names  of what each lane shows: somebody's where a lane isn't visible
     template <class Screen>
@@ -37,19 +37,18 @@ class fragment_lanes {
         lanes<std::uint32_t, N> name;
         load(name, names);
         const glm::uvec3* corners[count];
-        floats inverse_w[3];
         is_compact = !any(ints(name >= screen.compact_names()));
         if (is_compact) {
             std::memcpy(triangles, names, sizeof triangles);
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(names[k]); });
-            read_corners(inverse_w, screen, records, corners);
-            weigh(inverse_w);
+            read_corners(screen, records, corners);
+            weigh();
         } else {
             for (int k = 0; k < N; ++k) {
                 triangles[k] = screen.triangle(names[k]);
                 corners[k] = &screen.indices(triangles[k]);
             }
-            read_corners(inverse_w, screen, records, corners);
+            read_corners(screen, records, corners);
             weigh_one_by_one(screen, records, names);
         }
     }
@@ -64,10 +63,10 @@ class fragment_lanes {
   private:
     static constexpr auto count = static_cast<std::size_t>(N);
 
-    /// What is known of the corners of the lanes' triangles; the screen's part of it all together with the records',
-    /// so that a corner is looked for once.
+    /// What the records know of the corners of the lanes' triangles and, of compact ones, the screen: both at once, so
+    /// that a corner is looked for once.
     template <class Screen>
-    INSONIFY_INLINE void read_corners(floats (&inverse_w)[3], const Screen& screen, const record* records,
+    INSONIFY_INLINE void read_corners(const Screen& screen, const record* records,
                                       const glm::uvec3* const (&corners)[count]) {
         const pixel_grid& grid = screen.grid();
         ints column;
@@ -77,12 +76,14 @@ class fragment_lanes {
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             std::size_t vertex[count];
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { vertex[k] = (*corners[k])[i]; });
-            const kept_lanes<N, float> corner([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
-                return screen.vertices()[vertex[k]];
-            });
-            convert(right[i], ints(corner.x - px));
-            convert(down[i], ints(corner.y - py));
-            inverse_w[i] = corner.inverse_w;
+            if (is_compact) {
+                const kept_lanes<N, float> corner([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
+                    return screen.vertices()[vertex[k]];
+                });
+                convert(right[i], ints(corner.x - px));
+                convert(down[i], ints(corner.y - py));
+                inverse_w_[i] = corner.inverse_w;
+            }
             unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
                 transpose<N>(values_[i] + 4 * block,
                              [&](int k) INSONIFY_INLINE_LAMBDA { return records[vertex[k]].values + 4 * block; });
@@ -92,13 +93,13 @@ class fragment_lanes {
 
     /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out. In float a
     /// share is off by 2^-24 of the triangle's length squared.
-    INSONIFY_INLINE void weigh(const floats (&inverse_w)[3]) {
+    INSONIFY_INLINE void weigh() {
         // From the pixel, so that exchanging two corners changes a sign and nothing else.
         weights[0] = right[1] * down[2] - down[1] * right[2];
         weights[1] = right[2] * down[0] - down[2] * right[0];
         weights[2] = right[0] * down[1] - down[0] * right[1];
         front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * inverse_w[i]; });
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * inverse_w_[i]; });
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * scale; });
     }
@@ -131,6 +132,7 @@ class fragment_lanes {
     }
 
     floats values_[3][static_cast<unsigned>(4 * record::blocks)];  ///< of the corners
+    floats inverse_w_[3];                                          ///< of those of compact triangles
 };
 
 /// Hands the pixels of one tile that this draw has won to `shader(fragment_lanes)`.

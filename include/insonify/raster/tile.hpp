@@ -182,6 +182,7 @@ struct tile_kernel {
 
     /// As many as come before one that isn't small. A tile's triangles lie far apart in the mesh, in rows of a few: so
     /// while a group of them is drawn, the next one's corners and the indices of the one after that are on their way.
+    /// Neighbours share corners, and cache lines: every second triangle, and every fourth, stand for the others.
     template <int N>
     INSONIFY_INLINE void draw_small_ones(run_reader& left) const {
         struct group {

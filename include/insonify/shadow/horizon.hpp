@@ -113,47 +113,8 @@ class horizon {
         const ints on_map =
             asked & ints(x >= 0.0f) & ints(line >= 0.0f) & ints(line < static_cast<float>(window_.lines - 1));
         if (!any(on_map)) return;
-        // Behind the last column, what it says goes on.
-        const auto first = static_cast<float>(window_.first_column),
-                   last = static_cast<float>(window_.first_column + window_.columns - 1);
-        x = x > first ? x : floats{} + first;
-        x = x < last ? x : floats{} + last;
-        line = on_map ? line : floats{};
-        ints column, number;
-        convert(column, x);
-        convert(number, line);
-        floats entered_x, left_of;
-        convert(entered_x, column);
-        convert(left_of, number);
-        const floats share = line - left_of;
-
-        const ints start = on_map ? (column - window_.first_column) * (window_.slots * window_.pitch) + number : ints{};
-        // Pictures are drawn row by row towards -y: what the next rows will ask is on its way.
-        const std::int32_t ahead = to_line_.y > 0 ? -lines_ahead : lines_ahead;
-        ints soon = start + ahead;
-        soon = soon > 0 ? soon : ints{};
-        for (int k = 0; k < N; k += 2) prefetch(crests_.data() + lane(soon, k));
-        floats left, right, u;
-        if (window_.slots == 1) {
-            gather_pairs<N>(left, right, [&](int k) { return crests_.data() + lane(start, k); });
-        } else {
-            // Behind the edge of a row that a line has passed since it entered the cell, its second slot counts. Rows
-            // are counted from the one before the first.
-            const floats left_y = (window_.start + 1.0f) + left_of * window_.spacing + entered_x * window_.slope;
-            const floats y = left_y + share * window_.spacing + (x - entered_x) * window_.slope;
-            ints row;
-            floats edge;
-            convert(row, y);
-            convert(edge, row);
-            const ints past = ints{} + window_.pitch;
-            const ints left_at = start + (left_y < edge ? past : ints{}),
-                       right_at = start + 1 + (left_y + window_.spacing < edge ? past : ints{});
-            gather<N>(left, [&](int k) { return crests_[static_cast<std::size_t>(lane(left_at, k))]; });
-            gather<N>(right, [&](int k) { return crests_[static_cast<std::size_t>(lane(right_at, k))]; });
-        }
-        // One line may have met nothing yet.
-        const ints is_open = ints(left < detail::sweep_relief::least) | ints(right < detail::sweep_relief::least);
-        const floats crest = is_open ? (share < 0.5f ? left : right) : left + share * (right - left);
+        floats crest, u;
+        find_crest<N>(crest, on_map, x, line);
         at(u, to_u_);
         dark = on_map & ints(u < crest);
     }
@@ -178,6 +139,60 @@ class horizon {
             return both;
         }
     };
+
+    /// How far the light is blocked where lines enter the cells of some points, which lie between two lines each.
+    /// @param x     the points' columns, continuous, and `line` their lines; where they aren't on the map, anything
+    template <int N>
+    INSONIFY_INLINE void find_crest(insonify::detail::lanes<float, N>& crest,
+                                    const insonify::detail::lanes<std::int32_t, N>& on_map,
+                                    const insonify::detail::lanes<float, N>& point_x,
+                                    const insonify::detail::lanes<float, N>& point_line) const {
+        using namespace insonify::detail;
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        // Behind the last column, what it says goes on.
+        const auto first = static_cast<float>(window_.first_column),
+                   last = static_cast<float>(window_.first_column + window_.columns - 1);
+        floats x = point_x > first ? point_x : floats{} + first;
+        x = x < last ? x : floats{} + last;
+        const floats line = on_map ? point_line : floats{};
+        ints column, number;
+        convert(column, x);
+        convert(number, line);
+        floats entered_x, left_line;
+        convert(entered_x, column);
+        convert(left_line, number);
+        const floats share = line - left_line;
+
+        const ints start = on_map ? (column - window_.first_column) * (window_.slots * window_.pitch) + number : ints{};
+        // Pictures are drawn row by row towards -y: what the next rows will ask is on its way.
+        const std::int32_t ahead = to_line_.y > 0 ? -lines_ahead : lines_ahead;
+        ints soon = start + ahead;
+        soon = soon > 0 ? soon : ints{};
+        for (int k = 0; k < N; k += 2) prefetch(crests_.data() + lane(soon, k));
+
+        floats left, right;
+        if (window_.slots == 1) {
+            gather_pairs<N>(left, right, [&](int k) { return crests_.data() + lane(start, k); });
+        } else {
+            // Behind the edge of a row that a line has passed since it entered the cell, its second slot counts. Rows
+            // are counted from the one before the first.
+            const floats left_y = (window_.start + 1.0f) + left_line * window_.spacing + entered_x * window_.slope;
+            const floats y = left_y + share * window_.spacing + (x - entered_x) * window_.slope;
+            ints row;
+            floats edge;
+            convert(row, y);
+            convert(edge, row);
+            const ints past = ints{} + window_.pitch;
+            const ints left_at = start + (left_y < edge ? past : ints{}),
+                       right_at = start + 1 + (left_y + window_.spacing < edge ? past : ints{});
+            gather<N>(left, [&](int k) { return crests_[static_cast<std::size_t>(lane(left_at, k))]; });
+            gather<N>(right, [&](int k) { return crests_[static_cast<std::size_t>(lane(right_at, k))]; });
+        }
+        // One line may have met nothing yet.
+        const ints is_open = ints(left < detail::sweep_relief::least) | ints(right < detail::sweep_relief::least);
+        crest = is_open ? (share < 0.5f ? left : right) : left + share * (right - left);
+    }
 
     static constexpr int lines_ahead = 20;
 

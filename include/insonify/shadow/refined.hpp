@@ -9,6 +9,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::shadow {
 
+/// One mesh as a caster, whatever its shape.
 class refined_caster {
   public:
     /// Casts nothing.

@@ -17,7 +17,8 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::shadow::detail {
 
-using insonify::detail::lanes;
+using insonify::detail::convert, insonify::detail::count_up, insonify::detail::lanes, insonify::detail::store,
+    insonify::detail::transpose, insonify::detail::unfilled_vector;
 
 /// A grid as a sweep sees it: X counts its vertices along the axis that the light follows most, Y those across, both
 /// turned so that the light goes towards larger ones, by `slope` of Y for each of X. All points of a ray share
@@ -67,7 +68,7 @@ struct sweep_relief {
     static constexpr float least = -1e20f;  ///< of any u; what is interpolated with nothing lies below it
 
     std::ptrdiff_t pitch;
-    insonify::detail::unfilled_vector<float> u;
+    unfilled_vector<float> u;
 
     template <executor E>
     sweep_relief(const mesh& m, const sweep_grid& grid, E& ex)
@@ -148,6 +149,7 @@ struct sweep_kernel {
         if (at < 0 || at >= window.columns) return nullptr;
         return crests + std::ptrdiff_t{at} * window.slots * window.pitch + first_line;
     }
+    /// The same crests in some columns.
     template <class Lines>
     INSONIFY_INLINE void keep(const Lines& lines, int first, int last) const {
         for (int column = first; column < last; ++column) {
@@ -155,7 +157,7 @@ struct sweep_kernel {
             for (int slot = 0; kept != nullptr && slot < window.slots; ++slot) {
                 float* to = kept + slot * window.pitch;
                 for (const auto& some : lines) {
-                    insonify::detail::store(to, some.crest);
+                    store(to, some.crest);
                     to += sizeof some.crest / sizeof *to;
                 }
             }
@@ -175,13 +177,13 @@ struct sweep_kernel {
 
         INSONIFY_INLINE void enter(const sweep_kernel& of, int first, int column) {
             floats number;
-            insonify::detail::count_up<float, N>(number);
+            count_up<float, N>(number);
             number = number + static_cast<float>(first);
             start = number * of.window.spacing + (of.window.start + static_cast<float>(sweep_relief::below));
             floats y, four[4];
             y_at(y, of, column);
-            insonify::detail::convert(row, y);
-            insonify::detail::convert(beyond, row);
+            convert(row, y);
+            convert(beyond, row);
             beyond = y - beyond;
             read(four, of, column);
             for (int i = 0; i < 3; ++i) vertex[i] = four[i];
@@ -190,18 +192,19 @@ struct sweep_kernel {
         }
 
         /// From one column to the next, over edges whose ends are vertices of both.
+        /// @param kept  where the column's crests go, or null
         template <bool Rising>
-        INSONIFY_INLINE void step(const sweep_kernel& of, int column, float* keep) {
+        INSONIFY_INLINE void step(const sweep_kernel& of, int column, float* kept) {
             const float slope = of.window.slope;
             floats ahead[4], y;
             read(ahead, of, column + 1);
             y_at(y, of, column + 1);
             ints next_row;
-            insonify::detail::convert(next_row, y);
+            convert(next_row, y);
             const ints climbs = ints(next_row > row);  // over the edge of a row
             next_row = climbs ? row + 1 : row;
             floats next_beyond, next_u, on_edge;
-            insonify::detail::convert(next_beyond, next_row);
+            convert(next_beyond, next_row);
             next_beyond = y - next_beyond;
             const floats next[3] = {climbs ? ahead[1] : ahead[0], climbs ? ahead[2] : ahead[1],
                                     climbs ? ahead[3] : ahead[2]};
@@ -212,7 +215,7 @@ struct sweep_kernel {
                 between(on_diagonal, vertex[0], ahead[1], beyond * (slope < 1 ? 1 / (1 - slope) : 0.0f));
                 const floats middle = climbs ? on_edge : on_diagonal;
                 fall(u, middle);
-                if (keep != nullptr) insonify::detail::store(keep, crest);
+                if (kept != nullptr) store(kept, crest);
                 fall(middle, next_u);
             } else {
                 floats on_first, on_second;
@@ -220,10 +223,10 @@ struct sweep_kernel {
                 between(on_second, vertex[2], ahead[1], (2.0f - beyond) * (1 / (1 + slope)));
                 const floats third = climbs ? on_edge : next_u, fourth = climbs ? on_second : next_u;
                 fall(u, on_first);
-                if (keep != nullptr) insonify::detail::store(keep, crest);
+                if (kept != nullptr) store(kept, crest);
                 fall(on_first, third);
                 fall(third, fourth);
-                if (keep != nullptr) insonify::detail::store(keep + of.window.pitch, crest);
+                if (kept != nullptr) store(kept + of.window.pitch, crest);
                 fall(fourth, next_u);
             }
             row = next_row;
@@ -233,11 +236,10 @@ struct sweep_kernel {
         }
 
         /// Behind the last column there is nothing.
-        INSONIFY_INLINE void leave(const sweep_kernel& of, float* keep) {
+        INSONIFY_INLINE void leave(const sweep_kernel& of, float* kept) {
             fall(u, floats{} + sweep_relief::nothing);
-            if (keep == nullptr) return;
-            for (int slot = 0; slot < of.window.slots; ++slot)
-                insonify::detail::store(keep + slot * of.window.pitch, crest);
+            if (kept == nullptr) return;
+            for (int slot = 0; slot < of.window.slots; ++slot) store(kept + slot * of.window.pitch, crest);
         }
 
       private:
@@ -251,7 +253,7 @@ struct sweep_kernel {
         /// u of the vertex in the line's row, and of the next three.
         INSONIFY_INLINE void read(floats (&four)[4], const sweep_kernel& of, int column) const {
             const float* const from = of.relief.u.data() + column * of.relief.pitch;
-            insonify::detail::transpose<N>(four, [&](int k) { return from + insonify::detail::lane(row, k); });
+            transpose<N>(four, [&](int k) { return from + insonify::detail::lane(row, k); });
         }
         /// Exact at both ends, though one may be nothing; never beyond the second.
         INSONIFY_INLINE static void between(floats& into, const floats& a, const floats& b, const floats& share) {

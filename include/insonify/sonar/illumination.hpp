@@ -1,5 +1,5 @@
-// Who is in whose shadow: one map for the seabed, and a small tight one for each target, so that a target's shadow is
-// fine whatever the size of the picture, and the label of a shadow is the name of who casts it.
+// Who is in whose shadow: one caster for the seabed, and a small tight one for each target, so that a target's shadow
+// is fine whatever the size of the picture, and the label of a shadow is the name of who casts it.
 #pragma once
 
 #include <insonify/shadow/lookup.hpp>
@@ -54,16 +54,16 @@ struct placed_mesh {
         : shape(&m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
 };
 
-/// The maps of all casters of a scene.
+/// All casters of a scene, each in the form that the policy asks for.
 template <class Policy>
 class shadow_maps {
     static constexpr bool refined = std::same_as<Policy, shadow::refined>;
-    using caster_map = std::conditional_t<refined, shadow::refined_caster, shadow::height_map>;
+    using caster_form = std::conditional_t<refined, shadow::refined_caster, shadow::height_map>;
 
   public:
     /// @param bottom     the seabed, which also receives; it need not cast beyond `receivers`. Null for none
     /// @param targets    in the order of their instance numbers
-    /// @param receivers  which rays reach something that the picture may show
+    /// @param receivers  around all that the picture may show
     /// @param texel      metres
     template <executor E>
     shadow_maps(const Policy& policy, const shadow::light_frame& light, const placed_mesh* bottom,
@@ -132,10 +132,10 @@ class shadow_maps {
     }
 
     template <executor E>
-    caster_map cast(const placed_mesh& caster, const bounding_box& receivers, double texel, E& ex) const {
+    caster_form cast(const placed_mesh& caster, const bounding_box& receivers, double texel, E& ex) const {
         if constexpr (refined) {
-            return caster_map(light_, *caster.shape, caster.box, caster.to_rig, caster.is_solid, receivers, texel,
-                              policy_.largest, ex);
+            return caster_form(light_, *caster.shape, caster.box, caster.to_rig, caster.is_solid, receivers, texel,
+                               policy_.largest, ex);
         } else {
             const shadow::map_extent all = shadow::extent_of(receivers, {}, light_);
             const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(all);
@@ -147,8 +147,8 @@ class shadow_maps {
 
     Policy policy_;
     shadow::light_frame light_;
-    caster_map bottom_;
-    std::vector<caster_map> targets_;
+    caster_form bottom_;
+    std::vector<caster_form> targets_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail

@@ -95,6 +95,12 @@ TEST_CASE("Whatever else a mesh is, it isn't a grid") {
     CHECK(refused([](in::mesh& m) {
         for (glm::vec3& p : m.positions) p.y = 0;
     }));
+    // Everywhere the second triangle over half of the first, or the same again.
+    for (const bool is_same : {false, true})
+        CHECK(refused([&](in::mesh& m) {
+            const in::mesh other = grid_of(21, 30, is_same);
+            for (std::size_t i = 0; i < m.triangles.size(); i += 2) m.triangles[i + 1] = other.triangles[i];
+        }));
     // Cut alternately.
     CHECK(refused([](in::mesh& m) {
         const in::mesh other = grid_of(21, 30, false);

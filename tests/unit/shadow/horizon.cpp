@@ -172,6 +172,58 @@ TEST_CASE("What is asked about lies anywhere: before the grid, behind it, beside
     CHECK(ask(shadow::horizon(), {{0, 0, 0}}) == std::vector<bool>{false});
 }
 
+TEST_CASE("A grid ends like a cliff: what lies behind its last edge, and deeper, is dark") {
+    for (const bool falls : {false, true})
+        for (double azimuth = 10; azimuth < 360; azimuth += 40) {
+            CAPTURE(falls, azimuth);
+            // Ground that rises along the light all the way to the end.
+            const shadow::light_frame light({radians(azimuth), radians(20)});
+            const glm::dvec2& travel = light.travel();
+            const in::mesh rising =
+                grid_of(31, falls, [&](double x, double y) { return 0.2 * (x * travel.x + y * travel.y); });
+            const in::bounding_box box = in::merge(in::bounds(rising), {{-9, -9, -2}, {9, 9, 2}});
+            const shadow::horizon h = horizon_of(rising, light, 0.02, {}, box);
+            // Where the light leaves the grid above its middle.
+            const double half = 1.5 / (std::max)(std::abs(travel.x), std::abs(travel.y)), beyond = half + 0.4;
+            const double ray = 0.2 * half - 0.4 * std::tan(radians(20));
+            const auto point = [&](double z) { return glm::vec3(glm::dvec3(beyond * travel, z)); };
+            CHECK(ask(h, {point(ray - 0.01), point(ray + 0.01)}) == std::vector<bool>{true, false});
+        }
+}
+
+TEST_CASE("A shadow goes on beside the grid, however long ago the light left it") {
+    const glm::dvec2 crest(-1.3, 1.2);
+    const shadow::light_frame light({radians(40), radians(5)});
+    for (const bool falls : {false, true}) {
+        const in::mesh wall =
+            grid_of(61, falls, [&](double, double y) { return std::abs(y - crest.y) < 0.01 ? 0.2 : 0.0; });
+        const in::bounding_box box = in::merge(in::bounds(wall), {{-9, -9, -1}, {9, 9, 1}});
+        const shadow::horizon h = horizon_of(wall, light, 0.02, {}, box);
+        for (const double way : {0.6, 1.0, 1.5, 2.0}) {
+            CAPTURE(falls, way);
+            const double ray = 0.2 - way * std::tan(radians(5));
+            const auto point = [&](double z) { return glm::vec3(glm::dvec3(crest + way * light.travel(), z)); };
+            CHECK(ask(h, {point(ray - 0.005), point(ray + 0.005)}) == std::vector<bool>{true, false});
+        }
+    }
+}
+
+TEST_CASE("The end of a grid is off by half of what lines lie apart at most") {
+    const shadow::light_frame light({0, radians(45)});
+    const in::mesh wall = grid_of(31, false, [](double x, double) { return x > -0.05 && x < 0.05 ? 0.5 : 0.0; });
+    const in::bounding_box box = in::merge(in::bounds(wall), {{-9, -9, -1}, {9, 9, 1}});
+    for (const double texel : {0.2, 0.23, 0.26, 0.29, 0.32, 0.35}) {
+        CAPTURE(texel);
+        const shadow::horizon h = horizon_of(wall, light, texel, {}, box);
+        const double half = texel / 1.5 / 2 + 0.001;
+        for (const double end : {-1.5, 1.5}) {
+            const double out = end < 0 ? -1 : 1;
+            const auto point = [&](double beyond) { return glm::vec3(glm::dvec3(0.2, end + out * beyond, 0.1)); };
+            CHECK(ask(h, {point(-half), point(half)}) == std::vector<bool>{true, false});
+        }
+    }
+}
+
 TEST_CASE("A part of a grid is asked about as the whole is") {
     const in::mesh bottom = seabed_of(in::seabed::rock{}, 97, false);
     for (const double azimuth : {50.0, 140.0, 230.0, 320.0}) {
