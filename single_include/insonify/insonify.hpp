@@ -798,11 +798,26 @@ INSONIFY_INLINE void convert(To& into, const From& from) {
 /// Whether any lane of a mask is set.
 template <class Mask>
 INSONIFY_INLINE bool any(const Mask& mask) {
-    std::uint64_t words[(sizeof mask + 7) / 8] = {};
-    std::memcpy(words, &mask, sizeof mask);
-    std::uint64_t all = 0;
-    for (const std::uint64_t word : words) all |= word;
-    return all != 0;
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (sizeof mask == 16) {
+        lanes<float, 4> bits;
+        std::memcpy(&bits, &mask, sizeof bits);
+        return __builtin_ia32_movmskps(bits) != 0;
+    } else if constexpr (sizeof mask > 16) {
+        lanes<std::int64_t, sizeof mask / 16> low, high;
+        std::memcpy(&low, &mask, sizeof low);
+        std::memcpy(&high, reinterpret_cast<const char*>(&mask) + sizeof low, sizeof high);
+        low |= high;
+        return any(low);
+    } else
+#endif
+    {
+        std::uint64_t words[(sizeof mask + 7) / 8] = {};
+        std::memcpy(words, &mask, sizeof mask);
+        std::uint64_t all = 0;
+        for (const std::uint64_t word : words) all |= word;
+        return all != 0;
+    }
 }
 
 /// Bit k is set where lane k of a mask is; for 1, 4 or 8 lanes of 32 bits.
@@ -968,6 +983,24 @@ INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* r
 }
 #endif
 
+/// Lane k of both, side by side: gather_pairs the other way.
+template <int N>
+INSONIFY_INLINE void store_pairs(float* into, const lanes<float, N>& first, const lanes<float, N>& second) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        lanes<float, N> low, high;
+        shuffle<N>(low, first, second, [](int i) { return i / 2 + i % 2 * N; });
+        shuffle<N>(high, first, second, [](int i) { return N / 2 + i / 2 + i % 2 * N; });
+        store(into, low);
+        store(into + N, high);
+    } else
+#endif
+    {
+        into[0] = first;
+        into[1] = second;
+    }
+}
+
 /// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 1, 4, 8 or 16.
 template <int N, class Rows>
 INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
@@ -1041,6 +1074,10 @@ struct bounding_box {
     glm::dvec3 size() const { return empty() ? glm::dvec3(0) : upper - lower; }
     /// @pre the box is not empty
     glm::dvec3 centre() const { return 0.5 * (lower + upper); }
+    /// One of eight: bit k of `i` takes the upper end of axis k.
+    glm::dvec3 corner(int i) const {
+        return {(i & 1) != 0 ? upper.x : lower.x, (i & 2) != 0 ? upper.y : lower.y, (i & 4) != 0 ? upper.z : lower.z};
+    }
     friend bool operator==(const bounding_box&, const bounding_box&) = default;
 };
 
@@ -2063,7 +2100,8 @@ INSONIFY_ARITHMETIC_END
 //
 // The system clears every page before it hands it out. Where pictures are made one after another, in new memory each
 // time, that is up to a third of the time. So a thread holds on to the large blocks that it gives back; together with
-// what it has in use, never to more than it has had in use at once.
+// what it has in use, never to more than an eighth above what it has had in use at once. The eighth is for what comes
+// and goes within a picture: without it, that would drive out what the picture's peak needs.
 
 #include <new>
 
@@ -2142,7 +2180,7 @@ class spare_memory {
             if (blocks_[i].size == size) memory = drop(i);
         if (memory == nullptr) {
             const std::size_t most = (std::max)(most_, in_use_ + size);
-            while (count_ > 0 && kept_ + in_use_ + size > most) free(0);
+            while (count_ > 0 && kept_ + in_use_ + size > limit(most)) free(0);
             memory = large_pages::allocate(bytes);
             most_ = most;
         }
@@ -2154,7 +2192,7 @@ class spare_memory {
     void give(void* memory, std::size_t bytes) noexcept {
         const std::size_t size = large_pages::rounded(bytes);
         in_use_ -= (std::min)(in_use_, size);
-        if (count_ == most_blocks || kept_ + in_use_ + size > most_) return large_pages::free(memory, size);
+        if (count_ == most_blocks || kept_ + in_use_ + size > limit(most_)) return large_pages::free(memory, size);
         blocks_[count_++] = {memory, size};
         kept_ += size;
     }
@@ -2172,6 +2210,8 @@ class spare_memory {
         void* memory;
         std::size_t size;
     };
+
+    static std::size_t limit(std::size_t most) { return most + most / 8; }
 
     void free(int i) noexcept {
         const std::size_t size = blocks_[i].size;
@@ -2195,8 +2235,8 @@ class spare_memory {
 }  // namespace detail
 
 /// Gives back to the system what the calling thread has kept of large memory for its next picture. A thread keeps
-/// blocks of 4 MB and more, together with what it has in use never more than it has had in use at once; its end
-/// releases them, too.
+/// blocks of 4 MB and more, together with what it has in use never more than an eighth above what it has had in use at
+/// once; its end releases them, too.
 inline void release_memory() noexcept {
     if (detail::spare_memory* const spare = detail::spare_memory::mine()) spare->release();
 }
@@ -3042,7 +3082,7 @@ struct assembly_kernel {
                    fate = (degenerate ? none + 1 : none) | (culled ? none + 2 : none) | (missed ? none + 4 : none);
         // Most of the time they all go the same way.
         const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
-        if (!any(ints(fate | (first_tile ^ one_first) | (last_tile ^ one_last)))) {
+        if (!any(ints((fate | (first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
             out.stats.drawn += N;
             out.runs.add(name, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
             return true;
@@ -3347,7 +3387,7 @@ struct small_fill {
         });
         if constexpr (exact) {
             found.doubtful &= found.covered;
-            if (any(found.doubtful)) settle(found, nearest);
+            if (any(ints(found.doubtful != 0))) settle(found, nearest);
         }
         keep_covered(found);
     }
@@ -4648,7 +4688,7 @@ class row_normals {
             ints bits;
             const floats known = (left - left) + (right - right) + (back - back) + (ahead - ahead) + (here - here);
             std::memcpy(&bits, &known, sizeof bits);
-            if (insonify::detail::any(ints(bits & 0x7FFFFFFF))) {
+            if (insonify::detail::any(ints((bits & 0x7FFFFFFF) != 0))) {
                 for (std::size_t k = 0; k < N; ++k) one(i + k);
                 continue;
             }
@@ -7041,7 +7081,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify::inline INSONIFY_ABI::shadow::detail {
 
 using insonify::detail::convert, insonify::detail::count_up, insonify::detail::lanes, insonify::detail::store,
-    insonify::detail::transpose, insonify::detail::unfilled_vector;
+    insonify::detail::store_pairs, insonify::detail::transpose, insonify::detail::unfilled_vector;
 
 /// A grid as a sweep sees it: X counts its vertices along the axis that the light follows most, Y those across, both
 /// turned so that the light goes towards larger ones, by `slope` of Y for each of X. All points of a ray share
@@ -7147,7 +7187,7 @@ struct sweep_kernel {
         for (int column = first; column < (std::min)(last, grid.columns); ++column) {
             float* const kept = kept_at(column);
             for (int i = 0; i < block / N; ++i) {
-                float* const to = kept == nullptr ? nullptr : kept + i * N;
+                float* const to = kept == nullptr ? nullptr : kept + i * N * window.slots;
                 if (column + 1 == grid.columns)
                     lines[i].leave(*this, to);
                 else if (grid.is_rising)
@@ -7170,20 +7210,17 @@ struct sweep_kernel {
     float* kept_at(int column) const {
         const int at = column - window.first_column;
         if (at < 0 || at >= window.columns) return nullptr;
-        return crests + std::ptrdiff_t{at} * window.slots * window.pitch + first_line;
+        return crests + (std::ptrdiff_t{at} * window.pitch + first_line) * window.slots;
     }
     /// The same crests in some columns.
     template <class Lines>
     INSONIFY_INLINE void keep(const Lines& lines, int first, int last) const {
         for (int column = first; column < last; ++column) {
             float* const kept = kept_at(column);
-            for (int slot = 0; kept != nullptr && slot < window.slots; ++slot) {
-                float* to = kept + slot * window.pitch;
-                for (const auto& some : lines) {
-                    store(to, some.crest);
-                    to += sizeof some.crest / sizeof *to;
-                }
-            }
+            if (kept == nullptr) continue;
+            for (int i = 0; i < static_cast<int>(std::size(lines)); ++i)
+                lines[i].keep(kept + i * static_cast<int>(sizeof lines[i].crest / sizeof(float)) * window.slots,
+                              window.slots);
         }
     }
 
@@ -7246,10 +7283,10 @@ struct sweep_kernel {
                 between(on_second, vertex[2], ahead[1], (2.0f - beyond) * (1 / (1 + slope)));
                 const floats third = climbs ? on_edge : next_u, fourth = climbs ? on_second : next_u;
                 fall(u, on_first);
-                if (kept != nullptr) store(kept, crest);
+                const floats before = crest;
                 fall(on_first, third);
                 fall(third, fourth);
-                if (kept != nullptr) store(kept + of.window.pitch, crest);
+                if (kept != nullptr) store_pairs<N>(kept, before, crest);
                 fall(fourth, next_u);
             }
             row = next_row;
@@ -7262,7 +7299,14 @@ struct sweep_kernel {
         INSONIFY_INLINE void leave(const sweep_kernel& of, float* kept) {
             fall(u, floats{} + sweep_relief::nothing);
             if (kept == nullptr) return;
-            for (int slot = 0; slot < of.window.slots; ++slot) store(kept + slot * of.window.pitch, crest);
+            keep(kept, of.window.slots);
+        }
+        /// The same in all slots.
+        INSONIFY_INLINE void keep(float* kept, int slots) const {
+            if (slots == 1)
+                store(kept, crest);
+            else
+                store_pairs<N>(kept, crest, crest);
         }
 
       private:
@@ -7365,7 +7409,7 @@ class horizon {
         const detail::sweep_relief relief(m, sweep, ex);
         crests_.resize(static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.slots) *
                            static_cast<std::size_t>(window_.pitch) +
-                       lines_ahead);
+                       lines_ahead * 2);
         bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
                     [&](std::size_t start, std::size_t) {
                         insonify::detail::dispatch(
@@ -7453,9 +7497,9 @@ class horizon {
         convert(left_line, number);
         const floats share = line - left_line;
 
-        const ints start = on_map ? (column - window_.first_column) * (window_.slots * window_.pitch) + number : ints{};
+        const ints start = on_map ? ((column - window_.first_column) * window_.pitch + number) * window_.slots : ints{};
         // Pictures are drawn row by row towards -y: what the next rows will ask is on its way.
-        const std::int32_t ahead = to_line_.y > 0 ? -lines_ahead : lines_ahead;
+        const std::int32_t ahead = (to_line_.y > 0 ? -lines_ahead : lines_ahead) * window_.slots;
         ints soon = start + ahead;
         soon = soon > 0 ? soon : ints{};
         for (int k = 0; k < N; k += 2) prefetch(crests_.data() + lane(soon, k));
@@ -7472,11 +7516,10 @@ class horizon {
             floats edge;
             convert(row, y);
             convert(edge, row);
-            const ints past = ints{} + window_.pitch;
-            const ints left_at = start + (left_y < edge ? past : ints{}),
-                       right_at = start + 1 + (left_y + window_.spacing < edge ? past : ints{});
-            gather<N>(left, [&](int k) { return crests_[static_cast<std::size_t>(lane(left_at, k))]; });
-            gather<N>(right, [&](int k) { return crests_[static_cast<std::size_t>(lane(right_at, k))]; });
+            floats both[4];  // slots of both lines
+            transpose<N>(both, [&](int k) { return crests_.data() + lane(start, k); });
+            left = left_y < edge ? both[1] : both[0];
+            right = left_y + window_.spacing < edge ? both[3] : both[2];
         }
         // One line may have met nothing yet.
         const ints is_open = ints(left < detail::sweep_relief::least) | ints(right < detail::sweep_relief::least);
@@ -9480,7 +9523,7 @@ class block_layer {
             const ints lot = ints(first & 0xFFFFu);
             const ints met = (half > 0.0f ? one : zero) & (lot < layer.share_ ? one : zero) &
                              (ints(number) < static_cast<std::int32_t>(limit) ? one : zero);
-            if (!insonify::detail::any(met)) return false;
+            if (!insonify::detail::any(ints(met != 0))) return false;
             half = half > 0.0f ? half : floats{};
             insonify::detail::square_root<N>(half, half);
             insonify::detail::store(there, met);
@@ -10946,6 +10989,7 @@ struct light_shares {
 /// N points of a surface, in the rig's frame.
 template <int N>
 struct surface_points {
+    int x, y;  ///< the first one's pixel; the others are the next of its row
     lanes<std::int32_t, N> visible;
     lanes<float, N> position[3];
     lanes<float, N> facet[3];  ///< normal of the triangle, of any length, on the side that is seen
@@ -10970,6 +11014,30 @@ struct placed_mesh {
         : shape(&m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
 };
 
+/// Which pixels may show something in an object's shadow, or the object itself, down to a height in the rig's frame.
+inline pixel_box shadowed_pixels(const overhead_geometry& view, const placed_mesh& caster, double lowest) {
+    const glm::dvec3& to_light = view.light().to_light();
+    const overhead& rig = view.rig();
+    glm::dvec2 first(std::numeric_limits<double>::infinity()), last = -first;
+    for (int corner = 0; corner < 8 && !caster.box.empty(); ++corner) {
+        const glm::dvec3 at = transform_point(caster.to_rig, caster.box.corner(corner));
+        if (at.z > static_cast<double>(rig.altitude) * (1 - 1e-6)) return {0, 0, rig.size.x - 1, rig.size.y - 1};
+        // What all of these points surround, their pictures do.
+        const double fall = (std::max)(at.z - lowest, 0.0) / to_light.z;
+        for (const glm::dvec3& p : {at, at - fall * to_light}) {
+            const glm::dvec2 pixel = view.pixel(p);
+            first = glm::dvec2((std::min)(first.x, pixel.x), (std::min)(first.y, pixel.y));
+            last = glm::dvec2((std::max)(last.x, pixel.x), (std::max)(last.y, pixel.y));
+        }
+    }
+    // One more all around, for places in floats.
+    const auto held = [](double pixel, int size) {
+        return static_cast<int>((std::min)((std::max)(pixel, -2.0), static_cast<double>(size) + 1));
+    };
+    return {held(first.x - 1, rig.size.x), held(first.y - 1, rig.size.y), held(last.x + 1, rig.size.x),
+            held(last.y + 1, rig.size.y)};
+}
+
 /// All casters of a scene, each in the form that the policy asks for.
 template <class Policy>
 class shadow_maps {
@@ -10982,12 +11050,13 @@ class shadow_maps {
     /// @param receivers  around all that the picture may show
     /// @param texel      metres
     template <executor E>
-    shadow_maps(const Policy& policy, const shadow::light_frame& light, const placed_mesh* bottom,
+    shadow_maps(const Policy& policy, const overhead_geometry& view, const placed_mesh* bottom,
                 std::span<const placed_mesh> targets, const bounding_box& receivers, double texel, E& ex)
-        : policy_(policy), light_(light) {
+        : policy_(policy), light_(view.light()) {
         if (bottom != nullptr) bottom_ = cast(*bottom, receivers, texel, ex);
         targets_.reserve(targets.size());
-        for (const placed_mesh& t : targets) targets_.push_back(cast(t, receivers, texel, ex));
+        for (const placed_mesh& t : targets)
+            targets_.push_back({cast(t, receivers, texel, ex), shadowed_pixels(view, t, receivers.lower.z)});
     }
 
     /// @param useful  where a shadow would change what is seen; the others' shares need not be right
@@ -11001,6 +11070,11 @@ class shadow_maps {
     }
 
   private:
+    struct target_caster {
+        caster_form form;
+        pixel_box shadowed;
+    };
+
     template <int N>
     INSONIFY_INLINE void ask_in_lanes(light_shares<N>& shares, const surface_points<N>& at,
                                       const lanes<std::int32_t, N>& useful) const {
@@ -11009,7 +11083,9 @@ class shadow_maps {
         // A target's shadow goes on over what would be dark without it.
         ints dark;
         for (std::size_t i = 0; i < targets_.size(); ++i) {
-            targets_[i].template darken<N>(dark, useful, at.position);
+            const pixel_box& shadowed = targets_[i].shadowed;
+            if (at.y < shadowed.y0 || at.y > shadowed.y1 || at.x > shadowed.x1 || at.x + N <= shadowed.x0) continue;
+            targets_[i].form.template darken<N>(dark, useful, at.position);
             shares.darken(dark ? floats{} : floats{} + 1.0f, static_cast<std::uint16_t>(i + 1));
         }
         const glm::dvec2& travel = light_.travel();
@@ -11039,7 +11115,7 @@ class shadow_maps {
         if constexpr (!refined) {
             const shadow::receiver at(light_, position, facet);
             for (std::size_t i = 0; i < targets_.size(); ++i)
-                share.darken(shadow::lit(targets_[i], at, policy_), static_cast<std::uint16_t>(i + 1));
+                share.darken(shadow::lit(targets_[i].form, at, policy_), static_cast<std::uint16_t>(i + 1));
             if (!at.faces_light)
                 share.darken(0, itself);
             else if (share.lit > 0)
@@ -11064,7 +11140,7 @@ class shadow_maps {
     Policy policy_;
     shadow::light_frame light_;
     caster_form bottom_;
-    std::vector<caster_form> targets_;
+    std::vector<target_caster> targets_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
@@ -11365,6 +11441,8 @@ class surface_shader {
                 if (any(useful)) shadows_(shares, f, object_.instance, useful);
             } else if (any(useful)) {
                 surface_points<N> at;
+                at.x = f.x;
+                at.y = f.y;
                 at.visible = f.visible;
                 at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
                 const pixel_rays<N> rays(rig_, ray_step_, f);
@@ -11685,7 +11763,7 @@ class overhead_painter {
             return exact_shadows(options_.shadow, view_, bottom, targets_, receivers(), ex);
         } else {
             const double texel = view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel);
-            return shadow_maps<Shadow>(options_.shadow, view_.light(), bottom, targets_, receivers(), texel, ex);
+            return shadow_maps<Shadow>(options_.shadow, view_, bottom, targets_, receivers(), texel, ex);
         }
     }
 
@@ -11698,10 +11776,7 @@ class overhead_painter {
         }
         for (const placed_mesh& t : targets_)
             for (int corner = 0; corner < 8 && !t.box.empty(); ++corner) {
-                const glm::dvec3 at(corner & 1 ? t.box.upper.x : t.box.lower.x,
-                                    corner & 2 ? t.box.upper.y : t.box.lower.y,
-                                    corner & 4 ? t.box.upper.z : t.box.lower.z);
-                const double z = transform_point(t.to_rig, at).z;
+                const double z = transform_point(t.to_rig, t.box.corner(corner)).z;
                 top = (std::max)(top, z);
                 if (!has_bottom()) low = (std::min)(low, z);
             }

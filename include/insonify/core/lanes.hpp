@@ -65,11 +65,26 @@ INSONIFY_INLINE void convert(To& into, const From& from) {
 /// Whether any lane of a mask is set.
 template <class Mask>
 INSONIFY_INLINE bool any(const Mask& mask) {
-    std::uint64_t words[(sizeof mask + 7) / 8] = {};
-    std::memcpy(words, &mask, sizeof mask);
-    std::uint64_t all = 0;
-    for (const std::uint64_t word : words) all |= word;
-    return all != 0;
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (sizeof mask == 16) {
+        lanes<float, 4> bits;
+        std::memcpy(&bits, &mask, sizeof bits);
+        return __builtin_ia32_movmskps(bits) != 0;
+    } else if constexpr (sizeof mask > 16) {
+        lanes<std::int64_t, sizeof mask / 16> low, high;
+        std::memcpy(&low, &mask, sizeof low);
+        std::memcpy(&high, reinterpret_cast<const char*>(&mask) + sizeof low, sizeof high);
+        low |= high;
+        return any(low);
+    } else
+#endif
+    {
+        std::uint64_t words[(sizeof mask + 7) / 8] = {};
+        std::memcpy(words, &mask, sizeof mask);
+        std::uint64_t all = 0;
+        for (const std::uint64_t word : words) all |= word;
+        return all != 0;
+    }
 }
 
 /// Bit k is set where lane k of a mask is; for 1, 4 or 8 lanes of 32 bits.
@@ -234,6 +249,24 @@ INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* r
     into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
 }
 #endif
+
+/// Lane k of both, side by side: gather_pairs the other way.
+template <int N>
+INSONIFY_INLINE void store_pairs(float* into, const lanes<float, N>& first, const lanes<float, N>& second) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        lanes<float, N> low, high;
+        shuffle<N>(low, first, second, [](int i) { return i / 2 + i % 2 * N; });
+        shuffle<N>(high, first, second, [](int i) { return N / 2 + i / 2 + i % 2 * N; });
+        store(into, low);
+        store(into + N, high);
+    } else
+#endif
+    {
+        into[0] = first;
+        into[1] = second;
+    }
+}
 
 /// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 1, 4, 8 or 16.
 template <int N, class Rows>

@@ -2,7 +2,8 @@
 //
 // The system clears every page before it hands it out. Where pictures are made one after another, in new memory each
 // time, that is up to a third of the time. So a thread holds on to the large blocks that it gives back; together with
-// what it has in use, never to more than it has had in use at once.
+// what it has in use, never to more than an eighth above what it has had in use at once. The eighth is for what comes
+// and goes within a picture: without it, that would drive out what the picture's peak needs.
 #pragma once
 
 #include <insonify/core/error.hpp>
@@ -88,7 +89,7 @@ class spare_memory {
             if (blocks_[i].size == size) memory = drop(i);
         if (memory == nullptr) {
             const std::size_t most = (std::max)(most_, in_use_ + size);
-            while (count_ > 0 && kept_ + in_use_ + size > most) free(0);
+            while (count_ > 0 && kept_ + in_use_ + size > limit(most)) free(0);
             memory = large_pages::allocate(bytes);
             most_ = most;
         }
@@ -100,7 +101,7 @@ class spare_memory {
     void give(void* memory, std::size_t bytes) noexcept {
         const std::size_t size = large_pages::rounded(bytes);
         in_use_ -= (std::min)(in_use_, size);
-        if (count_ == most_blocks || kept_ + in_use_ + size > most_) return large_pages::free(memory, size);
+        if (count_ == most_blocks || kept_ + in_use_ + size > limit(most_)) return large_pages::free(memory, size);
         blocks_[count_++] = {memory, size};
         kept_ += size;
     }
@@ -118,6 +119,8 @@ class spare_memory {
         void* memory;
         std::size_t size;
     };
+
+    static std::size_t limit(std::size_t most) { return most + most / 8; }
 
     void free(int i) noexcept {
         const std::size_t size = blocks_[i].size;
@@ -141,8 +144,8 @@ class spare_memory {
 }  // namespace detail
 
 /// Gives back to the system what the calling thread has kept of large memory for its next picture. A thread keeps
-/// blocks of 4 MB and more, together with what it has in use never more than it has had in use at once; its end
-/// releases them, too.
+/// blocks of 4 MB and more, together with what it has in use never more than an eighth above what it has had in use at
+/// once; its end releases them, too.
 inline void release_memory() noexcept {
     if (detail::spare_memory* const spare = detail::spare_memory::mine()) spare->release();
 }

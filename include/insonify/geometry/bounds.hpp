@@ -26,6 +26,10 @@ struct bounding_box {
     glm::dvec3 size() const { return empty() ? glm::dvec3(0) : upper - lower; }
     /// @pre the box is not empty
     glm::dvec3 centre() const { return 0.5 * (lower + upper); }
+    /// One of eight: bit k of `i` takes the upper end of axis k.
+    glm::dvec3 corner(int i) const {
+        return {(i & 1) != 0 ? upper.x : lower.x, (i & 2) != 0 ? upper.y : lower.y, (i & 4) != 0 ? upper.z : lower.z};
+    }
     friend bool operator==(const bounding_box&, const bounding_box&) = default;
 };
 

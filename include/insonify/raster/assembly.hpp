@@ -358,7 +358,7 @@ struct assembly_kernel {
                    fate = (degenerate ? none + 1 : none) | (culled ? none + 2 : none) | (missed ? none + 4 : none);
         // Most of the time they all go the same way.
         const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
-        if (!any(ints(fate | (first_tile ^ one_first) | (last_tile ^ one_last)))) {
+        if (!any(ints((fate | (first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
             out.stats.drawn += N;
             out.runs.add(name, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
             return true;

@@ -125,7 +125,7 @@ struct small_fill {
         });
         if constexpr (exact) {
             found.doubtful &= found.covered;
-            if (any(found.doubtful)) settle(found, nearest);
+            if (any(ints(found.doubtful != 0))) settle(found, nearest);
         }
         keep_covered(found);
     }

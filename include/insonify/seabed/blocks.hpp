@@ -91,7 +91,7 @@ class block_layer {
             const ints lot = ints(first & 0xFFFFu);
             const ints met = (half > 0.0f ? one : zero) & (lot < layer.share_ ? one : zero) &
                              (ints(number) < static_cast<std::int32_t>(limit) ? one : zero);
-            if (!insonify::detail::any(met)) return false;
+            if (!insonify::detail::any(ints(met != 0))) return false;
             half = half > 0.0f ? half : floats{};
             insonify::detail::square_root<N>(half, half);
             insonify::detail::store(there, met);

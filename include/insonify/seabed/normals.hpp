@@ -91,7 +91,7 @@ class row_normals {
             ints bits;
             const floats known = (left - left) + (right - right) + (back - back) + (ahead - ahead) + (here - here);
             std::memcpy(&bits, &known, sizeof bits);
-            if (insonify::detail::any(ints(bits & 0x7FFFFFFF))) {
+            if (insonify::detail::any(ints((bits & 0x7FFFFFFF) != 0))) {
                 for (std::size_t k = 0; k < N; ++k) one(i + k);
                 continue;
             }

@@ -76,7 +76,7 @@ class horizon {
         const detail::sweep_relief relief(m, sweep, ex);
         crests_.resize(static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.slots) *
                            static_cast<std::size_t>(window_.pitch) +
-                       lines_ahead);
+                       lines_ahead * 2);
         bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
                     [&](std::size_t start, std::size_t) {
                         insonify::detail::dispatch(
@@ -164,9 +164,9 @@ class horizon {
         convert(left_line, number);
         const floats share = line - left_line;
 
-        const ints start = on_map ? (column - window_.first_column) * (window_.slots * window_.pitch) + number : ints{};
+        const ints start = on_map ? ((column - window_.first_column) * window_.pitch + number) * window_.slots : ints{};
         // Pictures are drawn row by row towards -y: what the next rows will ask is on its way.
-        const std::int32_t ahead = to_line_.y > 0 ? -lines_ahead : lines_ahead;
+        const std::int32_t ahead = (to_line_.y > 0 ? -lines_ahead : lines_ahead) * window_.slots;
         ints soon = start + ahead;
         soon = soon > 0 ? soon : ints{};
         for (int k = 0; k < N; k += 2) prefetch(crests_.data() + lane(soon, k));
@@ -183,11 +183,10 @@ class horizon {
             floats edge;
             convert(row, y);
             convert(edge, row);
-            const ints past = ints{} + window_.pitch;
-            const ints left_at = start + (left_y < edge ? past : ints{}),
-                       right_at = start + 1 + (left_y + window_.spacing < edge ? past : ints{});
-            gather<N>(left, [&](int k) { return crests_[static_cast<std::size_t>(lane(left_at, k))]; });
-            gather<N>(right, [&](int k) { return crests_[static_cast<std::size_t>(lane(right_at, k))]; });
+            floats both[4];  // slots of both lines
+            transpose<N>(both, [&](int k) { return crests_.data() + lane(start, k); });
+            left = left_y < edge ? both[1] : both[0];
+            right = left_y + window_.spacing < edge ? both[3] : both[2];
         }
         // One line may have met nothing yet.
         const ints is_open = ints(left < detail::sweep_relief::least) | ints(right < detail::sweep_relief::least);

@@ -18,7 +18,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify::inline INSONIFY_ABI::shadow::detail {
 
 using insonify::detail::convert, insonify::detail::count_up, insonify::detail::lanes, insonify::detail::store,
-    insonify::detail::transpose, insonify::detail::unfilled_vector;
+    insonify::detail::store_pairs, insonify::detail::transpose, insonify::detail::unfilled_vector;
 
 /// A grid as a sweep sees it: X counts its vertices along the axis that the light follows most, Y those across, both
 /// turned so that the light goes towards larger ones, by `slope` of Y for each of X. All points of a ray share
@@ -124,7 +124,7 @@ struct sweep_kernel {
         for (int column = first; column < (std::min)(last, grid.columns); ++column) {
             float* const kept = kept_at(column);
             for (int i = 0; i < block / N; ++i) {
-                float* const to = kept == nullptr ? nullptr : kept + i * N;
+                float* const to = kept == nullptr ? nullptr : kept + i * N * window.slots;
                 if (column + 1 == grid.columns)
                     lines[i].leave(*this, to);
                 else if (grid.is_rising)
@@ -147,20 +147,17 @@ struct sweep_kernel {
     float* kept_at(int column) const {
         const int at = column - window.first_column;
         if (at < 0 || at >= window.columns) return nullptr;
-        return crests + std::ptrdiff_t{at} * window.slots * window.pitch + first_line;
+        return crests + (std::ptrdiff_t{at} * window.pitch + first_line) * window.slots;
     }
     /// The same crests in some columns.
     template <class Lines>
     INSONIFY_INLINE void keep(const Lines& lines, int first, int last) const {
         for (int column = first; column < last; ++column) {
             float* const kept = kept_at(column);
-            for (int slot = 0; kept != nullptr && slot < window.slots; ++slot) {
-                float* to = kept + slot * window.pitch;
-                for (const auto& some : lines) {
-                    store(to, some.crest);
-                    to += sizeof some.crest / sizeof *to;
-                }
-            }
+            if (kept == nullptr) continue;
+            for (int i = 0; i < static_cast<int>(std::size(lines)); ++i)
+                lines[i].keep(kept + i * static_cast<int>(sizeof lines[i].crest / sizeof(float)) * window.slots,
+                              window.slots);
         }
     }
 
@@ -223,10 +220,10 @@ struct sweep_kernel {
                 between(on_second, vertex[2], ahead[1], (2.0f - beyond) * (1 / (1 + slope)));
                 const floats third = climbs ? on_edge : next_u, fourth = climbs ? on_second : next_u;
                 fall(u, on_first);
-                if (kept != nullptr) store(kept, crest);
+                const floats before = crest;
                 fall(on_first, third);
                 fall(third, fourth);
-                if (kept != nullptr) store(kept + of.window.pitch, crest);
+                if (kept != nullptr) store_pairs<N>(kept, before, crest);
                 fall(fourth, next_u);
             }
             row = next_row;
@@ -239,7 +236,14 @@ struct sweep_kernel {
         INSONIFY_INLINE void leave(const sweep_kernel& of, float* kept) {
             fall(u, floats{} + sweep_relief::nothing);
             if (kept == nullptr) return;
-            for (int slot = 0; slot < of.window.slots; ++slot) store(kept + slot * of.window.pitch, crest);
+            keep(kept, of.window.slots);
+        }
+        /// The same in all slots.
+        INSONIFY_INLINE void keep(float* kept, int slots) const {
+            if (slots == 1)
+                store(kept, crest);
+            else
+                store_pairs<N>(kept, crest, crest);
         }
 
       private:

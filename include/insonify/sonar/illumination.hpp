@@ -5,6 +5,7 @@
 #include <insonify/shadow/lookup.hpp>
 #include <insonify/shadow/refined.hpp>
 #include <insonify/sonar/labels.hpp>
+#include <insonify/sonar/rig.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -30,6 +31,7 @@ struct light_shares {
 /// N points of a surface, in the rig's frame.
 template <int N>
 struct surface_points {
+    int x, y;  ///< the first one's pixel; the others are the next of its row
     lanes<std::int32_t, N> visible;
     lanes<float, N> position[3];
     lanes<float, N> facet[3];  ///< normal of the triangle, of any length, on the side that is seen
@@ -54,6 +56,30 @@ struct placed_mesh {
         : shape(&m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
 };
 
+/// Which pixels may show something in an object's shadow, or the object itself, down to a height in the rig's frame.
+inline pixel_box shadowed_pixels(const overhead_geometry& view, const placed_mesh& caster, double lowest) {
+    const glm::dvec3& to_light = view.light().to_light();
+    const overhead& rig = view.rig();
+    glm::dvec2 first(std::numeric_limits<double>::infinity()), last = -first;
+    for (int corner = 0; corner < 8 && !caster.box.empty(); ++corner) {
+        const glm::dvec3 at = transform_point(caster.to_rig, caster.box.corner(corner));
+        if (at.z > static_cast<double>(rig.altitude) * (1 - 1e-6)) return {0, 0, rig.size.x - 1, rig.size.y - 1};
+        // What all of these points surround, their pictures do.
+        const double fall = (std::max)(at.z - lowest, 0.0) / to_light.z;
+        for (const glm::dvec3& p : {at, at - fall * to_light}) {
+            const glm::dvec2 pixel = view.pixel(p);
+            first = glm::dvec2((std::min)(first.x, pixel.x), (std::min)(first.y, pixel.y));
+            last = glm::dvec2((std::max)(last.x, pixel.x), (std::max)(last.y, pixel.y));
+        }
+    }
+    // One more all around, for places in floats.
+    const auto held = [](double pixel, int size) {
+        return static_cast<int>((std::min)((std::max)(pixel, -2.0), static_cast<double>(size) + 1));
+    };
+    return {held(first.x - 1, rig.size.x), held(first.y - 1, rig.size.y), held(last.x + 1, rig.size.x),
+            held(last.y + 1, rig.size.y)};
+}
+
 /// All casters of a scene, each in the form that the policy asks for.
 template <class Policy>
 class shadow_maps {
@@ -66,12 +92,13 @@ class shadow_maps {
     /// @param receivers  around all that the picture may show
     /// @param texel      metres
     template <executor E>
-    shadow_maps(const Policy& policy, const shadow::light_frame& light, const placed_mesh* bottom,
+    shadow_maps(const Policy& policy, const overhead_geometry& view, const placed_mesh* bottom,
                 std::span<const placed_mesh> targets, const bounding_box& receivers, double texel, E& ex)
-        : policy_(policy), light_(light) {
+        : policy_(policy), light_(view.light()) {
         if (bottom != nullptr) bottom_ = cast(*bottom, receivers, texel, ex);
         targets_.reserve(targets.size());
-        for (const placed_mesh& t : targets) targets_.push_back(cast(t, receivers, texel, ex));
+        for (const placed_mesh& t : targets)
+            targets_.push_back({cast(t, receivers, texel, ex), shadowed_pixels(view, t, receivers.lower.z)});
     }
 
     /// @param useful  where a shadow would change what is seen; the others' shares need not be right
@@ -85,6 +112,11 @@ class shadow_maps {
     }
 
   private:
+    struct target_caster {
+        caster_form form;
+        pixel_box shadowed;
+    };
+
     template <int N>
     INSONIFY_INLINE void ask_in_lanes(light_shares<N>& shares, const surface_points<N>& at,
                                       const lanes<std::int32_t, N>& useful) const {
@@ -93,7 +125,9 @@ class shadow_maps {
         // A target's shadow goes on over what would be dark without it.
         ints dark;
         for (std::size_t i = 0; i < targets_.size(); ++i) {
-            targets_[i].template darken<N>(dark, useful, at.position);
+            const pixel_box& shadowed = targets_[i].shadowed;
+            if (at.y < shadowed.y0 || at.y > shadowed.y1 || at.x > shadowed.x1 || at.x + N <= shadowed.x0) continue;
+            targets_[i].form.template darken<N>(dark, useful, at.position);
             shares.darken(dark ? floats{} : floats{} + 1.0f, static_cast<std::uint16_t>(i + 1));
         }
         const glm::dvec2& travel = light_.travel();
@@ -123,7 +157,7 @@ class shadow_maps {
         if constexpr (!refined) {
             const shadow::receiver at(light_, position, facet);
             for (std::size_t i = 0; i < targets_.size(); ++i)
-                share.darken(shadow::lit(targets_[i], at, policy_), static_cast<std::uint16_t>(i + 1));
+                share.darken(shadow::lit(targets_[i].form, at, policy_), static_cast<std::uint16_t>(i + 1));
             if (!at.faces_light)
                 share.darken(0, itself);
             else if (share.lit > 0)
@@ -148,7 +182,7 @@ class shadow_maps {
     Policy policy_;
     shadow::light_frame light_;
     caster_form bottom_;
-    std::vector<caster_form> targets_;
+    std::vector<target_caster> targets_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail

@@ -170,7 +170,7 @@ class overhead_painter {
             return exact_shadows(options_.shadow, view_, bottom, targets_, receivers(), ex);
         } else {
             const double texel = view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel);
-            return shadow_maps<Shadow>(options_.shadow, view_.light(), bottom, targets_, receivers(), texel, ex);
+            return shadow_maps<Shadow>(options_.shadow, view_, bottom, targets_, receivers(), texel, ex);
         }
     }
 
@@ -183,10 +183,7 @@ class overhead_painter {
         }
         for (const placed_mesh& t : targets_)
             for (int corner = 0; corner < 8 && !t.box.empty(); ++corner) {
-                const glm::dvec3 at(corner & 1 ? t.box.upper.x : t.box.lower.x,
-                                    corner & 2 ? t.box.upper.y : t.box.lower.y,
-                                    corner & 4 ? t.box.upper.z : t.box.lower.z);
-                const double z = transform_point(t.to_rig, at).z;
+                const double z = transform_point(t.to_rig, t.box.corner(corner)).z;
                 top = (std::max)(top, z);
                 if (!has_bottom()) low = (std::min)(low, z);
             }

@@ -119,6 +119,8 @@ class surface_shader {
                 if (any(useful)) shadows_(shares, f, object_.instance, useful);
             } else if (any(useful)) {
                 surface_points<N> at;
+                at.x = f.x;
+                at.y = f.y;
                 at.visible = f.visible;
                 at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
                 const pixel_rays<N> rays(rig_, ray_step_, f);

@@ -52,13 +52,17 @@ class thread_pool {
         {
             const std::lock_guard lock(mutex_);
             job_ = &work;
-            ++generation_;
+            generation_.fetch_add(1, std::memory_order_relaxed);
         }
         work_arrived_.notify_all();
         run(work);
         {
-            std::unique_lock lock(mutex_);
+            const std::lock_guard lock(mutex_);
             job_ = nullptr;  // a worker that wakes up late finds nothing to do
+        }
+        watch([&] { return work.helpers.load(std::memory_order_relaxed) == 0; });
+        {
+            std::unique_lock lock(mutex_);
             work_left_.wait(lock, [&] { return work.helpers == 0; });
         }
         busy_ = false;
@@ -71,7 +75,7 @@ class thread_pool {
         void* callable;
         std::size_t count;
         std::atomic<std::size_t> next{0};
-        int helpers = 0;  // workers inside run(); guarded by mutex_
+        std::atomic<int> helpers{0};  // workers inside run(); changed under mutex_
         std::mutex error_mutex{};
         std::exception_ptr error{};
     };
@@ -91,13 +95,27 @@ class thread_pool {
         }
     }
 
+    /// Stays awake for a few tens of microseconds, or until it is worth going to look. A picture is made in some twenty
+    /// steps, and to fall asleep and be woken between two of them takes longer than most of the gaps.
+    template <class Awaited>
+    static void watch(const Awaited& has_come) {
+#if defined(__SSE2__)
+        for (int i = 0; i < 2000 && !has_come(); ++i) __builtin_ia32_pause();
+#else
+        (void)has_come;
+#endif
+    }
+
     void serve() {
         std::size_t seen = 0;
-        std::unique_lock lock(mutex_);
         for (;;) {
-            work_arrived_.wait(lock, [&] { return stopping_ || (job_ != nullptr && generation_ != seen); });
+            watch([&] { return generation_.load(std::memory_order_relaxed) != seen; });
+            std::unique_lock lock(mutex_);
+            work_arrived_.wait(lock, [&] {
+                return stopping_ || (job_ != nullptr && generation_.load(std::memory_order_relaxed) != seen);
+            });
             if (stopping_) return;
-            seen = generation_;
+            seen = generation_.load(std::memory_order_relaxed);
             job& work = *job_;
             ++work.helpers;
             lock.unlock();
@@ -113,7 +131,7 @@ class thread_pool {
     std::condition_variable work_arrived_;
     std::condition_variable work_left_;
     job* job_ = nullptr;
-    std::size_t generation_ = 0;
+    std::atomic<std::size_t> generation_{0};  // changed under mutex_
     bool stopping_ = false;
 };
 
