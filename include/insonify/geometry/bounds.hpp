@@ -96,7 +96,7 @@ struct bounds_kernel {
 
 /// The smallest box around all finite positions, whether a triangle uses them or not.
 template <executor_argument E = serial_executor>
-bounding_box bounds(const mesh& m, E&& ex = {}) {
+bounding_box bounds(const mesh_view& m, E&& ex = {}) {
     constexpr std::size_t grain = 65536;
     std::vector<bounding_box> parts((m.positions.size() + grain - 1) / grain);
     bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {

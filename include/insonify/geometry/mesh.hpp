@@ -2,8 +2,10 @@
 #pragma once
 
 #include <insonify/core/error.hpp>
+#include <insonify/core/unfilled.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -16,6 +18,30 @@ struct mesh {
     std::vector<glm::vec3> normals;  ///< unit, one per position, or none at all
     std::vector<glm::uvec3> triangles;
 };
+
+/// A mesh to look at: somebody else's buffers, who has to keep them meanwhile.
+struct mesh_view {
+    std::span<const glm::vec3> positions;
+    std::span<const glm::vec3> normals;  ///< see mesh
+    std::span<const glm::uvec3> triangles;
+
+    mesh_view() = default;
+    mesh_view(std::span<const glm::vec3> places, std::span<const glm::vec3> ups, std::span<const glm::uvec3> corners)
+        : positions(places), normals(ups), triangles(corners) {}
+    mesh_view(const mesh& m) : mesh_view(m.positions, m.normals, m.triangles) {}
+};
+
+namespace detail {
+
+/// A mesh that is made in every picture.
+struct unfilled_mesh {
+    unfilled_vector<glm::vec3> positions, normals;
+    unfilled_vector<glm::uvec3> triangles;
+
+    operator mesh_view() const { return {positions, normals, triangles}; }
+};
+
+}  // namespace detail
 
 /// @throws invalid_input if an index has no position, or normals are neither absent nor one per position
 inline void validate(const mesh& m) {

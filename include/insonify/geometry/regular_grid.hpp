@@ -111,7 +111,7 @@ struct cell_cut {
 /// How a mesh lies on a regular grid; nothing if it doesn't. Vertices may be off by a 256th of a step; all heights are
 /// finite.
 template <executor_argument E = serial_executor>
-std::optional<regular_grid> regular_grid_of(const mesh& m, E&& ex = {}) {
+std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}) {
     if (m.triangles.size() < 2) return std::nullopt;
     const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
     const auto cut = detail::cell_cut::of(cell);

@@ -135,7 +135,7 @@ class screen_mesh {
     /// @param weighed  whether weights_at will be asked for
     /// @param records  one for each vertex, to be set; or null and no_record
     template <vertex_shader Shader, class Record, executor E>
-    screen_mesh(const mesh& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
+    screen_mesh(const mesh_view& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
                 const draw_options& options, bool weighed, Record* records, E& ex)
         : mesh_(m),
           indices_(m.triangles.data()),
@@ -297,7 +297,7 @@ class screen_mesh {
         return f;
     }
 
-    const mesh& mesh_;
+    mesh_view mesh_;
     const glm::uvec3* indices_;
     std::uint32_t whole_;  ///< names below this are triangles of the mesh, the others wide ones
     pixel_grid grid_;

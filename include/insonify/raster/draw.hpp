@@ -67,7 +67,7 @@ template <class VertexShader>
 struct corner_varyings {
     varyings_of<VertexShader> a, b, c;
 
-    corner_varyings(const VertexShader& place, const mesh& m, const glm::uvec3& index)
+    corner_varyings(const VertexShader& place, const mesh_view& m, const glm::uvec3& index)
         : a(varyings_at(place, mesh_vertex(m, index.x))),
           b(varyings_at(place, mesh_vertex(m, index.y))),
           c(varyings_at(place, mesh_vertex(m, index.z))) {}
@@ -75,7 +75,7 @@ struct corner_varyings {
 
 /// Calls the fragment callable for every pixel of a tile that shows a triangle of this draw.
 template <class Target, class Triangles, class VertexShader, class FragmentShader>
-std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShader& shader, const Target& target,
+std::uint64_t shade(const mesh_view& m, const VertexShader& place, const FragmentShader& shader, const Target& target,
                     const Triangles& triangles, tile_buffer<true>& tile, float depth_sign) {
     using varyings = varyings_of<VertexShader>;
     const pixel_grid& grid = triangles.screen.grid();
@@ -113,8 +113,8 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
 /// Everything but the shading, which `finish(tile triangles, tile buffer, depth sign)` does; it returns the pixels that
 /// it shaded. What the vertex callable gives goes into `records`, one for each vertex, if there are any.
 template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Record, class Finish>
-draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float> depth, const draw_options& options,
-                      E& ex, Record* records, Finish&& finish) {
+draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<float> depth,
+                      const draw_options& options, E& ex, Record* records, Finish&& finish) {
     check(options, depth);
     require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
             "0 or one per position");
@@ -150,7 +150,7 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
 
 /// Draws quick depths and hands the pixels that this draw has won, several at a time, to `shader(fragment_lanes)`.
 template <varying_shader VertexShader, class LaneShader, executor E>
-draw_stats draw_lanes(const mesh& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
+draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
                       const draw_options& options, E& ex) {
     using varyings = varyings_of<VertexShader>;
     unfilled_vector<vertex_record<varyings>> records(m.positions.size());
@@ -167,7 +167,7 @@ draw_stats draw_lanes(const mesh& m, const VertexShader& place, const LaneShader
 /// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle; where nothing is, the
 /// name says nothing.
 template <vertex_shader VertexShader, executor E>
-draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float> depth,
+draw_stats draw_names(const mesh_view& m, const VertexShader& place, image_view<float> depth,
                       image_view<std::uint32_t> names, const draw_options& options, E& ex) {
     const auto copy_names = [&](const auto& triangles, tile_buffer<true>& tile, float) {
         const pixel_box& box = triangles.box;
@@ -197,15 +197,15 @@ draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float
 /// @throws invalid_input for an index without a position, normals that don't match, or options out of range;
 ///         the target is then untouched
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
-draw_stats draw(const mesh& m, const VertexShader& place, const depth_target& target, const draw_options& options = {},
-                E&& ex = {}) {
+draw_stats draw(const mesh_view& m, const VertexShader& place, const depth_target& target,
+                const draw_options& options = {}, E&& ex = {}) {
     return detail::draw_tiles<false, double>(m, place, target.depth, options, ex, detail::no_records,
                                              [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// The same with quick depths.
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
-draw_stats draw(const mesh& m, const VertexShader& place, const quick_depth_target& target,
+draw_stats draw(const mesh_view& m, const VertexShader& place, const quick_depth_target& target,
                 const draw_options& options = {}, E&& ex = {}) {
     return detail::draw_tiles<false, float>(m, place, target.depth, options, ex, detail::no_records,
                                             [](auto&&...) { return std::uint64_t{0}; });
@@ -218,7 +218,7 @@ draw_stats draw(const mesh& m, const VertexShader& place, const quick_depth_targ
 /// the color image's size isn't the depth image's.
 template <vertex_shader VertexShader, class FragmentShader, class Pixel, executor_argument E = serial_executor>
     requires(fragment_shader<FragmentShader, varyings_of<VertexShader>, Pixel>)
-draw_stats draw(const mesh& m, const VertexShader& place, const FragmentShader& shader,
+draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentShader& shader,
                 const framebuffer<Pixel>& target, const draw_options& options = {}, E&& ex = {}) {
     if constexpr (requires { target.color; }) {
         detail::require(target.color.width() == target.depth.width(), "color width", target.color.width(),

@@ -68,7 +68,7 @@ struct kept_lanes {
     }
 };
 
-inline vertex mesh_vertex(const mesh& m, std::uint32_t index) {
+inline vertex mesh_vertex(const mesh_view& m, std::uint32_t index) {
     return {m.positions[index], m.normals.empty() ? glm::vec3(0) : m.normals[index], index};
 }
 
@@ -88,7 +88,7 @@ inline constexpr no_record* no_records = nullptr;
 /// Places a range of a mesh's vertices; what the vertex callable gives beside the place goes into the records.
 template <class Shader, class Record, class Real>
 struct placement_kernel {
-    const mesh& m;
+    const mesh_view& m;
     const Shader& shader;
     Record* records;
     const projection& screen;

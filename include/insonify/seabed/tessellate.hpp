@@ -33,6 +33,47 @@ inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_
             numeric::is_finite(height) ? height : 0.0f};
 }
 
+/// See the public one, for any type of mesh.
+template <class Mesh, executor E>
+void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 first) {
+    validate(field);
+    const image<float>& heights = field.heights;
+    const auto width = static_cast<std::size_t>(heights.width()), height = static_cast<std::size_t>(heights.height());
+    insonify::detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
+                              "below 2^32");
+
+    result.positions.resize(heights.size());
+    result.normals.resize(heights.size());
+
+    // Write the vertices, and count the triangles of each row of cells on the way.
+    std::vector<std::size_t> first_triangle(height, 0);
+    ex.bulk(height, [&](std::size_t j) {
+        row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
+        for (std::size_t i = 0; i < width; ++i) result.positions[j * width + i] = position_at(field, i, j, first);
+        if (j + 1 == height) return;
+        const float* const here = heights.row(static_cast<int>(j)).data();
+        const float* const ahead = heights.row(static_cast<int>(j + 1)).data();
+        std::size_t count = 0;
+        for (std::size_t i = 0; i + 1 < width; ++i) count += cell_facets(here + i, ahead + i).count();
+        first_triangle[j + 1] = count;
+    });
+    for (std::size_t j = 1; j < height; ++j) first_triangle[j] += first_triangle[j - 1];
+
+    result.triangles.resize(first_triangle.back());
+    ex.bulk(height - 1, [&](std::size_t j) {
+        const float* const here = heights.row(static_cast<int>(j)).data();
+        const float* const ahead = heights.row(static_cast<int>(j + 1)).data();
+        glm::uvec3* next = result.triangles.data() + first_triangle[j];
+        for (std::size_t i = 0; i + 1 < width; ++i) {
+            const auto corner = static_cast<std::uint32_t>(j * width + i);
+            const auto opposite = static_cast<std::uint32_t>(corner + width + 1);
+            const cell_facets drawn(here + i, ahead + i);
+            if (drawn.lower) *next++ = {corner, corner + 1, opposite};
+            if (drawn.upper) *next++ = {corner, opposite, opposite - 1};
+        }
+    });
+}
+
 }  // namespace detail
 
 /// The surface of a heightfield as a mesh: two triangles per cell, counter-clockwise from above, cut from vertex (i, j)
@@ -46,44 +87,8 @@ inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_
 /// @throws invalid_input as `validate`, and for 2^32 vertices or more
 template <executor_argument Executor = serial_executor>
 mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm::ivec2 first = {0, 0}) {
-    validate(field);
-    const image<float>& heights = field.heights;
-    const auto width = static_cast<std::size_t>(heights.width()), height = static_cast<std::size_t>(heights.height());
-    detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
-                    "below 2^32");
-
     mesh result;
-    result.positions.resize(heights.size());
-    result.normals.resize(heights.size());
-
-    // Write the vertices, and count the triangles of each row of cells on the way.
-    std::vector<std::size_t> first_triangle(height, 0);
-    ex.bulk(height, [&](std::size_t j) {
-        detail::row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
-        for (std::size_t i = 0; i < width; ++i)
-            result.positions[j * width + i] = detail::position_at(field, i, j, first);
-        if (j + 1 == height) return;
-        const float* const here = heights.row(static_cast<int>(j)).data();
-        const float* const ahead = heights.row(static_cast<int>(j + 1)).data();
-        std::size_t count = 0;
-        for (std::size_t i = 0; i + 1 < width; ++i) count += detail::cell_facets(here + i, ahead + i).count();
-        first_triangle[j + 1] = count;
-    });
-    for (std::size_t j = 1; j < height; ++j) first_triangle[j] += first_triangle[j - 1];
-
-    result.triangles.resize(first_triangle.back());
-    ex.bulk(height - 1, [&](std::size_t j) {
-        const float* const here = heights.row(static_cast<int>(j)).data();
-        const float* const ahead = heights.row(static_cast<int>(j + 1)).data();
-        glm::uvec3* next = result.triangles.data() + first_triangle[j];
-        for (std::size_t i = 0; i + 1 < width; ++i) {
-            const auto corner = static_cast<std::uint32_t>(j * width + i);
-            const auto opposite = static_cast<std::uint32_t>(corner + width + 1);
-            const detail::cell_facets drawn(here + i, ahead + i);
-            if (drawn.lower) *next++ = {corner, corner + 1, opposite};
-            if (drawn.upper) *next++ = {corner, opposite, opposite - 1};
-        }
-    });
+    detail::tessellate_into(result, field, ex, first);
     return result;
 }
 

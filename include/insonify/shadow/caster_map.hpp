@@ -30,9 +30,9 @@ class caster_map {
     /// @param texel     metres, the same along u and v; grows if more than `largest` texels a side were needed
     /// @throws invalid_input as height_map does
     template <executor E>
-    caster_map(const light_frame& frame, const mesh& m, const affine& to_world, bool is_solid, const map_extent& extent,
-               double reach, double texel, int largest, E& ex)
-        : frame_(frame), mesh_(&m), grid_(extent, texel, largest, stretch(frame)) {
+    caster_map(const light_frame& frame, const mesh_view& m, const affine& to_world, bool is_solid,
+               const map_extent& extent, double reach, double texel, int largest, E& ex)
+        : frame_(frame), mesh_(m), grid_(extent, texel, largest, stretch(frame)) {
         if (grid_.empty()) return;
         tolerance_ = static_cast<float>(0x1p-21 * reach);
         const std::size_t width = pitch(), height = static_cast<std::size_t>(grid_.rows) + 2;
@@ -170,7 +170,7 @@ class caster_map {
             floats u[3], v[3], z[3];
             for (int i = 0; i < 3; ++i) {
                 const auto corner = [&](int k) -> const glm::vec3& {
-                    return mesh_->positions[mesh_->triangles[name(first + k)][i]];
+                    return mesh_.positions[mesh_.triangles[name(first + k)][i]];
                 };
                 floats px, py, pz;
                 gather_pairs<N>(px, py, [&](int k) { return &corner(k).x; });
@@ -192,12 +192,12 @@ class caster_map {
     /// Meshes are mostly written such that neighbours come after one another; grids, strip by strip. How many triangles
     /// a grid's strip has shows in the indices of each: its corners lie in two rows of vertices.
     std::uint32_t strip(std::uint32_t name) const {
-        const glm::uvec3& t = mesh_->triangles[name];
+        const glm::uvec3& t = mesh_.triangles[name];
         return 2 * ((std::max)({t.x, t.y, t.z}) - (std::min)({t.x, t.y, t.z}) - 1);
     }
     std::uint32_t before(std::uint32_t name, std::uint32_t steps) const { return name - (std::min)(name, steps); }
     std::uint32_t after(std::uint32_t name, std::uint32_t steps) const {
-        return name + (std::min)(static_cast<std::uint32_t>(mesh_->triangles.size() - 1) - name, steps);
+        return name + (std::min)(static_cast<std::uint32_t>(mesh_.triangles.size() - 1) - name, steps);
     }
 
     /// What has been asked around a point.
@@ -219,7 +219,7 @@ class caster_map {
     };
 
     light_frame frame_;
-    const mesh* mesh_ = nullptr;
+    mesh_view mesh_;
     affine to_light_;  ///< from the mesh to (u, v, z)
     glm::mat3 axes_;   ///< its linear part
     map_grid grid_;

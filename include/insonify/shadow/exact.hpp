@@ -26,7 +26,7 @@ namespace insonify::inline INSONIFY_ABI::shadow {
 
 /// A mesh's corners in the frame in which the light is described, in doubles.
 template <executor_argument E = serial_executor>
-std::vector<glm::dvec3> placed_corners(const mesh& m, const affine& placement, E&& ex = {}) {
+std::vector<glm::dvec3> placed_corners(const mesh_view& m, const affine& placement, E&& ex = {}) {
     std::vector<glm::dvec3> corners(m.positions.size());
     bulk_ranges(ex, corners.size(), 16384, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) corners[i] = transform_point(placement, m.positions[i]);
@@ -69,7 +69,7 @@ class light_blockers {
     /// @param is_mirrored  the placement turned its triangles round
     /// @param ex           who makes the trees; they are the same for any executor
     template <executor E>
-    light_blockers(const light_rays& rays, const mesh& m, std::span<const glm::dvec3> corners, bool is_solid,
+    light_blockers(const light_rays& rays, const mesh_view& m, std::span<const glm::dvec3> corners, bool is_solid,
                    bool is_mirrored, E& ex)
         : triangles_(m.triangles), corners_(corners) {
         constexpr std::size_t grain = 16384;

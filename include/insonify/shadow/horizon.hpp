@@ -36,7 +36,7 @@ class horizon {
     ///                   more than 2^30 values
     /// @param level      the widest instruction set to use; the answers are the same
     template <executor E>
-    horizon(const light_frame& frame, const mesh& m, const regular_grid& grid, const affine& to_world,
+    horizon(const light_frame& frame, const mesh_view& m, const regular_grid& grid, const affine& to_world,
             const bounding_box& receivers, double texel, int largest, E& ex, isa level = best_isa()) {
         if (receivers.empty()) return;
         const glm::dvec3 travel = numeric::product(inverse(to_world).linear, -frame.to_light());

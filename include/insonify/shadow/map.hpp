@@ -54,7 +54,7 @@ inline map_extent merge(const map_extent& a, const map_extent& b) {
 
 /// The extent of a mesh under a light; positions that aren't finite are passed over.
 template <executor_argument E = serial_executor>
-map_extent extent_of(const mesh& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
+map_extent extent_of(const mesh_view& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
     constexpr std::size_t grain = 16384;
     std::vector<map_extent> parts((m.positions.size() + grain - 1) / grain);
     bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
@@ -165,7 +165,7 @@ class height_map {
     /// Lets a mesh cast; several may share a map.
     /// @param to_world  from the mesh's frame to the one in which the light is described
     template <executor_argument E = serial_executor>
-    draw_stats cast(const mesh& m, const affine& to_world, E&& ex = {}) {
+    draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
         if (heights_.empty()) return {};
         return draw(m, grid_.placing(frame_, to_world), quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
     }

@@ -24,7 +24,7 @@ class refined_caster {
     /// @param texel      metres between the rays that tell what is near a point; see refined::largest, too
     /// @throws invalid_input as map_grid does
     template <executor E>
-    refined_caster(const light_frame& frame, const mesh& m, const bounding_box& box, const affine& to_world,
+    refined_caster(const light_frame& frame, const mesh_view& m, const bounding_box& box, const affine& to_world,
                    bool is_solid, const bounding_box& receivers, double texel, int largest, E& ex) {
         if (is_solid && is_lit_from_above(frame, to_world))
             if (const auto grid = regular_grid_of(m, ex)) {

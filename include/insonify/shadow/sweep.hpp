@@ -71,7 +71,7 @@ struct sweep_relief {
     unfilled_vector<float> u;
 
     template <executor E>
-    sweep_relief(const mesh& m, const sweep_grid& grid, E& ex)
+    sweep_relief(const mesh_view& m, const sweep_grid& grid, E& ex)
         : pitch(grid.rows + below + above), u(static_cast<std::size_t>(grid.columns * pitch)) {
         // In squares, so that both the mesh and what is made of it are read and written in runs.
         constexpr int square = 32;

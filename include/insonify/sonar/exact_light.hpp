@@ -92,7 +92,7 @@ class exact_shadows {
 
         void find(int k, const overhead_geometry& view, const placed_shape& s, std::uint32_t triangle, int x, int y,
                   const glm::dvec2& rounded) {
-            const glm::uvec3& t = s.placed->shape->triangles[triangle];
+            const glm::uvec3& t = s.placed->shape.triangles[triangle];
             const glm::dvec3 &a = s.corners[t.x], ab = s.corners[t.y] - a, ac = s.corners[t.z] - a;
             // Tomas Moeller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
             const glm::dvec3 ray = view.ray(x, y), from = view.eye() - a, p = numeric::cross(ray, ac);
@@ -116,7 +116,7 @@ class exact_shadows {
         shapes_.resize(targets.size() + 1);
         reach_ = static_cast<double>(view.rig().altitude);
         const auto place = [&](placed_shape& s, const placed_mesh& placed) {
-            s = {&placed, shadow::placed_corners(*placed.shape, placed.to_rig, ex)};
+            s = {&placed, shadow::placed_corners(placed.shape, placed.to_rig, ex)};
             reach_ = (std::max)(reach_, shadow::reach_of(s.corners));
         };
         if (bottom != nullptr) place(shapes_[0], *bottom);
@@ -143,7 +143,7 @@ class exact_shadows {
                     continue;
                 }
                 const bool is_mirrored = numeric::determinant(s.placed->to_rig.linear) < 0;
-                l.casters.emplace_back(l.rays, *s.placed->shape, s.corners, s.placed->is_solid, is_mirrored, ex);
+                l.casters.emplace_back(l.rays, s.placed->shape, s.corners, s.placed->is_solid, is_mirrored, ex);
             }
     }
 

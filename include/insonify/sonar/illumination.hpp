@@ -46,14 +46,14 @@ struct no_shadow_maps {
 
 /// An object in the rig's frame.
 struct placed_mesh {
-    const mesh* shape;
+    mesh_view shape;
     bounding_box box;  ///< of the shape, in its own frame
     affine to_rig;
     bool is_solid;      ///< see target
     glm::mat3 normals;  ///< takes normals along
 
-    placed_mesh(const mesh& m, const bounding_box& around, const affine& map, bool solid)
-        : shape(&m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
+    placed_mesh(const mesh_view& m, const bounding_box& around, const affine& map, bool solid)
+        : shape(m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
 };
 
 /// Which pixels may show something in an object's shadow, or the object itself, down to a height in the rig's frame.
@@ -168,13 +168,13 @@ class shadow_maps {
     template <executor E>
     caster_form cast(const placed_mesh& caster, const bounding_box& receivers, double texel, E& ex) const {
         if constexpr (refined) {
-            return caster_form(light_, *caster.shape, caster.box, caster.to_rig, caster.is_solid, receivers, texel,
+            return caster_form(light_, caster.shape, caster.box, caster.to_rig, caster.is_solid, receivers, texel,
                                policy_.largest, ex);
         } else {
             const shadow::map_extent all = shadow::extent_of(receivers, {}, light_);
             const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(all);
             shadow::height_map map(light_, own, texel, policy_.largest);
-            map.cast(*caster.shape, caster.to_rig, ex);
+            map.cast(caster.shape, caster.to_rig, ex);
             return map;
         }
     }

@@ -119,7 +119,8 @@ class overhead_painter {
     void model_seabed(E& ex) {
         const auto every = field_.types.pixels();
         if (options_.edge_error == 0) {
-            bottom_ = seabed::tessellate(field_, ex, bottom_first_);
+            seabed::detail::tessellate_into(whole_bottom_, field_, ex, bottom_first_);
+            bottom_ = whole_bottom_;
             bottom_types_.assign(every.begin(), every.end());
             return;
         }
@@ -132,7 +133,8 @@ class overhead_painter {
                                                      .lean = forgiven * static_cast<double>(view_.rig().altitude),
                                                      .nadir = -field_.spacing * glm::dvec2(bottom_first_)},
                                                     ex, bottom_first_);
-        bottom_ = std::move(shape);
+        sparse_bottom_ = std::move(shape);
+        bottom_ = sparse_bottom_;
         if (every.empty()) return;
         bottom_types_.resize(vertices.size());
         std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
@@ -218,10 +220,10 @@ class overhead_painter {
     draw_stats draw_one(const placed_mesh& shape, depth_load load, const Shadows& shadows, const Object& object,
                         E& ex) {
         const surface_placement placement(view_, shape);
-        const surface_shader<Shadows, Labels, Law, Object> shader(view_, placement, *shape.shape,
-                                                                  options_.subpixel_bits, options_.law, shadows, object,
-                                                                  out_.image, out_.labels);
-        return draw_lanes(*shape.shape, placement, shader, depth_,
+        const surface_shader<Shadows, Labels, Law, Object> shader(view_, placement, shape.shape, options_.subpixel_bits,
+                                                                  options_.law, shadows, object, out_.image,
+                                                                  out_.labels);
+        return draw_lanes(shape.shape, placement, shader, depth_,
                           {.keep = keep_depth::larger,
                            .load = load,
                            .subpixel_bits = options_.subpixel_bits,
@@ -236,7 +238,9 @@ class overhead_painter {
     image<float> depth_;  ///< the first draw fills it
     frame<Labels> out_;
     seabed::heightfield field_;
-    mesh bottom_;
+    unfilled_mesh whole_bottom_;              ///< if every vertex is drawn
+    mesh sparse_bottom_;                      ///< if some are left out
+    mesh_view bottom_;                        ///< one of them
     std::vector<seabed::type> bottom_types_;  ///< by vertex, or none where there is one type alone
     glm::ivec2 bottom_first_{0, 0};           ///< of the field's vertices, counted from the rig's position
     float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum

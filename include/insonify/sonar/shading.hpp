@@ -60,7 +60,7 @@ struct whole_object {
 
 /// The seabed: a material for each of its types, which a pixel takes from the vertex that weighs most.
 struct typed_bottom {
-    const mesh& surface;
+    mesh_view surface;
     const std::vector<seabed::type>& types;  ///< by vertex
     const std::array<material, seabed::type_count>& materials;
     static constexpr std::uint16_t instance = labels::no_instance;
@@ -79,7 +79,7 @@ struct typed_bottom {
 template <class Shadows, class Labels, class Law, class Object>
 class surface_shader {
   public:
-    surface_shader(const overhead_geometry& view, const surface_placement& placement, const mesh& shape,
+    surface_shader(const overhead_geometry& view, const surface_placement& placement, const mesh_view& shape,
                    int subpixel_bits, const Law& law, const Shadows& shadows, const Object& object,
                    image<float>& picture, Labels& marks)
         : rig_(view.rig()),
@@ -261,7 +261,7 @@ class surface_shader {
     overhead rig_;
     float ray_step_, subpixel_;
     const surface_placement& placement_;
-    const mesh& mesh_;
+    mesh_view mesh_;
     bool is_near_;
     glm::vec3 to_light_;  ///< where it stands, if it is near
     Law law_;
