@@ -1027,10 +1027,222 @@ INSONIFY_INLINE void count_up(lanes<T, N>& into) {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/core/spare_memory.hpp ------------------------------------------------------------
+// Large memory that was given back, for who asks for as much next.
+//
+// The system clears every page before it hands it out. Where pictures are made one after another, in new memory each
+// time, that is up to a third of the time. So a thread holds on to the large blocks that it gives back; together with
+// what it has in use, never to more than an eighth above what it has had in use at once. The eighth is for what comes
+// and goes within a picture: without it, that would drive out what the picture's peak needs.
+
+#include <algorithm>
+#include <new>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+/// Blocks of whole large pages, as they come from the system and go back to it.
+struct large_pages {
+    static constexpr std::size_t page = std::size_t{1} << 21;  ///< the system clears it in one go
+
+    /// How much a block for so many bytes holds. Sizes that differ by less than an eighth get the same; what nobody
+    /// touches of a page costs nothing.
+    static std::size_t rounded(std::size_t bytes) {
+        const std::size_t step = (std::max)(page, std::bit_floor(bytes) / 8);
+        return (bytes + step - 1) / step * step;
+    }
+
+    /// @throws std::bad_alloc
+    static void* allocate(std::size_t bytes) {
+        const std::size_t size = rounded(bytes);
+#if defined(__linux__)
+        void* const mapped = ::mmap(nullptr, size + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (mapped == MAP_FAILED) raise(std::bad_alloc());
+        const std::size_t before = (page - std::bit_cast<std::uintptr_t>(mapped) % page) % page;
+        char* const memory = static_cast<char*>(mapped) + before;
+        if (before > 0) ::munmap(mapped, before);
+        ::munmap(memory + size, page - before);
+#if defined(MADV_HUGEPAGE)
+        ::madvise(memory, bytes / page * page, MADV_HUGEPAGE);  // refused, it is memory all the same
+#endif
+        return memory;
+#else
+        return ::operator new (size, std::align_val_t{page});
+#endif
+    }
+
+    static void free(void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
+#if defined(__linux__)
+        ::munmap(memory, rounded(bytes));
+#else
+        ::operator delete (memory, std::align_val_t{page});
+#endif
+    }
+};
+
+/// The blocks that one thread keeps.
+class spare_memory {
+  public:
+    /// The calling thread's, or null at its end.
+    static spare_memory* mine() {
+        static thread_local bool is_over = false;
+        struct keeper {
+            spare_memory memory;
+            bool& over;
+            ~keeper() {
+                over = true;
+                memory.release();
+            }
+        };
+        if (is_over) return nullptr;
+        static thread_local keeper kept{{}, is_over};
+        return &kept.memory;
+    }
+
+    /// Memory for so many bytes, at the beginning of a large page.
+    /// @throws std::bad_alloc
+    void* take(std::size_t bytes) {
+        const std::size_t size = large_pages::rounded(bytes);
+        void* memory = nullptr;
+        for (int i = 0; i < count_ && memory == nullptr; ++i)
+            if (blocks_[i].size == size) memory = drop(i);
+        if (memory == nullptr) {
+            const std::size_t most = (std::max)(most_, in_use_ + size);
+            while (count_ > 0 && kept_ + in_use_ + size > limit(most)) free(0);
+            memory = large_pages::allocate(bytes);
+            most_ = most;
+        }
+        in_use_ += size;
+        return memory;
+    }
+
+    /// Takes back what `take`, of any thread, gave for as many bytes.
+    void give(void* memory, std::size_t bytes) noexcept {
+        const std::size_t size = large_pages::rounded(bytes);
+        in_use_ -= (std::min)(in_use_, size);
+        if (count_ == most_blocks || kept_ + in_use_ + size > limit(most_)) return large_pages::free(memory, size);
+        blocks_[count_++] = {memory, size};
+        kept_ += size;
+    }
+
+    /// Bytes that are waiting.
+    std::size_t kept() const { return kept_; }
+
+    void release() noexcept {
+        while (count_ > 0) free(0);
+        most_ = in_use_;
+    }
+
+  private:
+    struct block {
+        void* memory;
+        std::size_t size;
+    };
+
+    static std::size_t limit(std::size_t most) { return most + most / 8; }
+
+    void free(int i) noexcept {
+        const std::size_t size = blocks_[i].size;
+        large_pages::free(drop(i), size);
+    }
+    void* drop(int i) noexcept {
+        const block dropped = blocks_[i];
+        blocks_[i] = blocks_[--count_];
+        kept_ -= dropped.size;
+        return dropped.memory;
+    }
+
+    static constexpr int most_blocks = 32;
+    block blocks_[most_blocks]{};
+    int count_ = 0;
+    std::size_t kept_ = 0;    ///< bytes of all blocks
+    std::size_t in_use_ = 0;  ///< taken by this thread and not given back to it
+    std::size_t most_ = 0;    ///< that was in use at once
+};
+
+}  // namespace detail
+
+/// Gives back to the system what the calling thread has kept of large memory for its next picture. A thread keeps
+/// blocks of 4 MB and more, together with what it has in use never more than an eighth above what it has had in use at
+/// once; its end releases them, too.
+inline void release_memory() noexcept {
+    if (detail::spare_memory* const spare = detail::spare_memory::mine()) spare->release();
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+// ------------ insonify/core/unfilled.hpp ----------------------------------------------------------------
+// Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
+// many will.
+//
+// Large memory comes in whole large pages, and stays with the thread for the next that is as large, unless
+// INSONIFY_KEEP_MEMORY is 0.
+
+#include <memory>
+#include <vector>
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// For constructors: leave the elements unset.
+struct unfilled {};
+
+/// Makes values that nobody gave as `T value;` does, not as `T value{};`.
+template <class T>
+class unfilled_allocator {
+  public:
+    using value_type = T;
+
+    unfilled_allocator() = default;
+    template <class U>
+    unfilled_allocator(const unfilled_allocator<U>&) {}
+
+    T* allocate(std::size_t count) {
+        if (!is_large(count)) return std::allocator<T>().allocate(count);
+        spare_memory* const spare = spare_memory::mine();
+        const std::size_t bytes = count * sizeof(T);
+        return static_cast<T*>(spare != nullptr ? spare->take(bytes) : large_pages::allocate(bytes));
+    }
+    void deallocate(T* memory, std::size_t count) {
+        if (!is_large(count)) return std::allocator<T>().deallocate(memory, count);
+        if (spare_memory* const spare = spare_memory::mine())
+            spare->give(memory, count * sizeof(T));
+        else
+            large_pages::free(memory, count * sizeof(T));
+    }
+
+    template <class U>
+    void construct(U* at) {
+        ::new (static_cast<void*>(at)) U;
+    }
+    template <class U, class... From>
+    void construct(U* at, From&&... from) {
+        std::construct_at(at, std::forward<From>(from)...);
+    }
+
+    friend bool operator==(const unfilled_allocator&, const unfilled_allocator&) { return true; }
+
+  private:
+    static_assert(alignof(T) <= large_pages::page);
+
+    /// At least two pages, of which the first and the last waste one at most.
+    static bool is_large(std::size_t count) {
+        return INSONIFY_KEEP_MEMORY && count >= 2 * large_pages::page / sizeof(T);
+    }
+};
+
+/// Elements stay unset until somebody sets them.
+template <class T>
+using unfilled_vector = std::vector<T, unfilled_allocator<T>>;
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
 // ------------ insonify/geometry/mesh.hpp ----------------------------------------------------------------
 // Triangles as plain data: what builders and importers make, and what everything downstream draws.
-
-#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -1042,6 +1254,30 @@ struct mesh {
     std::vector<glm::vec3> normals;  ///< unit, one per position, or none at all
     std::vector<glm::uvec3> triangles;
 };
+
+/// A mesh to look at: somebody else's buffers, who has to keep them meanwhile.
+struct mesh_view {
+    std::span<const glm::vec3> positions;
+    std::span<const glm::vec3> normals;  ///< see mesh
+    std::span<const glm::uvec3> triangles;
+
+    mesh_view() = default;
+    mesh_view(std::span<const glm::vec3> places, std::span<const glm::vec3> ups, std::span<const glm::uvec3> corners)
+        : positions(places), normals(ups), triangles(corners) {}
+    mesh_view(const mesh& m) : mesh_view(m.positions, m.normals, m.triangles) {}
+};
+
+namespace detail {
+
+/// A mesh that is made in every picture.
+struct unfilled_mesh {
+    unfilled_vector<glm::vec3> positions, normals;
+    unfilled_vector<glm::uvec3> triangles;
+
+    operator mesh_view() const { return {positions, normals, triangles}; }
+};
+
+}  // namespace detail
 
 /// @throws invalid_input if an index has no position, or normals are neither absent nor one per position
 inline void validate(const mesh& m) {
@@ -1057,8 +1293,6 @@ inline void validate(const mesh& m) {
 
 // ------------ insonify/geometry/bounds.hpp --------------------------------------------------------------
 // Axis-aligned boxes, for fitting cameras and culling.
-
-#include <algorithm>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -1144,7 +1378,7 @@ struct bounds_kernel {
 
 /// The smallest box around all finite positions, whether a triangle uses them or not.
 template <executor_argument E = serial_executor>
-bounding_box bounds(const mesh& m, E&& ex = {}) {
+bounding_box bounds(const mesh_view& m, E&& ex = {}) {
     constexpr std::size_t grain = 65536;
     std::vector<bounding_box> parts((m.positions.size() + grain - 1) / grain);
     bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
@@ -2095,218 +2329,6 @@ class screen_polygon {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/core/spare_memory.hpp ------------------------------------------------------------
-// Large memory that was given back, for who asks for as much next.
-//
-// The system clears every page before it hands it out. Where pictures are made one after another, in new memory each
-// time, that is up to a third of the time. So a thread holds on to the large blocks that it gives back; together with
-// what it has in use, never to more than an eighth above what it has had in use at once. The eighth is for what comes
-// and goes within a picture: without it, that would drive out what the picture's peak needs.
-
-#include <new>
-
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
-namespace insonify::inline INSONIFY_ABI {
-
-namespace detail {
-
-/// Blocks of whole large pages, as they come from the system and go back to it.
-struct large_pages {
-    static constexpr std::size_t page = std::size_t{1} << 21;  ///< the system clears it in one go
-
-    /// How much a block for so many bytes holds. Sizes that differ by less than an eighth get the same; what nobody
-    /// touches of a page costs nothing.
-    static std::size_t rounded(std::size_t bytes) {
-        const std::size_t step = (std::max)(page, std::bit_floor(bytes) / 8);
-        return (bytes + step - 1) / step * step;
-    }
-
-    /// @throws std::bad_alloc
-    static void* allocate(std::size_t bytes) {
-        const std::size_t size = rounded(bytes);
-#if defined(__linux__)
-        void* const mapped = ::mmap(nullptr, size + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-        if (mapped == MAP_FAILED) raise(std::bad_alloc());
-        const std::size_t before = (page - std::bit_cast<std::uintptr_t>(mapped) % page) % page;
-        char* const memory = static_cast<char*>(mapped) + before;
-        if (before > 0) ::munmap(mapped, before);
-        ::munmap(memory + size, page - before);
-#if defined(MADV_HUGEPAGE)
-        ::madvise(memory, bytes / page * page, MADV_HUGEPAGE);  // refused, it is memory all the same
-#endif
-        return memory;
-#else
-        return ::operator new (size, std::align_val_t{page});
-#endif
-    }
-
-    static void free(void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
-#if defined(__linux__)
-        ::munmap(memory, rounded(bytes));
-#else
-        ::operator delete (memory, std::align_val_t{page});
-#endif
-    }
-};
-
-/// The blocks that one thread keeps.
-class spare_memory {
-  public:
-    /// The calling thread's, or null at its end.
-    static spare_memory* mine() {
-        static thread_local bool is_over = false;
-        struct keeper {
-            spare_memory memory;
-            bool& over;
-            ~keeper() {
-                over = true;
-                memory.release();
-            }
-        };
-        if (is_over) return nullptr;
-        static thread_local keeper kept{{}, is_over};
-        return &kept.memory;
-    }
-
-    /// Memory for so many bytes, at the beginning of a large page.
-    /// @throws std::bad_alloc
-    void* take(std::size_t bytes) {
-        const std::size_t size = large_pages::rounded(bytes);
-        void* memory = nullptr;
-        for (int i = 0; i < count_ && memory == nullptr; ++i)
-            if (blocks_[i].size == size) memory = drop(i);
-        if (memory == nullptr) {
-            const std::size_t most = (std::max)(most_, in_use_ + size);
-            while (count_ > 0 && kept_ + in_use_ + size > limit(most)) free(0);
-            memory = large_pages::allocate(bytes);
-            most_ = most;
-        }
-        in_use_ += size;
-        return memory;
-    }
-
-    /// Takes back what `take`, of any thread, gave for as many bytes.
-    void give(void* memory, std::size_t bytes) noexcept {
-        const std::size_t size = large_pages::rounded(bytes);
-        in_use_ -= (std::min)(in_use_, size);
-        if (count_ == most_blocks || kept_ + in_use_ + size > limit(most_)) return large_pages::free(memory, size);
-        blocks_[count_++] = {memory, size};
-        kept_ += size;
-    }
-
-    /// Bytes that are waiting.
-    std::size_t kept() const { return kept_; }
-
-    void release() noexcept {
-        while (count_ > 0) free(0);
-        most_ = in_use_;
-    }
-
-  private:
-    struct block {
-        void* memory;
-        std::size_t size;
-    };
-
-    static std::size_t limit(std::size_t most) { return most + most / 8; }
-
-    void free(int i) noexcept {
-        const std::size_t size = blocks_[i].size;
-        large_pages::free(drop(i), size);
-    }
-    void* drop(int i) noexcept {
-        const block dropped = blocks_[i];
-        blocks_[i] = blocks_[--count_];
-        kept_ -= dropped.size;
-        return dropped.memory;
-    }
-
-    static constexpr int most_blocks = 32;
-    block blocks_[most_blocks]{};
-    int count_ = 0;
-    std::size_t kept_ = 0;    ///< bytes of all blocks
-    std::size_t in_use_ = 0;  ///< taken by this thread and not given back to it
-    std::size_t most_ = 0;    ///< that was in use at once
-};
-
-}  // namespace detail
-
-/// Gives back to the system what the calling thread has kept of large memory for its next picture. A thread keeps
-/// blocks of 4 MB and more, together with what it has in use never more than an eighth above what it has had in use at
-/// once; its end releases them, too.
-inline void release_memory() noexcept {
-    if (detail::spare_memory* const spare = detail::spare_memory::mine()) spare->release();
-}
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-// ------------ insonify/core/unfilled.hpp ----------------------------------------------------------------
-// Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
-// many will.
-//
-// Large memory comes in whole large pages, and stays with the thread for the next that is as large, unless
-// INSONIFY_KEEP_MEMORY is 0.
-
-#include <memory>
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-/// For constructors: leave the elements unset.
-struct unfilled {};
-
-/// Makes values that nobody gave as `T value;` does, not as `T value{};`.
-template <class T>
-class unfilled_allocator {
-  public:
-    using value_type = T;
-
-    unfilled_allocator() = default;
-    template <class U>
-    unfilled_allocator(const unfilled_allocator<U>&) {}
-
-    T* allocate(std::size_t count) {
-        if (!is_large(count)) return std::allocator<T>().allocate(count);
-        spare_memory* const spare = spare_memory::mine();
-        const std::size_t bytes = count * sizeof(T);
-        return static_cast<T*>(spare != nullptr ? spare->take(bytes) : large_pages::allocate(bytes));
-    }
-    void deallocate(T* memory, std::size_t count) {
-        if (!is_large(count)) return std::allocator<T>().deallocate(memory, count);
-        if (spare_memory* const spare = spare_memory::mine())
-            spare->give(memory, count * sizeof(T));
-        else
-            large_pages::free(memory, count * sizeof(T));
-    }
-
-    template <class U>
-    void construct(U* at) {
-        ::new (static_cast<void*>(at)) U;
-    }
-    template <class U, class... From>
-    void construct(U* at, From&&... from) {
-        std::construct_at(at, std::forward<From>(from)...);
-    }
-
-    friend bool operator==(const unfilled_allocator&, const unfilled_allocator&) { return true; }
-
-  private:
-    static_assert(alignof(T) <= large_pages::page);
-
-    /// At least two pages, of which the first and the last waste one at most.
-    static bool is_large(std::size_t count) {
-        return INSONIFY_KEEP_MEMORY && count >= 2 * large_pages::page / sizeof(T);
-    }
-};
-
-/// Elements stay unset until somebody sets them.
-template <class T>
-using unfilled_vector = std::vector<T, unfilled_allocator<T>>;
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
-
 // ------------ insonify/raster/shader.hpp ----------------------------------------------------------------
 // What people bring to a draw: a callable that places vertices, and one that is asked for each visible pixel.
 //
@@ -2607,7 +2629,7 @@ struct kept_lanes {
     }
 };
 
-inline vertex mesh_vertex(const mesh& m, std::uint32_t index) {
+inline vertex mesh_vertex(const mesh_view& m, std::uint32_t index) {
     return {m.positions[index], m.normals.empty() ? glm::vec3(0) : m.normals[index], index};
 }
 
@@ -2627,7 +2649,7 @@ inline constexpr no_record* no_records = nullptr;
 /// Places a range of a mesh's vertices; what the vertex callable gives beside the place goes into the records.
 template <class Shader, class Record, class Real>
 struct placement_kernel {
-    const mesh& m;
+    const mesh_view& m;
     const Shader& shader;
     Record* records;
     const projection& screen;
@@ -2859,7 +2881,7 @@ class screen_mesh {
     /// @param weighed  whether weights_at will be asked for
     /// @param records  one for each vertex, to be set; or null and no_record
     template <vertex_shader Shader, class Record, executor E>
-    screen_mesh(const mesh& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
+    screen_mesh(const mesh_view& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
                 const draw_options& options, bool weighed, Record* records, E& ex)
         : mesh_(m),
           indices_(m.triangles.data()),
@@ -3021,7 +3043,7 @@ class screen_mesh {
         return f;
     }
 
-    const mesh& mesh_;
+    mesh_view mesh_;
     const glm::uvec3* indices_;
     std::uint32_t whole_;  ///< names below this are triangles of the mesh, the others wide ones
     pixel_grid grid_;
@@ -3974,7 +3996,7 @@ template <class VertexShader>
 struct corner_varyings {
     varyings_of<VertexShader> a, b, c;
 
-    corner_varyings(const VertexShader& place, const mesh& m, const glm::uvec3& index)
+    corner_varyings(const VertexShader& place, const mesh_view& m, const glm::uvec3& index)
         : a(varyings_at(place, mesh_vertex(m, index.x))),
           b(varyings_at(place, mesh_vertex(m, index.y))),
           c(varyings_at(place, mesh_vertex(m, index.z))) {}
@@ -3982,7 +4004,7 @@ struct corner_varyings {
 
 /// Calls the fragment callable for every pixel of a tile that shows a triangle of this draw.
 template <class Target, class Triangles, class VertexShader, class FragmentShader>
-std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShader& shader, const Target& target,
+std::uint64_t shade(const mesh_view& m, const VertexShader& place, const FragmentShader& shader, const Target& target,
                     const Triangles& triangles, tile_buffer<true>& tile, float depth_sign) {
     using varyings = varyings_of<VertexShader>;
     const pixel_grid& grid = triangles.screen.grid();
@@ -4020,8 +4042,8 @@ std::uint64_t shade(const mesh& m, const VertexShader& place, const FragmentShad
 /// Everything but the shading, which `finish(tile triangles, tile buffer, depth sign)` does; it returns the pixels that
 /// it shaded. What the vertex callable gives goes into `records`, one for each vertex, if there are any.
 template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Record, class Finish>
-draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float> depth, const draw_options& options,
-                      E& ex, Record* records, Finish&& finish) {
+draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<float> depth,
+                      const draw_options& options, E& ex, Record* records, Finish&& finish) {
     check(options, depth);
     require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
             "0 or one per position");
@@ -4057,7 +4079,7 @@ draw_stats draw_tiles(const mesh& m, const VertexShader& place, image_view<float
 
 /// Draws quick depths and hands the pixels that this draw has won, several at a time, to `shader(fragment_lanes)`.
 template <varying_shader VertexShader, class LaneShader, executor E>
-draw_stats draw_lanes(const mesh& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
+draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
                       const draw_options& options, E& ex) {
     using varyings = varyings_of<VertexShader>;
     unfilled_vector<vertex_record<varyings>> records(m.positions.size());
@@ -4074,7 +4096,7 @@ draw_stats draw_lanes(const mesh& m, const VertexShader& place, const LaneShader
 /// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle; where nothing is, the
 /// name says nothing.
 template <vertex_shader VertexShader, executor E>
-draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float> depth,
+draw_stats draw_names(const mesh_view& m, const VertexShader& place, image_view<float> depth,
                       image_view<std::uint32_t> names, const draw_options& options, E& ex) {
     const auto copy_names = [&](const auto& triangles, tile_buffer<true>& tile, float) {
         const pixel_box& box = triangles.box;
@@ -4095,7 +4117,7 @@ draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float
 
 /// Draws depth alone; no shading is compiled.
 ///
-/// @param m        the mesh, any number of triangles up to 2^32 - 1
+/// @param m        a mesh, or a view of your own buffers; any number of triangles up to 2^32 - 1
 /// @param place    vertex_shader: `vertex` to clip space
 /// @param target   depth image of up to 2^22 pixels a side; rows are tiles' rows, from the top
 /// @param options  see draw_options
@@ -4104,15 +4126,15 @@ draw_stats draw_names(const mesh& m, const VertexShader& place, image_view<float
 /// @throws invalid_input for an index without a position, normals that don't match, or options out of range;
 ///         the target is then untouched
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
-draw_stats draw(const mesh& m, const VertexShader& place, const depth_target& target, const draw_options& options = {},
-                E&& ex = {}) {
+draw_stats draw(const mesh_view& m, const VertexShader& place, const depth_target& target,
+                const draw_options& options = {}, E&& ex = {}) {
     return detail::draw_tiles<false, double>(m, place, target.depth, options, ex, detail::no_records,
                                              [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// The same with quick depths.
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
-draw_stats draw(const mesh& m, const VertexShader& place, const quick_depth_target& target,
+draw_stats draw(const mesh_view& m, const VertexShader& place, const quick_depth_target& target,
                 const draw_options& options = {}, E&& ex = {}) {
     return detail::draw_tiles<false, float>(m, place, target.depth, options, ex, detail::no_records,
                                             [](auto&&...) { return std::uint64_t{0}; });
@@ -4125,7 +4147,7 @@ draw_stats draw(const mesh& m, const VertexShader& place, const quick_depth_targ
 /// the color image's size isn't the depth image's.
 template <vertex_shader VertexShader, class FragmentShader, class Pixel, executor_argument E = serial_executor>
     requires(fragment_shader<FragmentShader, varyings_of<VertexShader>, Pixel>)
-draw_stats draw(const mesh& m, const VertexShader& place, const FragmentShader& shader,
+draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentShader& shader,
                 const framebuffer<Pixel>& target, const draw_options& options = {}, E&& ex = {}) {
     if constexpr (requires { target.color; }) {
         detail::require(target.color.width() == target.depth.width(), "color width", target.color.width(),
@@ -4766,6 +4788,47 @@ inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_
             numeric::is_finite(height) ? height : 0.0f};
 }
 
+/// See the public one, for any type of mesh.
+template <class Mesh, executor E>
+void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 first) {
+    validate(field);
+    const image<float>& heights = field.heights;
+    const auto width = static_cast<std::size_t>(heights.width()), height = static_cast<std::size_t>(heights.height());
+    insonify::detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
+                              "below 2^32");
+
+    result.positions.resize(heights.size());
+    result.normals.resize(heights.size());
+
+    // Write the vertices, and count the triangles of each row of cells on the way.
+    std::vector<std::size_t> first_triangle(height, 0);
+    ex.bulk(height, [&](std::size_t j) {
+        row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
+        for (std::size_t i = 0; i < width; ++i) result.positions[j * width + i] = position_at(field, i, j, first);
+        if (j + 1 == height) return;
+        const float* const here = heights.row(static_cast<int>(j)).data();
+        const float* const ahead = heights.row(static_cast<int>(j + 1)).data();
+        std::size_t count = 0;
+        for (std::size_t i = 0; i + 1 < width; ++i) count += cell_facets(here + i, ahead + i).count();
+        first_triangle[j + 1] = count;
+    });
+    for (std::size_t j = 1; j < height; ++j) first_triangle[j] += first_triangle[j - 1];
+
+    result.triangles.resize(first_triangle.back());
+    ex.bulk(height - 1, [&](std::size_t j) {
+        const float* const here = heights.row(static_cast<int>(j)).data();
+        const float* const ahead = heights.row(static_cast<int>(j + 1)).data();
+        glm::uvec3* next = result.triangles.data() + first_triangle[j];
+        for (std::size_t i = 0; i + 1 < width; ++i) {
+            const auto corner = static_cast<std::uint32_t>(j * width + i);
+            const auto opposite = static_cast<std::uint32_t>(corner + width + 1);
+            const cell_facets drawn(here + i, ahead + i);
+            if (drawn.lower) *next++ = {corner, corner + 1, opposite};
+            if (drawn.upper) *next++ = {corner, opposite, opposite - 1};
+        }
+    });
+}
+
 }  // namespace detail
 
 /// The surface of a heightfield as a mesh: two triangles per cell, counter-clockwise from above, cut from vertex (i, j)
@@ -4779,44 +4842,8 @@ inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_
 /// @throws invalid_input as `validate`, and for 2^32 vertices or more
 template <executor_argument Executor = serial_executor>
 mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm::ivec2 first = {0, 0}) {
-    validate(field);
-    const image<float>& heights = field.heights;
-    const auto width = static_cast<std::size_t>(heights.width()), height = static_cast<std::size_t>(heights.height());
-    detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
-                    "below 2^32");
-
     mesh result;
-    result.positions.resize(heights.size());
-    result.normals.resize(heights.size());
-
-    // Write the vertices, and count the triangles of each row of cells on the way.
-    std::vector<std::size_t> first_triangle(height, 0);
-    ex.bulk(height, [&](std::size_t j) {
-        detail::row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
-        for (std::size_t i = 0; i < width; ++i)
-            result.positions[j * width + i] = detail::position_at(field, i, j, first);
-        if (j + 1 == height) return;
-        const float* const here = heights.row(static_cast<int>(j)).data();
-        const float* const ahead = heights.row(static_cast<int>(j + 1)).data();
-        std::size_t count = 0;
-        for (std::size_t i = 0; i + 1 < width; ++i) count += detail::cell_facets(here + i, ahead + i).count();
-        first_triangle[j + 1] = count;
-    });
-    for (std::size_t j = 1; j < height; ++j) first_triangle[j] += first_triangle[j - 1];
-
-    result.triangles.resize(first_triangle.back());
-    ex.bulk(height - 1, [&](std::size_t j) {
-        const float* const here = heights.row(static_cast<int>(j)).data();
-        const float* const ahead = heights.row(static_cast<int>(j + 1)).data();
-        glm::uvec3* next = result.triangles.data() + first_triangle[j];
-        for (std::size_t i = 0; i + 1 < width; ++i) {
-            const auto corner = static_cast<std::uint32_t>(j * width + i);
-            const auto opposite = static_cast<std::uint32_t>(corner + width + 1);
-            const detail::cell_facets drawn(here + i, ahead + i);
-            if (drawn.lower) *next++ = {corner, corner + 1, opposite};
-            if (drawn.upper) *next++ = {corner, opposite, opposite - 1};
-        }
-    });
+    detail::tessellate_into(result, field, ex, first);
     return result;
 }
 
@@ -6178,7 +6205,7 @@ namespace insonify::inline INSONIFY_ABI::shadow {
 
 /// A mesh's corners in the frame in which the light is described, in doubles.
 template <executor_argument E = serial_executor>
-std::vector<glm::dvec3> placed_corners(const mesh& m, const affine& placement, E&& ex = {}) {
+std::vector<glm::dvec3> placed_corners(const mesh_view& m, const affine& placement, E&& ex = {}) {
     std::vector<glm::dvec3> corners(m.positions.size());
     bulk_ranges(ex, corners.size(), 16384, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) corners[i] = transform_point(placement, m.positions[i]);
@@ -6221,7 +6248,7 @@ class light_blockers {
     /// @param is_mirrored  the placement turned its triangles round
     /// @param ex           who makes the trees; they are the same for any executor
     template <executor E>
-    light_blockers(const light_rays& rays, const mesh& m, std::span<const glm::dvec3> corners, bool is_solid,
+    light_blockers(const light_rays& rays, const mesh_view& m, std::span<const glm::dvec3> corners, bool is_solid,
                    bool is_mirrored, E& ex)
         : triangles_(m.triangles), corners_(corners) {
         constexpr std::size_t grain = 16384;
@@ -6364,7 +6391,7 @@ inline map_extent merge(const map_extent& a, const map_extent& b) {
 
 /// The extent of a mesh under a light; positions that aren't finite are passed over.
 template <executor_argument E = serial_executor>
-map_extent extent_of(const mesh& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
+map_extent extent_of(const mesh_view& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
     constexpr std::size_t grain = 16384;
     std::vector<map_extent> parts((m.positions.size() + grain - 1) / grain);
     bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
@@ -6475,7 +6502,7 @@ class height_map {
     /// Lets a mesh cast; several may share a map.
     /// @param to_world  from the mesh's frame to the one in which the light is described
     template <executor_argument E = serial_executor>
-    draw_stats cast(const mesh& m, const affine& to_world, E&& ex = {}) {
+    draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
         if (heights_.empty()) return {};
         return draw(m, grid_.placing(frame_, to_world), quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
     }
@@ -6717,9 +6744,9 @@ class caster_map {
     /// @param texel     metres, the same along u and v; grows if more than `largest` texels a side were needed
     /// @throws invalid_input as height_map does
     template <executor E>
-    caster_map(const light_frame& frame, const mesh& m, const affine& to_world, bool is_solid, const map_extent& extent,
-               double reach, double texel, int largest, E& ex)
-        : frame_(frame), mesh_(&m), grid_(extent, texel, largest, stretch(frame)) {
+    caster_map(const light_frame& frame, const mesh_view& m, const affine& to_world, bool is_solid,
+               const map_extent& extent, double reach, double texel, int largest, E& ex)
+        : frame_(frame), mesh_(m), grid_(extent, texel, largest, stretch(frame)) {
         if (grid_.empty()) return;
         tolerance_ = static_cast<float>(0x1p-21 * reach);
         const std::size_t width = pitch(), height = static_cast<std::size_t>(grid_.rows) + 2;
@@ -6857,7 +6884,7 @@ class caster_map {
             floats u[3], v[3], z[3];
             for (int i = 0; i < 3; ++i) {
                 const auto corner = [&](int k) -> const glm::vec3& {
-                    return mesh_->positions[mesh_->triangles[name(first + k)][i]];
+                    return mesh_.positions[mesh_.triangles[name(first + k)][i]];
                 };
                 floats px, py, pz;
                 gather_pairs<N>(px, py, [&](int k) { return &corner(k).x; });
@@ -6879,12 +6906,12 @@ class caster_map {
     /// Meshes are mostly written such that neighbours come after one another; grids, strip by strip. How many triangles
     /// a grid's strip has shows in the indices of each: its corners lie in two rows of vertices.
     std::uint32_t strip(std::uint32_t name) const {
-        const glm::uvec3& t = mesh_->triangles[name];
+        const glm::uvec3& t = mesh_.triangles[name];
         return 2 * ((std::max)({t.x, t.y, t.z}) - (std::min)({t.x, t.y, t.z}) - 1);
     }
     std::uint32_t before(std::uint32_t name, std::uint32_t steps) const { return name - (std::min)(name, steps); }
     std::uint32_t after(std::uint32_t name, std::uint32_t steps) const {
-        return name + (std::min)(static_cast<std::uint32_t>(mesh_->triangles.size() - 1) - name, steps);
+        return name + (std::min)(static_cast<std::uint32_t>(mesh_.triangles.size() - 1) - name, steps);
     }
 
     /// What has been asked around a point.
@@ -6906,7 +6933,7 @@ class caster_map {
     };
 
     light_frame frame_;
-    const mesh* mesh_ = nullptr;
+    mesh_view mesh_;
     affine to_light_;  ///< from the mesh to (u, v, z)
     glm::mat3 axes_;   ///< its linear part
     map_grid grid_;
@@ -7021,7 +7048,7 @@ struct cell_cut {
 /// How a mesh lies on a regular grid; nothing if it doesn't. Vertices may be off by a 256th of a step; all heights are
 /// finite.
 template <executor_argument E = serial_executor>
-std::optional<regular_grid> regular_grid_of(const mesh& m, E&& ex = {}) {
+std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}) {
     if (m.triangles.size() < 2) return std::nullopt;
     const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
     const auto cut = detail::cell_cut::of(cell);
@@ -7134,7 +7161,7 @@ struct sweep_relief {
     unfilled_vector<float> u;
 
     template <executor E>
-    sweep_relief(const mesh& m, const sweep_grid& grid, E& ex)
+    sweep_relief(const mesh_view& m, const sweep_grid& grid, E& ex)
         : pitch(grid.rows + below + above), u(static_cast<std::size_t>(grid.columns * pitch)) {
         // In squares, so that both the mesh and what is made of it are read and written in runs.
         constexpr int square = 32;
@@ -7369,7 +7396,7 @@ class horizon {
     ///                   more than 2^30 values
     /// @param level      the widest instruction set to use; the answers are the same
     template <executor E>
-    horizon(const light_frame& frame, const mesh& m, const regular_grid& grid, const affine& to_world,
+    horizon(const light_frame& frame, const mesh_view& m, const regular_grid& grid, const affine& to_world,
             const bounding_box& receivers, double texel, int largest, E& ex, isa level = best_isa()) {
         if (receivers.empty()) return;
         const glm::dvec3 travel = numeric::product(inverse(to_world).linear, -frame.to_light());
@@ -7560,7 +7587,7 @@ class refined_caster {
     /// @param texel      metres between the rays that tell what is near a point; see refined::largest, too
     /// @throws invalid_input as map_grid does
     template <executor E>
-    refined_caster(const light_frame& frame, const mesh& m, const bounding_box& box, const affine& to_world,
+    refined_caster(const light_frame& frame, const mesh_view& m, const bounding_box& box, const affine& to_world,
                    bool is_solid, const bounding_box& receivers, double texel, int largest, E& ex) {
         if (is_solid && is_lit_from_above(frame, to_world))
             if (const auto grid = regular_grid_of(m, ex)) {
@@ -11004,14 +11031,14 @@ struct no_shadow_maps {
 
 /// An object in the rig's frame.
 struct placed_mesh {
-    const mesh* shape;
+    mesh_view shape;
     bounding_box box;  ///< of the shape, in its own frame
     affine to_rig;
     bool is_solid;      ///< see target
     glm::mat3 normals;  ///< takes normals along
 
-    placed_mesh(const mesh& m, const bounding_box& around, const affine& map, bool solid)
-        : shape(&m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
+    placed_mesh(const mesh_view& m, const bounding_box& around, const affine& map, bool solid)
+        : shape(m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
 };
 
 /// Which pixels may show something in an object's shadow, or the object itself, down to a height in the rig's frame.
@@ -11126,13 +11153,13 @@ class shadow_maps {
     template <executor E>
     caster_form cast(const placed_mesh& caster, const bounding_box& receivers, double texel, E& ex) const {
         if constexpr (refined) {
-            return caster_form(light_, *caster.shape, caster.box, caster.to_rig, caster.is_solid, receivers, texel,
+            return caster_form(light_, caster.shape, caster.box, caster.to_rig, caster.is_solid, receivers, texel,
                                policy_.largest, ex);
         } else {
             const shadow::map_extent all = shadow::extent_of(receivers, {}, light_);
             const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(all);
             shadow::height_map map(light_, own, texel, policy_.largest);
-            map.cast(*caster.shape, caster.to_rig, ex);
+            map.cast(caster.shape, caster.to_rig, ex);
             return map;
         }
     }
@@ -11235,7 +11262,7 @@ class exact_shadows {
 
         void find(int k, const overhead_geometry& view, const placed_shape& s, std::uint32_t triangle, int x, int y,
                   const glm::dvec2& rounded) {
-            const glm::uvec3& t = s.placed->shape->triangles[triangle];
+            const glm::uvec3& t = s.placed->shape.triangles[triangle];
             const glm::dvec3 &a = s.corners[t.x], ab = s.corners[t.y] - a, ac = s.corners[t.z] - a;
             // Tomas Moeller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
             const glm::dvec3 ray = view.ray(x, y), from = view.eye() - a, p = numeric::cross(ray, ac);
@@ -11259,7 +11286,7 @@ class exact_shadows {
         shapes_.resize(targets.size() + 1);
         reach_ = static_cast<double>(view.rig().altitude);
         const auto place = [&](placed_shape& s, const placed_mesh& placed) {
-            s = {&placed, shadow::placed_corners(*placed.shape, placed.to_rig, ex)};
+            s = {&placed, shadow::placed_corners(placed.shape, placed.to_rig, ex)};
             reach_ = (std::max)(reach_, shadow::reach_of(s.corners));
         };
         if (bottom != nullptr) place(shapes_[0], *bottom);
@@ -11286,7 +11313,7 @@ class exact_shadows {
                     continue;
                 }
                 const bool is_mirrored = numeric::determinant(s.placed->to_rig.linear) < 0;
-                l.casters.emplace_back(l.rays, *s.placed->shape, s.corners, s.placed->is_solid, is_mirrored, ex);
+                l.casters.emplace_back(l.rays, s.placed->shape, s.corners, s.placed->is_solid, is_mirrored, ex);
             }
     }
 
@@ -11382,7 +11409,7 @@ struct whole_object {
 
 /// The seabed: a material for each of its types, which a pixel takes from the vertex that weighs most.
 struct typed_bottom {
-    const mesh& surface;
+    mesh_view surface;
     const std::vector<seabed::type>& types;  ///< by vertex
     const std::array<material, seabed::type_count>& materials;
     static constexpr std::uint16_t instance = labels::no_instance;
@@ -11401,7 +11428,7 @@ struct typed_bottom {
 template <class Shadows, class Labels, class Law, class Object>
 class surface_shader {
   public:
-    surface_shader(const overhead_geometry& view, const surface_placement& placement, const mesh& shape,
+    surface_shader(const overhead_geometry& view, const surface_placement& placement, const mesh_view& shape,
                    int subpixel_bits, const Law& law, const Shadows& shadows, const Object& object,
                    image<float>& picture, Labels& marks)
         : rig_(view.rig()),
@@ -11583,7 +11610,7 @@ class surface_shader {
     overhead rig_;
     float ray_step_, subpixel_;
     const surface_placement& placement_;
-    const mesh& mesh_;
+    mesh_view mesh_;
     bool is_near_;
     glm::vec3 to_light_;  ///< where it stands, if it is near
     Law law_;
@@ -11712,7 +11739,8 @@ class overhead_painter {
     void model_seabed(E& ex) {
         const auto every = field_.types.pixels();
         if (options_.edge_error == 0) {
-            bottom_ = seabed::tessellate(field_, ex, bottom_first_);
+            seabed::detail::tessellate_into(whole_bottom_, field_, ex, bottom_first_);
+            bottom_ = whole_bottom_;
             bottom_types_.assign(every.begin(), every.end());
             return;
         }
@@ -11725,7 +11753,8 @@ class overhead_painter {
                                                      .lean = forgiven * static_cast<double>(view_.rig().altitude),
                                                      .nadir = -field_.spacing * glm::dvec2(bottom_first_)},
                                                     ex, bottom_first_);
-        bottom_ = std::move(shape);
+        sparse_bottom_ = std::move(shape);
+        bottom_ = sparse_bottom_;
         if (every.empty()) return;
         bottom_types_.resize(vertices.size());
         std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
@@ -11811,10 +11840,10 @@ class overhead_painter {
     draw_stats draw_one(const placed_mesh& shape, depth_load load, const Shadows& shadows, const Object& object,
                         E& ex) {
         const surface_placement placement(view_, shape);
-        const surface_shader<Shadows, Labels, Law, Object> shader(view_, placement, *shape.shape,
-                                                                  options_.subpixel_bits, options_.law, shadows, object,
-                                                                  out_.image, out_.labels);
-        return draw_lanes(*shape.shape, placement, shader, depth_,
+        const surface_shader<Shadows, Labels, Law, Object> shader(view_, placement, shape.shape, options_.subpixel_bits,
+                                                                  options_.law, shadows, object, out_.image,
+                                                                  out_.labels);
+        return draw_lanes(shape.shape, placement, shader, depth_,
                           {.keep = keep_depth::larger,
                            .load = load,
                            .subpixel_bits = options_.subpixel_bits,
@@ -11829,7 +11858,9 @@ class overhead_painter {
     image<float> depth_;  ///< the first draw fills it
     frame<Labels> out_;
     seabed::heightfield field_;
-    mesh bottom_;
+    unfilled_mesh whole_bottom_;              ///< if every vertex is drawn
+    mesh sparse_bottom_;                      ///< if some are left out
+    mesh_view bottom_;                        ///< one of them
     std::vector<seabed::type> bottom_types_;  ///< by vertex, or none where there is one type alone
     glm::ivec2 bottom_first_{0, 0};           ///< of the field's vertices, counted from the rig's position
     float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum

@@ -188,7 +188,7 @@ draw_stats draw_names(const mesh_view& m, const VertexShader& place, image_view<
 
 /// Draws depth alone; no shading is compiled.
 ///
-/// @param m        the mesh, any number of triangles up to 2^32 - 1
+/// @param m        a mesh, or a view of your own buffers; any number of triangles up to 2^32 - 1
 /// @param place    vertex_shader: `vertex` to clip space
 /// @param target   depth image of up to 2^22 pixels a side; rows are tiles' rows, from the top
 /// @param options  see draw_options

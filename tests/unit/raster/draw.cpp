@@ -73,6 +73,17 @@ TEST_CASE("The same bytes for any executor, thread count, tile size and instruct
     }
 }
 
+TEST_CASE("Buffers that belong to no mesh are drawn as a mesh of them is") {
+    const in::mesh m = bumps(20);
+    const std::vector<glm::vec3> positions = m.positions;
+    const std::vector<glm::uvec3> triangles = m.triangles;
+    const in::draw_options options{.keep = in::keep_depth::larger, .load = in::depth_load::clear};
+    in::image<float> of_mesh(90, 70), of_buffers(90, 70);
+    in::draw(m, place_only, in::depth_target{of_mesh}, options);
+    in::draw({positions, {}, triangles}, place_only, in::depth_target{of_buffers}, options);
+    CHECK(of_buffers == of_mesh);
+}
+
 TEST_CASE("A depth-only draw leaves the depth of a shaded one and takes no fragment callable") {
     static_assert(!accepts_a_fragment<in::depth_target>);
     static_assert(accepts_a_fragment<in::framebuffer<float>>);
