@@ -1032,8 +1032,8 @@ INSONIFY_ARITHMETIC_END
 //
 // The system clears every page before it hands it out. Where pictures are made one after another, in new memory each
 // time, that is up to a third of the time. So a thread holds on to the large blocks that it gives back; together with
-// what it has in use, never to more than an eighth above what it has had in use at once. The eighth is for what comes
-// and goes within a picture: without it, that would drive out what the picture's peak needs.
+// what it has in use, never to more than half as much again as it has had in use at once. The half is for what comes and
+// goes within a picture: without it, that would drive out what the picture's peak needs.
 
 #include <algorithm>
 #include <new>
@@ -1144,7 +1144,7 @@ class spare_memory {
         std::size_t size;
     };
 
-    static std::size_t limit(std::size_t most) { return most + most / 8; }
+    static std::size_t limit(std::size_t most) { return most + most / 2; }
 
     void free(int i) noexcept {
         const std::size_t size = blocks_[i].size;
@@ -1168,8 +1168,8 @@ class spare_memory {
 }  // namespace detail
 
 /// Gives back to the system what the calling thread has kept of large memory for its next picture. A thread keeps
-/// blocks of 4 MB and more, together with what it has in use never more than an eighth above what it has had in use at
-/// once; its end releases them, too.
+/// blocks of 4 MB and more, together with what it has in use never more than half as much again as it has had in use
+/// at once; its end releases them, too.
 inline void release_memory() noexcept {
     if (detail::spare_memory* const spare = detail::spare_memory::mine()) spare->release();
 }
