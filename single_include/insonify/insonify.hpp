@@ -4077,7 +4077,8 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<
     return stats;
 }
 
-/// Draws quick depths and hands the pixels that this draw has won, several at a time, to `shader(fragment_lanes)`.
+/// Draws quick depths and hands the pixels that this draw has won, several at a time, to `shader(fragment_lanes)`. A
+/// draw that clears depths hands it each tile before, `shader.clear(pixel_box)`, to clear what it draws into.
 template <varying_shader VertexShader, class LaneShader, executor E>
 draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
                       const draw_options& options, E& ex) {
@@ -4085,6 +4086,7 @@ draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneS
     unfilled_vector<vertex_record<varyings>> records(m.positions.size());
     return draw_tiles<true, float>(
         m, place, depth, options, ex, records.data(), [&](const auto& triangles, tile_buffer<true>& tile, float) {
+            if (options.load == depth_load::clear) shader.clear(triangles.box);
             std::uint64_t shaded = 0;
             dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.data(), tile,
                                                                               triangles.box, shader, shaded},
@@ -11444,6 +11446,11 @@ class surface_shader {
           picture_(picture),
           labels_(marks) {}
 
+    /// What shows nothing is black.
+    void clear(const pixel_box& tile) const {
+        for (int y = tile.y0; y <= tile.y1; ++y) std::fill_n(&picture_(tile.x0, y), tile.width(), 0.0f);
+    }
+
     template <int N>
     INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
         using ints = lanes<std::int32_t, N>;
@@ -11676,7 +11683,7 @@ class overhead_painter {
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
         : scene_(s), view_(rig), options_(options), depth_(rig.size.x, rig.size.y, unfilled{}) {
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
-        out_.image = filled(rig.size.x, rig.size.y, 0.0f, ex);
+        out_.image = image<float>(rig.size.x, rig.size.y, unfilled{});  // the first draw fills it, and the depths
         validate(options.shadow);
         if constexpr (!shadow::ray_policy<Shadow> && !std::is_same_v<Shadow, shadow::none>)
             require(!view_.has_near_light(), "overhead.light_distance", rig.light_distance,
@@ -11834,6 +11841,7 @@ class overhead_painter {
             out_.stats.targets += draw_one(targets_[i], load, shadows, target, ex);
             load = depth_load::keep;
         }
+        if (load == depth_load::clear) std::fill(out_.image.pixels().begin(), out_.image.pixels().end(), 0.0f);
     }
 
     template <class Shadows, class Object, executor E>
@@ -11855,7 +11863,7 @@ class overhead_painter {
     const scene& scene_;
     overhead_geometry view_;
     render_options<Shadow, Labels, Law> options_;
-    image<float> depth_;  ///< the first draw fills it
+    image<float> depth_;
     frame<Labels> out_;
     seabed::heightfield field_;
     unfilled_mesh whole_bottom_;              ///< if every vertex is drawn

@@ -148,7 +148,8 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<
     return stats;
 }
 
-/// Draws quick depths and hands the pixels that this draw has won, several at a time, to `shader(fragment_lanes)`.
+/// Draws quick depths and hands the pixels that this draw has won, several at a time, to `shader(fragment_lanes)`. A
+/// draw that clears depths hands it each tile before, `shader.clear(pixel_box)`, to clear what it draws into.
 template <varying_shader VertexShader, class LaneShader, executor E>
 draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
                       const draw_options& options, E& ex) {
@@ -156,6 +157,7 @@ draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneS
     unfilled_vector<vertex_record<varyings>> records(m.positions.size());
     return draw_tiles<true, float>(
         m, place, depth, options, ex, records.data(), [&](const auto& triangles, tile_buffer<true>& tile, float) {
+            if (options.load == depth_load::clear) shader.clear(triangles.box);
             std::uint64_t shaded = 0;
             dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.data(), tile,
                                                                               triangles.box, shader, shaded},

@@ -8,6 +8,8 @@
 #include <insonify/sonar/seabed_reach.hpp>
 #include <insonify/sonar/shading.hpp>
 
+#include <algorithm>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
@@ -56,7 +58,7 @@ class overhead_painter {
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
         : scene_(s), view_(rig), options_(options), depth_(rig.size.x, rig.size.y, unfilled{}) {
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
-        out_.image = filled(rig.size.x, rig.size.y, 0.0f, ex);
+        out_.image = image<float>(rig.size.x, rig.size.y, unfilled{});  // the first draw fills it, and the depths
         validate(options.shadow);
         if constexpr (!shadow::ray_policy<Shadow> && !std::is_same_v<Shadow, shadow::none>)
             require(!view_.has_near_light(), "overhead.light_distance", rig.light_distance,
@@ -214,6 +216,7 @@ class overhead_painter {
             out_.stats.targets += draw_one(targets_[i], load, shadows, target, ex);
             load = depth_load::keep;
         }
+        if (load == depth_load::clear) std::fill(out_.image.pixels().begin(), out_.image.pixels().end(), 0.0f);
     }
 
     template <class Shadows, class Object, executor E>
@@ -235,7 +238,7 @@ class overhead_painter {
     const scene& scene_;
     overhead_geometry view_;
     render_options<Shadow, Labels, Law> options_;
-    image<float> depth_;  ///< the first draw fills it
+    image<float> depth_;
     frame<Labels> out_;
     seabed::heightfield field_;
     unfilled_mesh whole_bottom_;              ///< if every vertex is drawn

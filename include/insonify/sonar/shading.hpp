@@ -6,6 +6,8 @@
 #include <insonify/sonar/illumination.hpp>
 #include <insonify/sonar/rig.hpp>
 
+#include <algorithm>
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
@@ -94,6 +96,11 @@ class surface_shader {
           object_(object),
           picture_(picture),
           labels_(marks) {}
+
+    /// What shows nothing is black.
+    void clear(const pixel_box& tile) const {
+        for (int y = tile.y0; y <= tile.y1; ++y) std::fill_n(&picture_(tile.x0, y), tile.width(), 0.0f);
+    }
 
     template <int N>
     INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
