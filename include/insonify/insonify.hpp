@@ -120,6 +120,7 @@
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/ping_echo.hpp>
 #include <insonify/sonar/ping_fan.hpp>
+#include <insonify/sonar/placed_mesh.hpp>
 #include <insonify/sonar/range_geometry.hpp>
 #include <insonify/sonar/render.hpp>
 #include <insonify/sonar/rig.hpp>

@@ -3631,7 +3631,7 @@ struct tile_kernel {
     image_view<float> image;
     pixel_box box;
     float sign;  ///< a smaller internal depth wins
-    bool load_image;
+    bool load_image, store_image;
 
     template <int Width>
     INSONIFY_INLINE void run() const {
@@ -3647,7 +3647,7 @@ struct tile_kernel {
             const triangle_run run = left.take_run();
             for (std::uint32_t i = 0; i < run.count; ++i) draw_one<N>(run.first + i);
         }
-        copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
+        if (store_image) copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
     }
 
   private:
@@ -4039,11 +4039,15 @@ std::uint64_t shade(const mesh_view& m, const VertexShader& place, const Fragmen
     return shaded;
 }
 
+/// Keeps all depths.
+inline constexpr auto every_tile = [](const pixel_box&) { return true; };
+
 /// Everything but the shading, which `finish(tile triangles, tile buffer, depth sign)` does; it returns the pixels that
-/// it shaded. What the vertex callable gives goes into `records`, one for each vertex, if there are any.
-template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Record, class Finish>
+/// it shaded. What the vertex callable gives goes into `records`, one for each vertex, if there are any. Depths are
+/// stored where `is_kept(tile's box)`.
+template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Record, class Kept, class Finish>
 draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<float> depth,
-                      const draw_options& options, E& ex, Record* records, Finish&& finish) {
+                      const draw_options& options, E& ex, Record* records, const Kept& is_kept, Finish&& finish) {
     check(options, depth);
     require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
             "0 or one per position");
@@ -4067,7 +4071,8 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<
             const tile_triangles<Real> triangles{screen, screen.bin(tile), box, records, sizeof(Record)};
             const bool keep = options.load == depth_load::keep;
             if (triangles.bin.empty() && keep) continue;
-            dispatch(tile_kernel<tile_triangles<Real>, Winners, Real>{triangles, buffer, depth, box, sign, keep},
+            dispatch(tile_kernel<tile_triangles<Real>, Winners, Real>{triangles, buffer, depth, box, sign, keep,
+                                                                      is_kept(box)},
                      options.level);
             shaded[first / run] += finish(triangles, buffer, sign);
         }
@@ -4079,20 +4084,25 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<
 
 /// Draws quick depths and hands the pixels that this draw has won, several at a time, to `shader(fragment_lanes)`. A
 /// draw that clears depths hands it each tile before, `shader.clear(pixel_box)`, to clear what it draws into.
+/// @param later  where draws that keep depths will come: elsewhere none are stored
 template <varying_shader VertexShader, class LaneShader, executor E>
 draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
-                      const draw_options& options, E& ex) {
+                      std::span<const pixel_box> later, const draw_options& options, E& ex) {
     using varyings = varyings_of<VertexShader>;
     unfilled_vector<vertex_record<varyings>> records(m.positions.size());
-    return draw_tiles<true, float>(
-        m, place, depth, options, ex, records.data(), [&](const auto& triangles, tile_buffer<true>& tile, float) {
-            if (options.load == depth_load::clear) shader.clear(triangles.box);
-            std::uint64_t shaded = 0;
-            dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.data(), tile,
-                                                                              triangles.box, shader, shaded},
-                     options.level);
-            return shaded;
-        });
+    const auto is_kept = [&](const pixel_box& tile) {
+        return std::any_of(later.begin(), later.end(), [&](const pixel_box& b) { return !intersect(tile, b).empty(); });
+    };
+    return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept,
+                                   [&](const auto& triangles, tile_buffer<true>& tile, float) {
+                                       if (options.load == depth_load::clear) shader.clear(triangles.box);
+                                       std::uint64_t shaded = 0;
+                                       dispatch(
+                                           shading_kernel<screen_mesh<float>, varyings, LaneShader>{
+                                               triangles.screen, records.data(), tile, triangles.box, shader, shaded},
+                                           options.level);
+                                       return shaded;
+                                   });
 }
 
 /// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle; where nothing is, the
@@ -4112,7 +4122,7 @@ draw_stats draw_names(const mesh_view& m, const VertexShader& place, image_view<
         }
         return std::uint64_t{0};
     };
-    return draw_tiles<true, float>(m, place, depth, options, ex, no_records, copy_names);
+    return draw_tiles<true, float>(m, place, depth, options, ex, no_records, every_tile, copy_names);
 }
 
 }  // namespace detail
@@ -4131,14 +4141,14 @@ template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh_view& m, const VertexShader& place, const depth_target& target,
                 const draw_options& options = {}, E&& ex = {}) {
     return detail::draw_tiles<false, double>(m, place, target.depth, options, ex, detail::no_records,
-                                             [](auto&&...) { return std::uint64_t{0}; });
+                                             detail::every_tile, [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// The same with quick depths.
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh_view& m, const VertexShader& place, const quick_depth_target& target,
                 const draw_options& options = {}, E&& ex = {}) {
-    return detail::draw_tiles<false, float>(m, place, target.depth, options, ex, detail::no_records,
+    return detail::draw_tiles<false, float>(m, place, target.depth, options, ex, detail::no_records, detail::every_tile,
                                             [](auto&&...) { return std::uint64_t{0}; });
 }
 
@@ -4160,7 +4170,8 @@ draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentSha
     const auto shade = [&](const auto& triangles, auto& tile, float sign) {
         return detail::shade(m, place, shader, target, triangles, tile, sign);
     };
-    return detail::draw_tiles<true, double>(m, place, target.depth, options, ex, detail::no_records, shade);
+    return detail::draw_tiles<true, double>(m, place, target.depth, options, ex, detail::no_records, detail::every_tile,
+                                            shade);
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
@@ -10990,6 +11001,67 @@ inline void describe_targets(labels& l, const std::vector<target>& targets) {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/sonar/placed_mesh.hpp ------------------------------------------------------------
+// An object where the rig sees it, and which pixels it may concern.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// An object in the rig's frame.
+struct placed_mesh {
+    mesh_view shape;
+    bounding_box box;  ///< of the shape, in its own frame
+    affine to_rig;
+    bool is_solid;      ///< see target
+    glm::mat3 normals;  ///< takes normals along
+
+    placed_mesh(const mesh_view& m, const bounding_box& around, const affine& map, bool solid)
+        : shape(m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
+};
+
+/// Which pixels may show an object, or something in its shadow that lies no lower than `lowest`, in the rig's frame:
+/// all of them, if floats, in which it is drawn, don't hold its place to a pixel.
+inline pixel_box shadowed_pixels(const overhead_geometry& view, const placed_mesh& caster, double lowest) {
+    const overhead& rig = view.rig();
+    const glm::dvec3& to_light = view.light().to_light();
+    const auto altitude = static_cast<double>(rig.altitude);
+    const auto size_of = [](double v) { return v < 0 ? -v : v; };
+    glm::dvec2 first(std::numeric_limits<double>::infinity()), last = -first;
+    for (int corner = 0; corner < 8 && !caster.box.empty(); ++corner) {
+        const glm::dvec3 from = caster.box.corner(corner), at = transform_point(caster.to_rig, from);
+        double largest = altitude;  // of what is summed up to place it
+        for (int axis = 0; axis < 3; ++axis) {
+            largest = (std::max)(largest, size_of(caster.to_rig.offset[axis]));
+            for (int i = 0; i < 3; ++i) largest = (std::max)(largest, size_of(caster.to_rig.linear[i][axis] * from[i]));
+        }
+        const double error = 0x1p-21 * largest;
+        // What all of these points surround, their pictures do.
+        const double fall = (std::max)(at.z - lowest, 0.0) / to_light.z;
+        for (const glm::dvec3& p : {at, at - fall * to_light}) {
+            const double down = altitude - p.z, aside = (std::max)(size_of(p.x), size_of(p.y)) / down;
+            const bool is_known = down > 0 && (1 + aside) * error < view.ray_step() * down;
+            if (!is_known) return {0, 0, rig.size.x - 1, rig.size.y - 1};
+            const glm::dvec2 pixel = view.pixel(p);
+            first = glm::dvec2((std::min)(first.x, pixel.x - 1), (std::min)(first.y, pixel.y - 1));
+            last = glm::dvec2((std::max)(last.x, pixel.x + 1), (std::max)(last.y, pixel.y + 1));
+        }
+    }
+    const auto held = [](double pixel, int size) {
+        return static_cast<int>((std::min)((std::max)(pixel, -1.0), static_cast<double>(size)));
+    };
+    return {held(first.x, rig.size.x), held(first.y, rig.size.y), held(last.x, rig.size.x), held(last.y, rig.size.y)};
+}
+
+/// Which pixels may show an object.
+inline pixel_box shown_pixels(const overhead_geometry& view, const placed_mesh& object) {
+    return shadowed_pixels(view, object, std::numeric_limits<double>::infinity());  // no shadow falls so high
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/illumination.hpp -----------------------------------------------------------
 // Who is in whose shadow: one caster for the seabed, and a small tight one for each target, so that a target's shadow
 // is fine whatever the size of the picture, and the label of a shadow is the name of who casts it.
@@ -11030,42 +11102,6 @@ struct no_shadow_maps {
     template <int N>
     INSONIFY_INLINE void operator()(light_shares<N>&, const surface_points<N>&, const lanes<std::int32_t, N>&) const {}
 };
-
-/// An object in the rig's frame.
-struct placed_mesh {
-    mesh_view shape;
-    bounding_box box;  ///< of the shape, in its own frame
-    affine to_rig;
-    bool is_solid;      ///< see target
-    glm::mat3 normals;  ///< takes normals along
-
-    placed_mesh(const mesh_view& m, const bounding_box& around, const affine& map, bool solid)
-        : shape(m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
-};
-
-/// Which pixels may show something in an object's shadow, or the object itself, down to a height in the rig's frame.
-inline pixel_box shadowed_pixels(const overhead_geometry& view, const placed_mesh& caster, double lowest) {
-    const glm::dvec3& to_light = view.light().to_light();
-    const overhead& rig = view.rig();
-    glm::dvec2 first(std::numeric_limits<double>::infinity()), last = -first;
-    for (int corner = 0; corner < 8 && !caster.box.empty(); ++corner) {
-        const glm::dvec3 at = transform_point(caster.to_rig, caster.box.corner(corner));
-        if (at.z > static_cast<double>(rig.altitude) * (1 - 1e-6)) return {0, 0, rig.size.x - 1, rig.size.y - 1};
-        // What all of these points surround, their pictures do.
-        const double fall = (std::max)(at.z - lowest, 0.0) / to_light.z;
-        for (const glm::dvec3& p : {at, at - fall * to_light}) {
-            const glm::dvec2 pixel = view.pixel(p);
-            first = glm::dvec2((std::min)(first.x, pixel.x), (std::min)(first.y, pixel.y));
-            last = glm::dvec2((std::max)(last.x, pixel.x), (std::max)(last.y, pixel.y));
-        }
-    }
-    // One more all around, for places in floats.
-    const auto held = [](double pixel, int size) {
-        return static_cast<int>((std::min)((std::max)(pixel, -2.0), static_cast<double>(size) + 1));
-    };
-    return {held(first.x - 1, rig.size.x), held(first.y - 1, rig.size.y), held(last.x + 1, rig.size.x),
-            held(last.y + 1, rig.size.y)};
-}
 
 /// All casters of a scene, each in the form that the policy asks for.
 template <class Policy>
@@ -11691,8 +11727,10 @@ class overhead_painter {
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y, ex);
-        for (const target& t : s.targets)
+        for (const target& t : s.targets) {
             targets_.emplace_back(t.shape, bounds(t.shape, ex), view_.rig_from(to_world(t.placement)), t.is_solid);
+            target_pixels_.push_back(shown_pixels(view_, targets_.back()));
+        }
         if (has_bottom()) sample_seabed(ex);
     }
 
@@ -11827,31 +11865,32 @@ class overhead_painter {
         if (has_bottom()) {
             const placed_mesh bottom = bottom_in_rig();
             if (field_.types.empty())
-                out_.stats.seabed = draw_one(bottom, load, shadows,
+                out_.stats.seabed = draw_one(bottom, load, 0, shadows,
                                              whole_object{scene_.bottom_of(field_.fallback), labels::no_instance,
                                                           static_cast<std::uint8_t>(field_.fallback)},
                                              ex);
             else
                 out_.stats.seabed =
-                    draw_one(bottom, load, shadows, typed_bottom{bottom_, bottom_types_, scene_.bottom}, ex);
+                    draw_one(bottom, load, 0, shadows, typed_bottom{bottom_, bottom_types_, scene_.bottom}, ex);
             load = depth_load::keep;
         }
         for (std::size_t i = 0; i < targets_.size(); ++i) {
             const whole_object target{scene_.targets[i].surface, static_cast<std::uint16_t>(i + 1), labels::no_seabed};
-            out_.stats.targets += draw_one(targets_[i], load, shadows, target, ex);
+            out_.stats.targets += draw_one(targets_[i], load, i + 1, shadows, target, ex);
             load = depth_load::keep;
         }
         if (load == depth_load::clear) std::fill(out_.image.pixels().begin(), out_.image.pixels().end(), 0.0f);
     }
 
+    /// @param later  the first of the targets that are drawn after it
     template <class Shadows, class Object, executor E>
-    draw_stats draw_one(const placed_mesh& shape, depth_load load, const Shadows& shadows, const Object& object,
-                        E& ex) {
+    draw_stats draw_one(const placed_mesh& shape, depth_load load, std::size_t later, const Shadows& shadows,
+                        const Object& object, E& ex) {
         const surface_placement placement(view_, shape);
         const surface_shader<Shadows, Labels, Law, Object> shader(view_, placement, shape.shape, options_.subpixel_bits,
                                                                   options_.law, shadows, object, out_.image,
                                                                   out_.labels);
-        return draw_lanes(shape.shape, placement, shader, depth_,
+        return draw_lanes(shape.shape, placement, shader, depth_, std::span(target_pixels_).subspan(later),
                           {.keep = keep_depth::larger,
                            .load = load,
                            .subpixel_bits = options_.subpixel_bits,
@@ -11873,6 +11912,7 @@ class overhead_painter {
     glm::ivec2 bottom_first_{0, 0};           ///< of the field's vertices, counted from the rig's position
     float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum
     std::vector<placed_mesh> targets_;
+    std::vector<pixel_box> target_pixels_;  ///< which may show them
 };
 
 }  // namespace detail

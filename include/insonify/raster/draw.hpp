@@ -110,11 +110,15 @@ std::uint64_t shade(const mesh_view& m, const VertexShader& place, const Fragmen
     return shaded;
 }
 
+/// Keeps all depths.
+inline constexpr auto every_tile = [](const pixel_box&) { return true; };
+
 /// Everything but the shading, which `finish(tile triangles, tile buffer, depth sign)` does; it returns the pixels that
-/// it shaded. What the vertex callable gives goes into `records`, one for each vertex, if there are any.
-template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Record, class Finish>
+/// it shaded. What the vertex callable gives goes into `records`, one for each vertex, if there are any. Depths are
+/// stored where `is_kept(tile's box)`.
+template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Record, class Kept, class Finish>
 draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<float> depth,
-                      const draw_options& options, E& ex, Record* records, Finish&& finish) {
+                      const draw_options& options, E& ex, Record* records, const Kept& is_kept, Finish&& finish) {
     check(options, depth);
     require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
             "0 or one per position");
@@ -138,7 +142,8 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<
             const tile_triangles<Real> triangles{screen, screen.bin(tile), box, records, sizeof(Record)};
             const bool keep = options.load == depth_load::keep;
             if (triangles.bin.empty() && keep) continue;
-            dispatch(tile_kernel<tile_triangles<Real>, Winners, Real>{triangles, buffer, depth, box, sign, keep},
+            dispatch(tile_kernel<tile_triangles<Real>, Winners, Real>{triangles, buffer, depth, box, sign, keep,
+                                                                      is_kept(box)},
                      options.level);
             shaded[first / run] += finish(triangles, buffer, sign);
         }
@@ -150,20 +155,25 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<
 
 /// Draws quick depths and hands the pixels that this draw has won, several at a time, to `shader(fragment_lanes)`. A
 /// draw that clears depths hands it each tile before, `shader.clear(pixel_box)`, to clear what it draws into.
+/// @param later  where draws that keep depths will come: elsewhere none are stored
 template <varying_shader VertexShader, class LaneShader, executor E>
 draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
-                      const draw_options& options, E& ex) {
+                      std::span<const pixel_box> later, const draw_options& options, E& ex) {
     using varyings = varyings_of<VertexShader>;
     unfilled_vector<vertex_record<varyings>> records(m.positions.size());
-    return draw_tiles<true, float>(
-        m, place, depth, options, ex, records.data(), [&](const auto& triangles, tile_buffer<true>& tile, float) {
-            if (options.load == depth_load::clear) shader.clear(triangles.box);
-            std::uint64_t shaded = 0;
-            dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.data(), tile,
-                                                                              triangles.box, shader, shaded},
-                     options.level);
-            return shaded;
-        });
+    const auto is_kept = [&](const pixel_box& tile) {
+        return std::any_of(later.begin(), later.end(), [&](const pixel_box& b) { return !intersect(tile, b).empty(); });
+    };
+    return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept,
+                                   [&](const auto& triangles, tile_buffer<true>& tile, float) {
+                                       if (options.load == depth_load::clear) shader.clear(triangles.box);
+                                       std::uint64_t shaded = 0;
+                                       dispatch(
+                                           shading_kernel<screen_mesh<float>, varyings, LaneShader>{
+                                               triangles.screen, records.data(), tile, triangles.box, shader, shaded},
+                                           options.level);
+                                       return shaded;
+                                   });
 }
 
 /// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle; where nothing is, the
@@ -183,7 +193,7 @@ draw_stats draw_names(const mesh_view& m, const VertexShader& place, image_view<
         }
         return std::uint64_t{0};
     };
-    return draw_tiles<true, float>(m, place, depth, options, ex, no_records, copy_names);
+    return draw_tiles<true, float>(m, place, depth, options, ex, no_records, every_tile, copy_names);
 }
 
 }  // namespace detail
@@ -202,14 +212,14 @@ template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh_view& m, const VertexShader& place, const depth_target& target,
                 const draw_options& options = {}, E&& ex = {}) {
     return detail::draw_tiles<false, double>(m, place, target.depth, options, ex, detail::no_records,
-                                             [](auto&&...) { return std::uint64_t{0}; });
+                                             detail::every_tile, [](auto&&...) { return std::uint64_t{0}; });
 }
 
 /// The same with quick depths.
 template <vertex_shader VertexShader, executor_argument E = serial_executor>
 draw_stats draw(const mesh_view& m, const VertexShader& place, const quick_depth_target& target,
                 const draw_options& options = {}, E&& ex = {}) {
-    return detail::draw_tiles<false, float>(m, place, target.depth, options, ex, detail::no_records,
+    return detail::draw_tiles<false, float>(m, place, target.depth, options, ex, detail::no_records, detail::every_tile,
                                             [](auto&&...) { return std::uint64_t{0}; });
 }
 
@@ -231,7 +241,8 @@ draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentSha
     const auto shade = [&](const auto& triangles, auto& tile, float sign) {
         return detail::shade(m, place, shader, target, triangles, tile, sign);
     };
-    return detail::draw_tiles<true, double>(m, place, target.depth, options, ex, detail::no_records, shade);
+    return detail::draw_tiles<true, double>(m, place, target.depth, options, ex, detail::no_records, detail::every_tile,
+                                            shade);
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

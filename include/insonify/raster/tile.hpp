@@ -130,7 +130,7 @@ struct tile_kernel {
     image_view<float> image;
     pixel_box box;
     float sign;  ///< a smaller internal depth wins
-    bool load_image;
+    bool load_image, store_image;
 
     template <int Width>
     INSONIFY_INLINE void run() const {
@@ -146,7 +146,7 @@ struct tile_kernel {
             const triangle_run run = left.take_run();
             for (std::uint32_t i = 0; i < run.count; ++i) draw_one<N>(run.first + i);
         }
-        copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
+        if (store_image) copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
     }
 
   private:

@@ -5,7 +5,7 @@
 #include <insonify/shadow/lookup.hpp>
 #include <insonify/shadow/refined.hpp>
 #include <insonify/sonar/labels.hpp>
-#include <insonify/sonar/rig.hpp>
+#include <insonify/sonar/placed_mesh.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -43,42 +43,6 @@ struct no_shadow_maps {
     template <int N>
     INSONIFY_INLINE void operator()(light_shares<N>&, const surface_points<N>&, const lanes<std::int32_t, N>&) const {}
 };
-
-/// An object in the rig's frame.
-struct placed_mesh {
-    mesh_view shape;
-    bounding_box box;  ///< of the shape, in its own frame
-    affine to_rig;
-    bool is_solid;      ///< see target
-    glm::mat3 normals;  ///< takes normals along
-
-    placed_mesh(const mesh_view& m, const bounding_box& around, const affine& map, bool solid)
-        : shape(m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
-};
-
-/// Which pixels may show something in an object's shadow, or the object itself, down to a height in the rig's frame.
-inline pixel_box shadowed_pixels(const overhead_geometry& view, const placed_mesh& caster, double lowest) {
-    const glm::dvec3& to_light = view.light().to_light();
-    const overhead& rig = view.rig();
-    glm::dvec2 first(std::numeric_limits<double>::infinity()), last = -first;
-    for (int corner = 0; corner < 8 && !caster.box.empty(); ++corner) {
-        const glm::dvec3 at = transform_point(caster.to_rig, caster.box.corner(corner));
-        if (at.z > static_cast<double>(rig.altitude) * (1 - 1e-6)) return {0, 0, rig.size.x - 1, rig.size.y - 1};
-        // What all of these points surround, their pictures do.
-        const double fall = (std::max)(at.z - lowest, 0.0) / to_light.z;
-        for (const glm::dvec3& p : {at, at - fall * to_light}) {
-            const glm::dvec2 pixel = view.pixel(p);
-            first = glm::dvec2((std::min)(first.x, pixel.x), (std::min)(first.y, pixel.y));
-            last = glm::dvec2((std::max)(last.x, pixel.x), (std::max)(last.y, pixel.y));
-        }
-    }
-    // One more all around, for places in floats.
-    const auto held = [](double pixel, int size) {
-        return static_cast<int>((std::min)((std::max)(pixel, -2.0), static_cast<double>(size) + 1));
-    };
-    return {held(first.x - 1, rig.size.x), held(first.y - 1, rig.size.y), held(last.x + 1, rig.size.x),
-            held(last.y + 1, rig.size.y)};
-}
 
 /// All casters of a scene, each in the form that the policy asks for.
 template <class Policy>

@@ -66,8 +66,10 @@ class overhead_painter {
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y, ex);
-        for (const target& t : s.targets)
+        for (const target& t : s.targets) {
             targets_.emplace_back(t.shape, bounds(t.shape, ex), view_.rig_from(to_world(t.placement)), t.is_solid);
+            target_pixels_.push_back(shown_pixels(view_, targets_.back()));
+        }
         if (has_bottom()) sample_seabed(ex);
     }
 
@@ -202,31 +204,32 @@ class overhead_painter {
         if (has_bottom()) {
             const placed_mesh bottom = bottom_in_rig();
             if (field_.types.empty())
-                out_.stats.seabed = draw_one(bottom, load, shadows,
+                out_.stats.seabed = draw_one(bottom, load, 0, shadows,
                                              whole_object{scene_.bottom_of(field_.fallback), labels::no_instance,
                                                           static_cast<std::uint8_t>(field_.fallback)},
                                              ex);
             else
                 out_.stats.seabed =
-                    draw_one(bottom, load, shadows, typed_bottom{bottom_, bottom_types_, scene_.bottom}, ex);
+                    draw_one(bottom, load, 0, shadows, typed_bottom{bottom_, bottom_types_, scene_.bottom}, ex);
             load = depth_load::keep;
         }
         for (std::size_t i = 0; i < targets_.size(); ++i) {
             const whole_object target{scene_.targets[i].surface, static_cast<std::uint16_t>(i + 1), labels::no_seabed};
-            out_.stats.targets += draw_one(targets_[i], load, shadows, target, ex);
+            out_.stats.targets += draw_one(targets_[i], load, i + 1, shadows, target, ex);
             load = depth_load::keep;
         }
         if (load == depth_load::clear) std::fill(out_.image.pixels().begin(), out_.image.pixels().end(), 0.0f);
     }
 
+    /// @param later  the first of the targets that are drawn after it
     template <class Shadows, class Object, executor E>
-    draw_stats draw_one(const placed_mesh& shape, depth_load load, const Shadows& shadows, const Object& object,
-                        E& ex) {
+    draw_stats draw_one(const placed_mesh& shape, depth_load load, std::size_t later, const Shadows& shadows,
+                        const Object& object, E& ex) {
         const surface_placement placement(view_, shape);
         const surface_shader<Shadows, Labels, Law, Object> shader(view_, placement, shape.shape, options_.subpixel_bits,
                                                                   options_.law, shadows, object, out_.image,
                                                                   out_.labels);
-        return draw_lanes(shape.shape, placement, shader, depth_,
+        return draw_lanes(shape.shape, placement, shader, depth_, std::span(target_pixels_).subspan(later),
                           {.keep = keep_depth::larger,
                            .load = load,
                            .subpixel_bits = options_.subpixel_bits,
@@ -248,6 +251,7 @@ class overhead_painter {
     glm::ivec2 bottom_first_{0, 0};           ///< of the field's vertices, counted from the rig's position
     float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum
     std::vector<placed_mesh> targets_;
+    std::vector<pixel_box> target_pixels_;  ///< which may show them
 };
 
 }  // namespace detail

@@ -1,0 +1,67 @@
+// An object where the rig sees it, and which pixels it may concern.
+#pragma once
+
+#include <insonify/geometry/bounds.hpp>
+#include <insonify/raster/setup.hpp>
+#include <insonify/sonar/rig.hpp>
+
+#include <algorithm>
+#include <limits>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// An object in the rig's frame.
+struct placed_mesh {
+    mesh_view shape;
+    bounding_box box;  ///< of the shape, in its own frame
+    affine to_rig;
+    bool is_solid;      ///< see target
+    glm::mat3 normals;  ///< takes normals along
+
+    placed_mesh(const mesh_view& m, const bounding_box& around, const affine& map, bool solid)
+        : shape(m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
+};
+
+/// Which pixels may show an object, or something in its shadow that lies no lower than `lowest`, in the rig's frame:
+/// all of them, if floats, in which it is drawn, don't hold its place to a pixel.
+inline pixel_box shadowed_pixels(const overhead_geometry& view, const placed_mesh& caster, double lowest) {
+    const overhead& rig = view.rig();
+    const glm::dvec3& to_light = view.light().to_light();
+    const auto altitude = static_cast<double>(rig.altitude);
+    const auto size_of = [](double v) { return v < 0 ? -v : v; };
+    glm::dvec2 first(std::numeric_limits<double>::infinity()), last = -first;
+    for (int corner = 0; corner < 8 && !caster.box.empty(); ++corner) {
+        const glm::dvec3 from = caster.box.corner(corner), at = transform_point(caster.to_rig, from);
+        double largest = altitude;  // of what is summed up to place it
+        for (int axis = 0; axis < 3; ++axis) {
+            largest = (std::max)(largest, size_of(caster.to_rig.offset[axis]));
+            for (int i = 0; i < 3; ++i) largest = (std::max)(largest, size_of(caster.to_rig.linear[i][axis] * from[i]));
+        }
+        const double error = 0x1p-21 * largest;
+        // What all of these points surround, their pictures do.
+        const double fall = (std::max)(at.z - lowest, 0.0) / to_light.z;
+        for (const glm::dvec3& p : {at, at - fall * to_light}) {
+            const double down = altitude - p.z, aside = (std::max)(size_of(p.x), size_of(p.y)) / down;
+            const bool is_known = down > 0 && (1 + aside) * error < view.ray_step() * down;
+            if (!is_known) return {0, 0, rig.size.x - 1, rig.size.y - 1};
+            const glm::dvec2 pixel = view.pixel(p);
+            first = glm::dvec2((std::min)(first.x, pixel.x - 1), (std::min)(first.y, pixel.y - 1));
+            last = glm::dvec2((std::max)(last.x, pixel.x + 1), (std::max)(last.y, pixel.y + 1));
+        }
+    }
+    const auto held = [](double pixel, int size) {
+        return static_cast<int>((std::min)((std::max)(pixel, -1.0), static_cast<double>(size)));
+    };
+    return {held(first.x, rig.size.x), held(first.y, rig.size.y), held(last.x, rig.size.x), held(last.y, rig.size.y)};
+}
+
+/// Which pixels may show an object.
+inline pixel_box shown_pixels(const overhead_geometry& view, const placed_mesh& object) {
+    return shadowed_pixels(view, object, std::numeric_limits<double>::infinity());  // no shadow falls so high
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
