@@ -2,8 +2,8 @@
 //
 // The system clears every page before it hands it out. Where pictures are made one after another, in new memory each
 // time, that is up to a third of the time. So a thread holds on to the large blocks that it gives back; together with
-// what it has in use, never to more than half as much again as it has had in use at once. The half is for what comes and
-// goes within a picture: without it, that would drive out what the picture's peak needs.
+// what it has in use, never to more than half as much again as it has had in use at once. The half is for what comes
+// and goes within a picture: without it, that would drive out what the picture's peak needs.
 #pragma once
 
 #include <insonify/core/error.hpp>
