@@ -4801,7 +4801,7 @@ inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_
             numeric::is_finite(height) ? height : 0.0f};
 }
 
-/// See the public one, for any type of mesh.
+/// `tessellate`, for any type of mesh.
 template <class Mesh, executor E>
 void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 first) {
     validate(field);
@@ -7201,7 +7201,8 @@ struct sweep_relief {
 /// Which columns of a grid are kept, and which lines: line k passes through Y = start + k spacing at X = 0.
 struct sweep_window {
     int first_column = 0, columns = 0;
-    int slots = 1;             ///< of a column: where a line enters it and, if cells fall, behind the edge of a row
+    int slots = 1;             ///< of a column, side by side for each line: where it enters and, if cells fall, behind
+                               ///< the edge of a row
     int lines = 0, pitch = 0;  ///< that count, and that are kept
     float start = 0, spacing = 1, slope = 0;
 };
@@ -7223,7 +7224,7 @@ struct sweep_kernel {
                     highest = lowest + window.spacing * static_cast<float>(block);
         const int first = column_at(-1.0f - highest), last = column_at(static_cast<float>(grid.rows) - lowest) + 2;
         for (int i = 0; i < block / N; ++i) lines[i].enter(*this, first_line + i * N, first);
-        keep(lines, 0, first);
+        keep<N>(lines, 0, first);
         for (int column = first; column < (std::min)(last, grid.columns); ++column) {
             float* const kept = kept_at(column);
             for (int i = 0; i < block / N; ++i) {
@@ -7236,10 +7237,13 @@ struct sweep_kernel {
                     lines[i].template step<false>(*this, column, to);
             }
         }
-        keep(lines, last, grid.columns);
+        keep<N>(lines, last, grid.columns);
     }
 
   private:
+    template <int N>
+    struct line_lanes;
+
     /// Where a line has climbed so many rows, held to the grid.
     int column_at(float climb) const {
         if (!(climb > 0)) return 0;
@@ -7253,14 +7257,12 @@ struct sweep_kernel {
         return crests + (std::ptrdiff_t{at} * window.pitch + first_line) * window.slots;
     }
     /// The same crests in some columns.
-    template <class Lines>
-    INSONIFY_INLINE void keep(const Lines& lines, int first, int last) const {
+    template <int N>
+    INSONIFY_INLINE void keep(const line_lanes<N>* lines, int first, int last) const {
         for (int column = first; column < last; ++column) {
             float* const kept = kept_at(column);
             if (kept == nullptr) continue;
-            for (int i = 0; i < static_cast<int>(std::size(lines)); ++i)
-                lines[i].keep(kept + i * static_cast<int>(sizeof lines[i].crest / sizeof(float)) * window.slots,
-                              window.slots);
+            for (int i = 0; i < block / N; ++i) lines[i].keep(kept + i * N * window.slots, window.slots);
         }
     }
 
@@ -7406,7 +7408,7 @@ class horizon {
     /// @param receivers  what can be asked about lies in this box, in the latter frame
     /// @param texel      metres, of which lines lie two thirds apart; grows if more than `largest` lines were needed,
     /// or
-    ///                   more than 2^30 values
+    ///                   2^30 values
     /// @param level      the widest instruction set to use; the answers are the same
     template <executor E>
     horizon(const light_frame& frame, const mesh_view& m, const regular_grid& grid, const affine& to_world,
@@ -7449,7 +7451,7 @@ class horizon {
         const detail::sweep_relief relief(m, sweep, ex);
         crests_.resize(static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.slots) *
                            static_cast<std::size_t>(window_.pitch) +
-                       lines_ahead * 2);
+                       lines_ahead * most_slots);
         bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
                     [&](std::size_t start, std::size_t) {
                         insonify::detail::dispatch(
@@ -7566,7 +7568,7 @@ class horizon {
         crest = is_open ? (share < 0.5f ? left : right) : left + share * (right - left);
     }
 
-    static constexpr int lines_ahead = 20;
+    static constexpr int lines_ahead = 20, most_slots = 2;
 
     detail::sweep_window window_;
     glm::vec4 to_x_{0}, to_line_{0}, to_u_{0};         ///< from positions, with one for a fourth

@@ -33,7 +33,7 @@ inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_
             numeric::is_finite(height) ? height : 0.0f};
 }
 
-/// See the public one, for any type of mesh.
+/// `tessellate`, for any type of mesh.
 template <class Mesh, executor E>
 void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 first) {
     validate(field);

@@ -33,7 +33,7 @@ class horizon {
     /// @param receivers  what can be asked about lies in this box, in the latter frame
     /// @param texel      metres, of which lines lie two thirds apart; grows if more than `largest` lines were needed,
     /// or
-    ///                   more than 2^30 values
+    ///                   2^30 values
     /// @param level      the widest instruction set to use; the answers are the same
     template <executor E>
     horizon(const light_frame& frame, const mesh_view& m, const regular_grid& grid, const affine& to_world,
@@ -76,7 +76,7 @@ class horizon {
         const detail::sweep_relief relief(m, sweep, ex);
         crests_.resize(static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.slots) *
                            static_cast<std::size_t>(window_.pitch) +
-                       lines_ahead * 2);
+                       lines_ahead * most_slots);
         bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
                     [&](std::size_t start, std::size_t) {
                         insonify::detail::dispatch(
@@ -193,7 +193,7 @@ class horizon {
         crest = is_open ? (share < 0.5f ? left : right) : left + share * (right - left);
     }
 
-    static constexpr int lines_ahead = 20;
+    static constexpr int lines_ahead = 20, most_slots = 2;
 
     detail::sweep_window window_;
     glm::vec4 to_x_{0}, to_line_{0}, to_u_{0};         ///< from positions, with one for a fourth

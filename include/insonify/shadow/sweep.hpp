@@ -98,7 +98,8 @@ struct sweep_relief {
 /// Which columns of a grid are kept, and which lines: line k passes through Y = start + k spacing at X = 0.
 struct sweep_window {
     int first_column = 0, columns = 0;
-    int slots = 1;             ///< of a column: where a line enters it and, if cells fall, behind the edge of a row
+    int slots = 1;             ///< of a column, side by side for each line: where it enters and, if cells fall, behind
+                               ///< the edge of a row
     int lines = 0, pitch = 0;  ///< that count, and that are kept
     float start = 0, spacing = 1, slope = 0;
 };
@@ -120,7 +121,7 @@ struct sweep_kernel {
                     highest = lowest + window.spacing * static_cast<float>(block);
         const int first = column_at(-1.0f - highest), last = column_at(static_cast<float>(grid.rows) - lowest) + 2;
         for (int i = 0; i < block / N; ++i) lines[i].enter(*this, first_line + i * N, first);
-        keep(lines, 0, first);
+        keep<N>(lines, 0, first);
         for (int column = first; column < (std::min)(last, grid.columns); ++column) {
             float* const kept = kept_at(column);
             for (int i = 0; i < block / N; ++i) {
@@ -133,10 +134,13 @@ struct sweep_kernel {
                     lines[i].template step<false>(*this, column, to);
             }
         }
-        keep(lines, last, grid.columns);
+        keep<N>(lines, last, grid.columns);
     }
 
   private:
+    template <int N>
+    struct line_lanes;
+
     /// Where a line has climbed so many rows, held to the grid.
     int column_at(float climb) const {
         if (!(climb > 0)) return 0;
@@ -150,14 +154,12 @@ struct sweep_kernel {
         return crests + (std::ptrdiff_t{at} * window.pitch + first_line) * window.slots;
     }
     /// The same crests in some columns.
-    template <class Lines>
-    INSONIFY_INLINE void keep(const Lines& lines, int first, int last) const {
+    template <int N>
+    INSONIFY_INLINE void keep(const line_lanes<N>* lines, int first, int last) const {
         for (int column = first; column < last; ++column) {
             float* const kept = kept_at(column);
             if (kept == nullptr) continue;
-            for (int i = 0; i < static_cast<int>(std::size(lines)); ++i)
-                lines[i].keep(kept + i * static_cast<int>(sizeof lines[i].crest / sizeof(float)) * window.slots,
-                              window.slots);
+            for (int i = 0; i < block / N; ++i) lines[i].keep(kept + i * N * window.slots, window.slots);
         }
     }
 
