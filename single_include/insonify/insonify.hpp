@@ -374,6 +374,12 @@ constexpr bool is_finite(double value) {
     return (std::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
 
+/// A number without its sign.
+template <class T>
+constexpr T magnitude(T value) {
+    return value < 0 ? -value : value;
+}
+
 /// IEEE 754 square root, correctly rounded everywhere.
 inline double square_root(double value) {
     return std::sqrt(value);
@@ -576,7 +582,7 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
         for (std::size_t x = 0; x < b.size(); ++x) {
             if (a[x] == b[x]) continue;  // two equal infinities among them
             const double signed_difference = static_cast<double>(a[x]) - static_cast<double>(b[x]);
-            const double difference = signed_difference < 0 ? -signed_difference : signed_difference;
+            const double difference = numeric::magnitude(signed_difference);
             row_sum += difference * difference;
             if (!(difference <= out.largest) && out.largest == out.largest) out.largest = difference;  // keeps a NaN
         }
@@ -1692,10 +1698,9 @@ struct edge_function {
 
     /// Whether E fits 32 bits everywhere in a box of that size.
     bool is_narrow(int width, int height) const {
-        const auto size = [](std::int64_t v) { return v < 0 ? -v : v; };
         constexpr std::int64_t most = std::int64_t{1} << 31;
-        return size(dx) < most && size(dy) < most && -most < origin && origin < most &&
-               size(origin) + size(dx) * width + size(dy) * height < most;
+        return numeric::magnitude(dx) < most && numeric::magnitude(dy) < most && -most < origin && origin < most &&
+               numeric::magnitude(origin) + numeric::magnitude(dx) * width + numeric::magnitude(dy) * height < most;
     }
 
     /// The same decision for the pixels of a box of that size, in numbers as small as they can be: where E has one
@@ -2022,10 +2027,9 @@ struct depth_plane {
         plane.highest = static_cast<float>(highest);
 
         // A gradient's two products are off by 2^-53 of themselves, and count as many times as the box is wide or high.
-        const auto size = [](double v) { return v < 0 ? -v : v; };
         const auto span = [](double u, double v) { return (std::max)({u, v, 0.0}) - (std::min)({u, v, 0.0}); };
         const double swing = 4 * (highest - lowest) * span(bx, cx) * span(by, cy);
-        const double largest = (std::max)(size(lowest), size(highest)) * area;
+        const double largest = (std::max)(numeric::magnitude(lowest), numeric::magnitude(highest)) * area;
         plane.error = 0x1p-49 * (swing + largest) / area;
         return plane;
     }
@@ -2119,7 +2123,7 @@ class projection {
 
     /// Inside all planes and compact on the grid; false for NaN and infinity too.
     bool is_compact(const glm::dvec4& p) const {
-        const double x = p.x < 0 ? -p.x : p.x, y = p.y < 0 ? -p.y : p.y;
+        const double x = numeric::magnitude(p.x), y = numeric::magnitude(p.y);
         return p.w >= smallest_w && p.z >= 0 && p.z <= p.w && x <= compact_x_ * p.w && y <= compact_y_ * p.w &&
                p.w <= static_cast<double>((std::numeric_limits<float>::max)());
     }
@@ -4093,16 +4097,15 @@ draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneS
     const auto is_kept = [&](const pixel_box& tile) {
         return std::any_of(later.begin(), later.end(), [&](const pixel_box& b) { return !intersect(tile, b).empty(); });
     };
-    return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept,
-                                   [&](const auto& triangles, tile_buffer<true>& tile, float) {
-                                       if (options.load == depth_load::clear) shader.clear(triangles.box);
-                                       std::uint64_t shaded = 0;
-                                       dispatch(
-                                           shading_kernel<screen_mesh<float>, varyings, LaneShader>{
-                                               triangles.screen, records.data(), tile, triangles.box, shader, shaded},
-                                           options.level);
-                                       return shaded;
-                                   });
+    const auto shade_tile = [&](const auto& triangles, tile_buffer<true>& tile, float) {
+        if (options.load == depth_load::clear) shader.clear(triangles.box);
+        std::uint64_t shaded = 0;
+        dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.data(), tile,
+                                                                          triangles.box, shader, shaded},
+                 options.level);
+        return shaded;
+    };
+    return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept, shade_tile);
 }
 
 /// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle; where nothing is, the
@@ -6088,7 +6091,7 @@ class light_rays {
             insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
                                       "finite coordinates");
         size_ = reach_ = reach;
-        for (int i = 0; i < 3; ++i) size_ = (std::max)(size_, source_[i] < 0 ? -source_[i] : source_[i]);
+        for (int i = 0; i < 3; ++i) size_ = (std::max)(size_, numeric::magnitude(source_[i]));
     }
 
     /// From a point to the light: unit length if it is parallel, the whole way if it isn't.
@@ -6111,7 +6114,7 @@ class light_rays {
     std::size_t plane_of(const glm::dvec3& p) const {
         if (!is_near_) return 0;
         const glm::dvec3 d = p - source_;
-        const glm::dvec3 size{d.x < 0 ? -d.x : d.x, d.y < 0 ? -d.y : d.y, d.z < 0 ? -d.z : d.z};
+        const glm::dvec3 size{numeric::magnitude(d.x), numeric::magnitude(d.y), numeric::magnitude(d.z)};
         const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
         return static_cast<std::size_t>(2 * axis + (d[axis] < 0 ? 1 : 0));
     }
@@ -6123,7 +6126,7 @@ class light_rays {
         }
         const int axis = static_cast<int>(plane / 2);
         const glm::dvec3 d = p - source_;
-        const double depth = (std::max)(d[axis] < 0 ? -d[axis] : d[axis], smallest_depth());
+        const double depth = (std::max)(numeric::magnitude(d[axis]), smallest_depth());
         return {d[(axis + 1) % 3] / depth, d[(axis + 2) % 3] / depth, 1 / depth * (1 - small_share),
                 small_share * size_ / depth};
     }
@@ -6231,7 +6234,7 @@ inline double reach_of(std::span<const glm::dvec3> corners) {
     double reach = 0;
     for (const glm::dvec3& c : corners)
         for (int i = 0; i < 3; ++i) {
-            const double size = c[i] < 0 ? -c[i] : c[i];
+            const double size = numeric::magnitude(c[i]);
             if (size > reach && numeric::is_finite(size)) reach = size;
         }
     return reach;
@@ -6341,8 +6344,8 @@ class light_blockers {
         const glm::dvec3 normal = numeric::cross(b - a, c - a);
         const double along = numeric::dot(normal, toward), behind = numeric::dot(normal, a);
         const double sign = is_left ? 1 : -1;
-        const auto size = [](double v) { return v < 0 ? -v : v; };
-        const double hair = 0x1p-40 * (size(normal.x) + size(normal.y) + size(normal.z));
+        const double hair =
+            0x1p-40 * (numeric::magnitude(normal.x) + numeric::magnitude(normal.y) + numeric::magnitude(normal.z));
         if (!(sign * along > 0 && sign * behind > hair * rays.reach())) return false;
         // What the light itself touches doesn't stop it.
         return !rays.end() || sign * (along - behind) > hair * rays.size();
@@ -6677,8 +6680,7 @@ class map_receiver {
   public:
     map_receiver(const height_map& map, const receiver& r)
         : map_(map), at_(map.on_map(r.uvz)), slope_u_(map.on_map(r.slope_u)), slope_v_(map.on_map(r.slope_v)) {
-        const auto size = [](float v) { return v < 0 ? -v : v; };
-        bias_ = 1e-6f + size(slope_u_) + size(slope_v_);  // heights are rounded to 1e-7
+        bias_ = 1e-6f + numeric::magnitude(slope_u_) + numeric::magnitude(slope_v_);  // heights are rounded to 1e-7
     }
 
     /// Whether no texel within `radius` of the nearest one is on the map: nothing can be in the way.
@@ -7140,8 +7142,7 @@ struct sweep_grid {
         glm::dvec2 x = grid.right, y = grid.up, origin = grid.origin;
         const double area = x.x * y.y - x.y * y.x;
         double travel_x = (travel.x * y.y - travel.y * y.x) / area, travel_y = (x.x * travel.y - x.y * travel.x) / area;
-        const auto size = [](double v) { return v < 0 ? -v : v; };
-        if (size(travel_y) > size(travel_x)) {
+        if (numeric::magnitude(travel_y) > numeric::magnitude(travel_x)) {
             std::swap(columns, rows);
             std::swap(along, across);
             std::swap(x, y);
@@ -7449,9 +7450,8 @@ class horizon {
                         detail::sweep_kernel::block;
 
         const detail::sweep_relief relief(m, sweep, ex);
-        crests_.resize(static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.slots) *
-                           static_cast<std::size_t>(window_.pitch) +
-                       lines_ahead * most_slots);
+        const std::size_t kept = static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.pitch);
+        crests_.resize((kept + lines_ahead) * static_cast<std::size_t>(window_.slots));
         bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
                     [&](std::size_t start, std::size_t) {
                         insonify::detail::dispatch(
@@ -7568,7 +7568,7 @@ class horizon {
         crest = is_open ? (share < 0.5f ? left : right) : left + share * (right - left);
     }
 
-    static constexpr int lines_ahead = 20, most_slots = 2;
+    static constexpr int lines_ahead = 20;
 
     detail::sweep_window window_;
     glm::vec4 to_x_{0}, to_line_{0}, to_u_{0};         ///< from positions, with one for a fourth
@@ -9039,7 +9039,7 @@ class ripple_train {
             wave_x_[n] = k * along.cosine - carrier_x_;
             wave_y_[n] = k * along.sine - carrier_y_;
             phase_[n] = draw.uniform();
-            largest = (std::max)(largest, wave_x_[n] < 0 ? -wave_x_[n] : wave_x_[n]);
+            largest = (std::max)(largest, numeric::magnitude(wave_x_[n]));
         }
 
         // Space the lattice so that the fastest wave turns by a sixteenth per step: cubic interpolation then errs by
@@ -10391,7 +10391,7 @@ inline float worked(const ramp& e, const glm::dvec2& p, float height) {
     const double side = (way.x * off.y - way.y * off.x) / span;
     // Beyond its ends the ramp is level, and fades as at its sides.
     const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
-    const float weight = plateau(static_cast<float>(2 * (side < 0 ? -side : side)) / e.width) *
+    const float weight = plateau(static_cast<float>(2 * numeric::magnitude(side)) / e.width) *
                          fade(clamp01(1 - 4 * static_cast<float>(past) / e.width));
     return pulled(height, mix(e.from_height, e.to_height, clamp01(static_cast<float>(t))), weight);
 }
@@ -10425,7 +10425,7 @@ inline float worked(const scour& e, const glm::dvec2& p, float height) {
     const float lee = r > 0 ? 0.75f - 0.25f * along / r : 1.0f;
     const float moat = -e.depth * lee * brush(beyond > 0 ? beyond : 0.0f);
     if (e.tail <= 0 || along <= 0) return height + moat;
-    const float way = clamp01(along / (e.radius + e.width + e.tail)), side = across < 0 ? -across : across;
+    const float way = clamp01(along / (e.radius + e.width + e.tail)), side = numeric::magnitude(across);
     const float tail = 0.4f * e.depth * 4 * way * (1 - way) * brush((side - e.radius) / e.width);
     return height + moat + tail;
 }
@@ -10470,7 +10470,7 @@ inline std::array<float, 16> smooth_shares(float fraction) {
     std::array<float, 16> shares;
     for (std::size_t n = 0; n < 16; ++n) {
         float t = 0.25f * (fraction + 7 - static_cast<float>(n));
-        t = t < 0 ? -t : t;
+        t = numeric::magnitude(t);
         const float s = 2 - t;
         shares[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
     }
@@ -10703,7 +10703,7 @@ inline sediment sediment_of_phi(float phi) {
     std::size_t best = 0;
     const auto distance = [&](std::size_t i) {
         const float d = sediments[i].phi - phi;
-        return d < 0 ? -d : d;
+        return numeric::magnitude(d);
     };
     for (std::size_t i = 1; i < sediment_count; ++i)
         if (distance(i) < distance(best)) best = i;
@@ -11028,20 +11028,21 @@ inline pixel_box shadowed_pixels(const overhead_geometry& view, const placed_mes
     const overhead& rig = view.rig();
     const glm::dvec3& to_light = view.light().to_light();
     const auto altitude = static_cast<double>(rig.altitude);
-    const auto size_of = [](double v) { return v < 0 ? -v : v; };
     glm::dvec2 first(std::numeric_limits<double>::infinity()), last = -first;
     for (int corner = 0; corner < 8 && !caster.box.empty(); ++corner) {
         const glm::dvec3 from = caster.box.corner(corner), at = transform_point(caster.to_rig, from);
         double largest = altitude;  // of what is summed up to place it
         for (int axis = 0; axis < 3; ++axis) {
-            largest = (std::max)(largest, size_of(caster.to_rig.offset[axis]));
-            for (int i = 0; i < 3; ++i) largest = (std::max)(largest, size_of(caster.to_rig.linear[i][axis] * from[i]));
+            largest = (std::max)(largest, numeric::magnitude(caster.to_rig.offset[axis]));
+            for (int i = 0; i < 3; ++i)
+                largest = (std::max)(largest, numeric::magnitude(caster.to_rig.linear[i][axis] * from[i]));
         }
-        const double error = 0x1p-21 * largest;
+        const double error = 0x1p-19 * largest;  // a dozen roundings to float
         // What all of these points surround, their pictures do.
         const double fall = (std::max)(at.z - lowest, 0.0) / to_light.z;
         for (const glm::dvec3& p : {at, at - fall * to_light}) {
-            const double down = altitude - p.z, aside = (std::max)(size_of(p.x), size_of(p.y)) / down;
+            const double down = altitude - p.z,
+                         aside = (std::max)(numeric::magnitude(p.x), numeric::magnitude(p.y)) / down;
             const bool is_known = down > 0 && (1 + aside) * error < view.ray_step() * down;
             if (!is_known) return {0, 0, rig.size.x - 1, rig.size.y - 1};
             const glm::dvec2 pixel = view.pixel(p);
@@ -17808,7 +17809,7 @@ class ping_listener {
         const double outwards = counts_time ? dx * ray.sine + ddown * ray.cosine : dx;
         const double turning = dx * ray.cosine - ddown * ray.sine;
         const double half = 0.5 * range * ray.width * outwards / (turning * bin_);
-        return static_cast<float>(half < 0 ? -half : half);
+        return static_cast<float>(numeric::magnitude(half));
     }
 
     /// What a surface of reflectivity one sends back of a ray: its area, seen from here, over the sine of grazing, by
@@ -18342,7 +18343,7 @@ class recorder {
             const auto weight = [&](int j) {
                 return j * spacing() <= beam.reach(slant) ? beam.pattern(j * spacing(), slant) : 0.0;
             };
-            for (int j = -reach; j <= reach; ++j) sum += weight(j < 0 ? -j : j);
+            for (int j = -reach; j <= reach; ++j) sum += weight(numeric::magnitude(j));
             for (int j = 0; j <= reach; ++j) weights(b, j) = static_cast<float>(weight(j) / sum);
         }
         image<float> blurred(bins, rows);
@@ -18351,7 +18352,7 @@ class recorder {
             const auto to = blurred.row(y);
             for (int j = -reach; j <= reach; ++j) {
                 const int other = (std::min)((std::max)(y + j, 0), rows - 1);  // the track's too
-                const float* const weight = weights.row(j < 0 ? -j : j).data();
+                const float* const weight = weights.row(numeric::magnitude(j)).data();
                 const float* const from = out_.image.row(other).data();
                 for (std::size_t b = 0; b < to.size(); ++b) to[b] += weight[b] * from[b];
             }
@@ -18621,7 +18622,7 @@ class speckle_field {
         for (int i = 0; i < count; ++i) {
             const auto to = field.row(i);
             for (int j = -reach; j <= reach; ++j) {
-                const float tap = along_[static_cast<std::size_t>(j < 0 ? -j : j)];
+                const float tap = along_[static_cast<std::size_t>(numeric::magnitude(j))];
                 const float* const from = blurred.row(i + reach + j).data();
                 for (std::size_t x = 0; x < to.size(); ++x) to[x] += tap * from[x];
             }

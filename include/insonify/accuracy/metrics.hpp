@@ -81,7 +81,7 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
         for (std::size_t x = 0; x < b.size(); ++x) {
             if (a[x] == b[x]) continue;  // two equal infinities among them
             const double signed_difference = static_cast<double>(a[x]) - static_cast<double>(b[x]);
-            const double difference = signed_difference < 0 ? -signed_difference : signed_difference;
+            const double difference = numeric::magnitude(signed_difference);
             row_sum += difference * difference;
             if (!(difference <= out.largest) && out.largest == out.largest) out.largest = difference;  // keeps a NaN
         }

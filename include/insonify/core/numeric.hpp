@@ -45,6 +45,12 @@ constexpr bool is_finite(double value) {
     return (std::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
 
+/// A number without its sign.
+template <class T>
+constexpr T magnitude(T value) {
+    return value < 0 ? -value : value;
+}
+
 /// IEEE 754 square root, correctly rounded everywhere.
 inline double square_root(double value) {
     return std::sqrt(value);

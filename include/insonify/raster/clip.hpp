@@ -63,7 +63,7 @@ class projection {
 
     /// Inside all planes and compact on the grid; false for NaN and infinity too.
     bool is_compact(const glm::dvec4& p) const {
-        const double x = p.x < 0 ? -p.x : p.x, y = p.y < 0 ? -p.y : p.y;
+        const double x = numeric::magnitude(p.x), y = numeric::magnitude(p.y);
         return p.w >= smallest_w && p.z >= 0 && p.z <= p.w && x <= compact_x_ * p.w && y <= compact_y_ * p.w &&
                p.w <= static_cast<double>((std::numeric_limits<float>::max)());
     }

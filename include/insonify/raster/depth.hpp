@@ -42,10 +42,9 @@ struct depth_plane {
         plane.highest = static_cast<float>(highest);
 
         // A gradient's two products are off by 2^-53 of themselves, and count as many times as the box is wide or high.
-        const auto size = [](double v) { return v < 0 ? -v : v; };
         const auto span = [](double u, double v) { return (std::max)({u, v, 0.0}) - (std::min)({u, v, 0.0}); };
         const double swing = 4 * (highest - lowest) * span(bx, cx) * span(by, cy);
-        const double largest = (std::max)(size(lowest), size(highest)) * area;
+        const double largest = (std::max)(numeric::magnitude(lowest), numeric::magnitude(highest)) * area;
         plane.error = 0x1p-49 * (swing + largest) / area;
         return plane;
     }

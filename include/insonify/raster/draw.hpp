@@ -164,16 +164,15 @@ draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneS
     const auto is_kept = [&](const pixel_box& tile) {
         return std::any_of(later.begin(), later.end(), [&](const pixel_box& b) { return !intersect(tile, b).empty(); });
     };
-    return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept,
-                                   [&](const auto& triangles, tile_buffer<true>& tile, float) {
-                                       if (options.load == depth_load::clear) shader.clear(triangles.box);
-                                       std::uint64_t shaded = 0;
-                                       dispatch(
-                                           shading_kernel<screen_mesh<float>, varyings, LaneShader>{
-                                               triangles.screen, records.data(), tile, triangles.box, shader, shaded},
-                                           options.level);
-                                       return shaded;
-                                   });
+    const auto shade_tile = [&](const auto& triangles, tile_buffer<true>& tile, float) {
+        if (options.load == depth_load::clear) shader.clear(triangles.box);
+        std::uint64_t shaded = 0;
+        dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.data(), tile,
+                                                                          triangles.box, shader, shaded},
+                 options.level);
+        return shaded;
+    };
+    return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept, shade_tile);
 }
 
 /// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle; where nothing is, the

@@ -139,10 +139,9 @@ struct edge_function {
 
     /// Whether E fits 32 bits everywhere in a box of that size.
     bool is_narrow(int width, int height) const {
-        const auto size = [](std::int64_t v) { return v < 0 ? -v : v; };
         constexpr std::int64_t most = std::int64_t{1} << 31;
-        return size(dx) < most && size(dy) < most && -most < origin && origin < most &&
-               size(origin) + size(dx) * width + size(dy) * height < most;
+        return numeric::magnitude(dx) < most && numeric::magnitude(dy) < most && -most < origin && origin < most &&
+               numeric::magnitude(origin) + numeric::magnitude(dx) * width + numeric::magnitude(dy) * height < most;
     }
 
     /// The same decision for the pixels of a box of that size, in numbers as small as they can be: where E has one

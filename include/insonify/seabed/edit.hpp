@@ -179,7 +179,7 @@ inline float worked(const ramp& e, const glm::dvec2& p, float height) {
     const double side = (way.x * off.y - way.y * off.x) / span;
     // Beyond its ends the ramp is level, and fades as at its sides.
     const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
-    const float weight = plateau(static_cast<float>(2 * (side < 0 ? -side : side)) / e.width) *
+    const float weight = plateau(static_cast<float>(2 * numeric::magnitude(side)) / e.width) *
                          fade(clamp01(1 - 4 * static_cast<float>(past) / e.width));
     return pulled(height, mix(e.from_height, e.to_height, clamp01(static_cast<float>(t))), weight);
 }
@@ -213,7 +213,7 @@ inline float worked(const scour& e, const glm::dvec2& p, float height) {
     const float lee = r > 0 ? 0.75f - 0.25f * along / r : 1.0f;
     const float moat = -e.depth * lee * brush(beyond > 0 ? beyond : 0.0f);
     if (e.tail <= 0 || along <= 0) return height + moat;
-    const float way = clamp01(along / (e.radius + e.width + e.tail)), side = across < 0 ? -across : across;
+    const float way = clamp01(along / (e.radius + e.width + e.tail)), side = numeric::magnitude(across);
     const float tail = 0.4f * e.depth * 4 * way * (1 - way) * brush((side - e.radius) / e.width);
     return height + moat + tail;
 }
@@ -258,7 +258,7 @@ inline std::array<float, 16> smooth_shares(float fraction) {
     std::array<float, 16> shares;
     for (std::size_t n = 0; n < 16; ++n) {
         float t = 0.25f * (fraction + 7 - static_cast<float>(n));
-        t = t < 0 ? -t : t;
+        t = numeric::magnitude(t);
         const float s = 2 - t;
         shares[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
     }

@@ -155,7 +155,7 @@ class ripple_train {
             wave_x_[n] = k * along.cosine - carrier_x_;
             wave_y_[n] = k * along.sine - carrier_y_;
             phase_[n] = draw.uniform();
-            largest = (std::max)(largest, wave_x_[n] < 0 ? -wave_x_[n] : wave_x_[n]);
+            largest = (std::max)(largest, numeric::magnitude(wave_x_[n]));
         }
 
         // Space the lattice so that the fastest wave turns by a sixteenth per step: cubic interpolation then errs by

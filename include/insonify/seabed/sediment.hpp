@@ -85,7 +85,7 @@ inline sediment sediment_of_phi(float phi) {
     std::size_t best = 0;
     const auto distance = [&](std::size_t i) {
         const float d = sediments[i].phi - phi;
-        return d < 0 ? -d : d;
+        return numeric::magnitude(d);
     };
     for (std::size_t i = 1; i < sediment_count; ++i)
         if (distance(i) < distance(best)) best = i;

@@ -39,7 +39,7 @@ inline double reach_of(std::span<const glm::dvec3> corners) {
     double reach = 0;
     for (const glm::dvec3& c : corners)
         for (int i = 0; i < 3; ++i) {
-            const double size = c[i] < 0 ? -c[i] : c[i];
+            const double size = numeric::magnitude(c[i]);
             if (size > reach && numeric::is_finite(size)) reach = size;
         }
     return reach;
@@ -149,8 +149,8 @@ class light_blockers {
         const glm::dvec3 normal = numeric::cross(b - a, c - a);
         const double along = numeric::dot(normal, toward), behind = numeric::dot(normal, a);
         const double sign = is_left ? 1 : -1;
-        const auto size = [](double v) { return v < 0 ? -v : v; };
-        const double hair = 0x1p-40 * (size(normal.x) + size(normal.y) + size(normal.z));
+        const double hair =
+            0x1p-40 * (numeric::magnitude(normal.x) + numeric::magnitude(normal.y) + numeric::magnitude(normal.z));
         if (!(sign * along > 0 && sign * behind > hair * rays.reach())) return false;
         // What the light itself touches doesn't stop it.
         return !rays.end() || sign * (along - behind) > hair * rays.size();

@@ -74,9 +74,8 @@ class horizon {
                         detail::sweep_kernel::block;
 
         const detail::sweep_relief relief(m, sweep, ex);
-        crests_.resize(static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.slots) *
-                           static_cast<std::size_t>(window_.pitch) +
-                       lines_ahead * most_slots);
+        const std::size_t kept = static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.pitch);
+        crests_.resize((kept + lines_ahead) * static_cast<std::size_t>(window_.slots));
         bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
                     [&](std::size_t start, std::size_t) {
                         insonify::detail::dispatch(
@@ -193,7 +192,7 @@ class horizon {
         crest = is_open ? (share < 0.5f ? left : right) : left + share * (right - left);
     }
 
-    static constexpr int lines_ahead = 20, most_slots = 2;
+    static constexpr int lines_ahead = 20;
 
     detail::sweep_window window_;
     glm::vec4 to_x_{0}, to_line_{0}, to_u_{0};         ///< from positions, with one for a fourth

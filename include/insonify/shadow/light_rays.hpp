@@ -36,7 +36,7 @@ class light_rays {
             insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
                                       "finite coordinates");
         size_ = reach_ = reach;
-        for (int i = 0; i < 3; ++i) size_ = (std::max)(size_, source_[i] < 0 ? -source_[i] : source_[i]);
+        for (int i = 0; i < 3; ++i) size_ = (std::max)(size_, numeric::magnitude(source_[i]));
     }
 
     /// From a point to the light: unit length if it is parallel, the whole way if it isn't.
@@ -59,7 +59,7 @@ class light_rays {
     std::size_t plane_of(const glm::dvec3& p) const {
         if (!is_near_) return 0;
         const glm::dvec3 d = p - source_;
-        const glm::dvec3 size{d.x < 0 ? -d.x : d.x, d.y < 0 ? -d.y : d.y, d.z < 0 ? -d.z : d.z};
+        const glm::dvec3 size{numeric::magnitude(d.x), numeric::magnitude(d.y), numeric::magnitude(d.z)};
         const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
         return static_cast<std::size_t>(2 * axis + (d[axis] < 0 ? 1 : 0));
     }
@@ -71,7 +71,7 @@ class light_rays {
         }
         const int axis = static_cast<int>(plane / 2);
         const glm::dvec3 d = p - source_;
-        const double depth = (std::max)(d[axis] < 0 ? -d[axis] : d[axis], smallest_depth());
+        const double depth = (std::max)(numeric::magnitude(d[axis]), smallest_depth());
         return {d[(axis + 1) % 3] / depth, d[(axis + 2) % 3] / depth, 1 / depth * (1 - small_share),
                 small_share * size_ / depth};
     }

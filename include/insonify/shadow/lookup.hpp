@@ -50,8 +50,7 @@ class map_receiver {
   public:
     map_receiver(const height_map& map, const receiver& r)
         : map_(map), at_(map.on_map(r.uvz)), slope_u_(map.on_map(r.slope_u)), slope_v_(map.on_map(r.slope_v)) {
-        const auto size = [](float v) { return v < 0 ? -v : v; };
-        bias_ = 1e-6f + size(slope_u_) + size(slope_v_);  // heights are rounded to 1e-7
+        bias_ = 1e-6f + numeric::magnitude(slope_u_) + numeric::magnitude(slope_v_);  // heights are rounded to 1e-7
     }
 
     /// Whether no texel within `radius` of the nearest one is on the map: nothing can be in the way.

@@ -37,8 +37,7 @@ struct sweep_grid {
         glm::dvec2 x = grid.right, y = grid.up, origin = grid.origin;
         const double area = x.x * y.y - x.y * y.x;
         double travel_x = (travel.x * y.y - travel.y * y.x) / area, travel_y = (x.x * travel.y - x.y * travel.x) / area;
-        const auto size = [](double v) { return v < 0 ? -v : v; };
-        if (size(travel_y) > size(travel_x)) {
+        if (numeric::magnitude(travel_y) > numeric::magnitude(travel_x)) {
             std::swap(columns, rows);
             std::swap(along, across);
             std::swap(x, y);

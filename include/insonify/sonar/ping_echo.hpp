@@ -322,7 +322,7 @@ class ping_listener {
         const double outwards = counts_time ? dx * ray.sine + ddown * ray.cosine : dx;
         const double turning = dx * ray.cosine - ddown * ray.sine;
         const double half = 0.5 * range * ray.width * outwards / (turning * bin_);
-        return static_cast<float>(half < 0 ? -half : half);
+        return static_cast<float>(numeric::magnitude(half));
     }
 
     /// What a surface of reflectivity one sends back of a ray: its area, seen from here, over the sine of grazing, by

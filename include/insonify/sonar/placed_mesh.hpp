@@ -30,20 +30,21 @@ inline pixel_box shadowed_pixels(const overhead_geometry& view, const placed_mes
     const overhead& rig = view.rig();
     const glm::dvec3& to_light = view.light().to_light();
     const auto altitude = static_cast<double>(rig.altitude);
-    const auto size_of = [](double v) { return v < 0 ? -v : v; };
     glm::dvec2 first(std::numeric_limits<double>::infinity()), last = -first;
     for (int corner = 0; corner < 8 && !caster.box.empty(); ++corner) {
         const glm::dvec3 from = caster.box.corner(corner), at = transform_point(caster.to_rig, from);
         double largest = altitude;  // of what is summed up to place it
         for (int axis = 0; axis < 3; ++axis) {
-            largest = (std::max)(largest, size_of(caster.to_rig.offset[axis]));
-            for (int i = 0; i < 3; ++i) largest = (std::max)(largest, size_of(caster.to_rig.linear[i][axis] * from[i]));
+            largest = (std::max)(largest, numeric::magnitude(caster.to_rig.offset[axis]));
+            for (int i = 0; i < 3; ++i)
+                largest = (std::max)(largest, numeric::magnitude(caster.to_rig.linear[i][axis] * from[i]));
         }
-        const double error = 0x1p-21 * largest;
+        const double error = 0x1p-19 * largest;  // a dozen roundings to float
         // What all of these points surround, their pictures do.
         const double fall = (std::max)(at.z - lowest, 0.0) / to_light.z;
         for (const glm::dvec3& p : {at, at - fall * to_light}) {
-            const double down = altitude - p.z, aside = (std::max)(size_of(p.x), size_of(p.y)) / down;
+            const double down = altitude - p.z,
+                         aside = (std::max)(numeric::magnitude(p.x), numeric::magnitude(p.y)) / down;
             const bool is_known = down > 0 && (1 + aside) * error < view.ray_step() * down;
             if (!is_known) return {0, 0, rig.size.x - 1, rig.size.y - 1};
             const glm::dvec2 pixel = view.pixel(p);
