@@ -47,7 +47,7 @@ double megabytes(const workload::scene& scene) {
         return m.positions.size() * sizeof m.positions[0] + m.normals.size() * sizeof m.normals[0] +
                m.triangles.size() * sizeof m.triangles[0];
     };
-    return static_cast<double>(bytes(scene.seabed) + bytes(scene.cylinder)) / (1024 * 1024);
+    return static_cast<double>(bytes(scene.seabed) + bytes(scene.target)) / (1024 * 1024);
 }
 
 void measure_times(const job& j) {
@@ -55,7 +55,7 @@ void measure_times(const job& j) {
     const auto pixels = static_cast<std::size_t>(j.size.pixels) * static_cast<std::size_t>(j.size.pixels);
     std::vector<std::uint8_t> out(pixels);
     const double one = median_ms(scene, 1, out), two = median_ms(scene, 2, out);
-    const std::size_t triangles = scene.seabed.triangles.size() + scene.cylinder.triangles.size();
+    const std::size_t triangles = scene.seabed.triangles.size() + scene.target.triangles.size();
     std::printf("%-4s %10zu %10zu %10.1f %10.1f %8.2f x %12.1f", j.name, triangles, pixels, one, two, one / two,
                 1e6 * one / static_cast<double>(triangles + pixels));
 }

@@ -41,7 +41,7 @@ class embree_renderer::tracer {
         if (is_rebuilt()) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
         rtcSetSceneBuildQuality(scene_, is_rebuilt() ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH);
         attach(tree == embree_tree::grid_rebuilt ? grid() : triangles(task.seabed));
-        attach(triangles(task.cylinder));
+        attach(triangles(task.target));
         rtcCommitScene(scene_);
         if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) throw std::runtime_error("Embree refuses the scene");
     }
@@ -123,7 +123,7 @@ class embree_renderer::tracer {
 
     glm::vec3 normal_at(const RTCHit16& hit, int lane) const {
         const bool is_seabed = hit.geomID[lane] == 0;
-        const workload::surface& s = is_seabed ? task_.seabed : task_.cylinder;
+        const workload::surface& s = is_seabed ? task_.seabed : task_.target;
         const float u = hit.u[lane], v = hit.v[lane];
         const triangle_corners at = is_seabed && tree_ == embree_tree::grid_rebuilt
                                         ? in_grid(u, v)

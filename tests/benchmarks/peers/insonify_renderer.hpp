@@ -1,4 +1,4 @@
-// W by the library: the seabed and the cylinder are two meshes of a scene, and `render` does the rest.
+// A scene by the library: its seabed and its target are two meshes of a scene, and `render` does the rest.
 #pragma once
 
 #include <insonify/core/quantize.hpp>
@@ -20,9 +20,9 @@ class insonify_renderer {
     insonify_renderer(workload::scene w, int threads) : pool_(threads) {
         scene_.seabed = in::seabed::none{};
         scene_.add(std::move(w.seabed), {}, "seabed", {.reflectivity = 1}).is_solid = true;  // nothing lies below it
-        scene_.add(std::move(w.cylinder), {}, "cylinder", {.reflectivity = 1});
+        scene_.add(std::move(w.target), {}, "target", {.reflectivity = 1});
         const auto radians = [](double degrees) { return static_cast<float>(in::numeric::to_radians(degrees)); };
-        rig_ = {.altitude = static_cast<float>(workload::altitude),
+        rig_ = {.altitude = static_cast<float>(w.altitude),
                 .field_of_view = radians(workload::field_of_view),
                 .size = {w.size.pixels, w.size.pixels},
                 .grazing = radians(workload::light_elevation),

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <glm/mat4x4.hpp>
 
@@ -93,7 +94,7 @@ class llvmpipe_renderer::pipeline {
     pipeline(const workload::task& task, int threads) : task_(task), context_(with_threads(threads)) {
         if (context_.renderer().empty()) throw std::runtime_error("no llvmpipe through EGL's surfaceless platform");
         upload(seabed_, task.seabed);
-        upload(cylinder_, task.cylinder);
+        upload(target_, task.target);
         make_map();
         make_target();
         make_programs();
@@ -107,14 +108,14 @@ class llvmpipe_renderer::pipeline {
         glClear(GL_DEPTH_BUFFER_BIT);
         glUseProgram(cast_);
         draw(seabed_);
-        draw(cylinder_);
+        draw(target_);
 
         glBindFramebuffer(GL_FRAMEBUFFER, frame_);
         glViewport(0, 0, task_.pixels, task_.pixels);
         glFrontFace(GL_CW);  // turned over, so that memory has the top row first
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glUseProgram(draw_);
-        draw(cylinder_);
+        draw(target_);
         draw(seabed_);
         glReadPixels(0, 0, task_.pixels, task_.pixels, GL_RED, GL_UNSIGNED_BYTE, out.data());
         check();
@@ -193,6 +194,17 @@ class llvmpipe_renderer::pipeline {
         glEnable(GL_CULL_FACE);
     }
 
+    /// The lowest and the highest of everything.
+    std::pair<double, double> heights() const {
+        double lowest = 0, highest = 0;
+        for (const workload::surface* s : {&task_.seabed, &task_.target})
+            for (const glm::vec3& p : s->positions) {
+                lowest = std::min(lowest, static_cast<double>(p.z));
+                highest = std::max(highest, static_cast<double>(p.z));
+            }
+        return {lowest, highest};
+    }
+
     void make_programs() {
         cast_ = testing_mesa::program_of(cast_vertex, cast_fragment);
         draw_ = testing_mesa::program_of(draw_vertex, draw_fragment);
@@ -204,13 +216,22 @@ class llvmpipe_renderer::pipeline {
         const glm::dvec3 right(-back.y / level, back.x / level, 0);
         const glm::dvec3 up(back.y * right.z - back.z * right.y, back.z * right.x - back.x * right.z,
                             back.x * right.y - back.y * right.x);
+        // What is shown, and as far from there towards the light as anything can throw a shadow.
+        const auto [lowest, highest] = heights();
+        const double shown = task_.half_width * (task_.altitude - lowest) / task_.altitude,
+                     reach = (highest - lowest) / back.z;
+        const auto matters = [&](double at, double towards) {
+            return at >= -shown + std::min(towards, 0.0) * reach && at <= shown + std::max(towards, 0.0) * reach;
+        };
         box_projection light{{right, up, -back}};
-        for (const workload::surface* s : {&task_.seabed, &task_.cylinder})
-            for (const glm::vec3& p : s->positions) light.include(p);
+        for (const workload::surface* s : {&task_.seabed, &task_.target})
+            for (const glm::vec3& p : s->positions)
+                if (matters(static_cast<double>(p.x), back.x) && matters(static_cast<double>(p.y), back.y))
+                    light.include(p);
         const glm::mat4 to_light_clip = light.matrix(1, 0), to_map = light.matrix(0.5, 0.5, shadow_bias);
 
-        // Depth from 1 m below the camera to 1 m below the lowest ripple.
-        const double z_near = task_.altitude - 2, z_far = task_.altitude + 1;
+        const double room = 0.1 * task_.altitude, z_near = task_.altitude - highest - room,
+                     z_far = task_.altitude - lowest + room;
         const auto scale = static_cast<float>(task_.altitude / task_.half_width);
         glm::mat4 to_clip(0);
         to_clip[0][0] = scale;
@@ -234,7 +255,7 @@ class llvmpipe_renderer::pipeline {
 
     workload::task task_;
     testing_mesa::context context_;
-    object seabed_, cylinder_;
+    object seabed_, target_;
     GLuint map_frame_ = 0, frame_ = 0, cast_ = 0, draw_ = 0;
     GLsizei map_size_ = 0;
 };

@@ -1,4 +1,5 @@
-// W by Mesa's llvmpipe through OpenGL ES 3: an orthographic shadow map fitted to the seabed, then the picture.
+// A scene by Mesa's llvmpipe through OpenGL ES 3: an orthographic shadow map fitted to what the picture shows, then the
+// picture.
 #pragma once
 
 #include <memory>

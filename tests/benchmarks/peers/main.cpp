@@ -1,4 +1,5 @@
-// The reference workload W drawn by the library and by its peers, frame by frame in turn. See --help and docs/speed.md.
+// The reference workload W, and others, drawn by the library and by its peers, frame by frame in turn. See --help and
+// docs/speed.md.
 #include <insonify/accuracy/metrics.hpp>
 #include <insonify/io/netpbm.hpp>
 
@@ -31,6 +32,7 @@ const std::vector<std::string> every_renderer{
     "embree_mesh_kept", "embree_mesh_rebuilt", "embree_grid_rebuilt", "llvmpipe"};
 
 struct options {
+    std::vector<std::string> workloads{"W"};
     std::vector<std::string> sizes{"S", "M", "L"};
     std::vector<std::string> only = every_renderer;
     int threads = 2, frames = 9;
@@ -39,7 +41,12 @@ struct options {
 
 options parse(int argc, char** argv) {
     options o;
-    CLI::App app("Draws the reference workload W by insonify and by its peers, in turn, and compares them.", "bench");
+    CLI::App app("Draws the reference workload by insonify and by its peers, in turn, and compares them.", "bench");
+    app.add_option("--workloads", o.workloads,
+                   "W, a target on ripples from 10 m; close, one from 1 m; mesh, a mesh of up to 4 million triangles "
+                   "over rock (W)")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"W", "close", "mesh"}));
     app.add_option("--sizes", o.sizes, "S,M,L: 256, 512, 1024 cells and 512, 1024, 2048 pixels a side (all)")
         ->delimiter(',')
         ->check(CLI::IsMember({"S", "M", "L"}));
@@ -138,10 +145,10 @@ bytes exact_picture([[maybe_unused]] const workload::scene& scene, [[maybe_unuse
 #endif
 }
 
-report::row summary(const runner& r, const workload::size& size, const bytes& exact) {
+report::row summary(const runner& r, const workload::setting& what, const workload::size& size, const bytes& exact) {
     std::vector<double> times = r.times;
     std::sort(times.begin(), times.end());
-    report::row row{size.name, r.name, times[times.size() / 2], times.front(), {}};
+    report::row row{what.name, size.name, r.name, times[times.size() / 2], times.front(), {}};
     if (!exact.empty()) {
         std::size_t off = 0;
         for (std::size_t i = 0; i < exact.size(); ++i) off += std::abs(int{r.picture[i]} - int{exact[i]}) > 8;
@@ -153,23 +160,25 @@ report::row summary(const runner& r, const workload::size& size, const bytes& ex
     return row;
 }
 
-void dump(const options& o, const workload::size& size, const std::string& name, const bytes& picture) {
+void dump(const options& o, const workload::setting& what, const workload::size& size, const std::string& name,
+          const bytes& picture) {
     if (o.dump.empty() || picture.empty()) return;
     std::filesystem::create_directories(o.dump);
-    in::write_netpbm(o.dump + "/" + size.name + "_" + name + ".pgm",
+    in::write_netpbm(o.dump + "/" + what.name + "_" + size.name + "_" + name + ".pgm",
                      in::image_view<const std::uint8_t>(picture.data(), size.pixels, size.pixels));
 }
 
-void measure(const workload::size& size, const options& o, std::vector<report::row>& rows) {
-    const workload::scene scene(size);
+void measure(const workload::setting& what, const workload::size& size, const options& o,
+             std::vector<report::row>& rows) {
+    const workload::scene scene(size, what);
     const bytes exact = exact_picture(scene, o.threads);
-    dump(o, size, "exact", exact);
+    dump(o, what, size, "exact", exact);
     std::vector<runner> runners = make_runners(scene, o);
     for (int frame = -2; frame < o.frames; ++frame)
         for (runner& r : runners) r.run(frame >= 0);
     for (const runner& r : runners) {
-        dump(o, size, r.name, r.picture);
-        rows.push_back(summary(r, size, exact));
+        dump(o, what, size, r.name, r.picture);
+        rows.push_back(summary(r, what, size, exact));
     }
 }
 
@@ -184,11 +193,15 @@ int main(int argc, char** argv) try {
     std::fprintf(stderr, "llvmpipe is left out: EGL and OpenGL ES were not there when this was built\n");
 #endif
     std::vector<report::row> rows;
-    for (const workload::size& size : workload::sizes)
-        if (std::find(o.sizes.begin(), o.sizes.end(), std::string(1, size.name)) != o.sizes.end())
-            measure(size, o, rows);
+    const auto is_asked = [](const std::vector<std::string>& list, const std::string& name) {
+        return std::find(list.begin(), list.end(), name) != list.end();
+    };
+    for (const workload::setting& what : workload::settings)
+        for (const workload::size& size : workload::sizes)
+            if (is_asked(o.workloads, what.name) && is_asked(o.sizes, std::string(1, size.name)))
+                measure(what, size, o, rows);
     if (rows.empty()) return 1;
-    std::printf("W: threads %d; frames %d of each renderer, in turn\n", o.threads, o.frames);
+    std::printf("threads %d; frames %d of each renderer, in turn\n", o.threads, o.frames);
     report::print_table(rows);
     if (!o.json.empty()) in::write_file(o.json, report::to_json(rows));
     if (!o.svg.empty()) in::write_file(o.svg, report::to_svg(rows));

@@ -18,29 +18,33 @@ struct distance {
     double off_by_8_percent = 0;  ///< pixels that differ by more than 8 of 255
 };
 
-/// One renderer on one size of the workload.
+/// One renderer on one size of a workload.
 struct row {
+    std::string workload;
     char size;
     std::string renderer;
     double ms_median = 0, ms_fastest = 0;
     std::optional<distance> from_exact;  ///< absent without an exact picture
+
+    bool is_beside(const row& other) const { return workload == other.workload && size == other.size; }
 };
 
-/// The row of another renderer on the same size.
-inline const row* find(const std::vector<row>& rows, char size, const std::string& renderer) {
+/// The library's row beside another renderer's.
+inline const row* own_beside(const std::vector<row>& rows, const row& of) {
     for (const row& r : rows)
-        if (r.size == size && r.renderer == renderer) return &r;
+        if (r.is_beside(of) && r.renderer == "insonify") return &r;
     return nullptr;
 }
 
 using svg::number;
 
 inline void print_table(const std::vector<row>& rows) {
-    std::printf("%-5s %-22s %10s %10s %12s %9s %11s\n", "size", "renderer", "median ms", "fastest", "to insonify",
-                "PSNR dB", "off by > 8");
+    std::printf("%-8s %-5s %-22s %10s %10s %12s %9s %11s\n", "workload", "size", "renderer", "median ms", "fastest",
+                "to insonify", "PSNR dB", "off by > 8");
     for (const row& r : rows) {
-        const row* const own = find(rows, r.size, "insonify");
-        std::printf("%-5c %-22s %10.1f %10.1f %12s %9s %11s\n", r.size, r.renderer.c_str(), r.ms_median, r.ms_fastest,
+        const row* const own = own_beside(rows, r);
+        std::printf("%-8s %-5c %-22s %10.1f %10.1f %12s %9s %11s\n", r.workload.c_str(), r.size, r.renderer.c_str(),
+                    r.ms_median, r.ms_fastest,
                     own != nullptr ? (number(r.ms_median / own->ms_median, 2) + " x").c_str() : "-",
                     r.from_exact ? number(r.from_exact->psnr_db, 1).c_str() : "-",
                     r.from_exact ? (number(r.from_exact->off_by_8_percent, 3) + " %").c_str() : "-");
@@ -51,31 +55,32 @@ inline std::string to_json(const std::vector<row>& rows) {
     std::string text = "[";
     for (const row& r : rows) {
         text += text.size() == 1 ? "\n" : ",\n";
-        text += R"(  {"workload": "W", "size": ")" + std::string(1, r.size) + R"(", "renderer": ")" + r.renderer +
-                R"(", "ms_median": )" + number(r.ms_median, 3) + R"(, "psnr_db": )" +
-                (r.from_exact ? number(r.from_exact->psnr_db, 3) : "null") + R"(, "off_by_8_percent": )" +
-                (r.from_exact ? number(r.from_exact->off_by_8_percent, 4) : "null") + "}";
+        text += R"(  {"workload": ")" + r.workload + R"(", "size": ")" + std::string(1, r.size) +
+                R"(", "renderer": ")" + r.renderer + R"(", "ms_median": )" + number(r.ms_median, 3) +
+                R"(, "psnr_db": )" + (r.from_exact ? number(r.from_exact->psnr_db, 3) : "null") +
+                R"(, "off_by_8_percent": )" + (r.from_exact ? number(r.from_exact->off_by_8_percent, 4) : "null") + "}";
     }
     return text + "\n]\n";
 }
 
-/// Bars of the medians, one group for each size, each group to a scale of its own.
+/// Bars of the medians, one group for each workload and size, each group to a scale of its own.
 inline std::string to_svg(const std::vector<row>& rows) {
     constexpr int left = 190, longest = 480, line = 24, width = 780;
     std::string bars;
     int y = 20;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const row& r = rows[i];
-        if (i == 0 || rows[i - 1].size != r.size) {
+        if (i == 0 || !rows[i - 1].is_beside(r)) {
             y += 18;
-            bars += svg::text("16", std::to_string(y), "W in size " + std::string(1, r.size) + ", ms per frame",
-                              " font-weight='bold'");
+            bars +=
+                svg::text("16", std::to_string(y), r.workload + " in size " + std::string(1, r.size) + ", ms per frame",
+                          " font-weight='bold'");
             y += 10;
         }
         double slowest = 0;
         for (const row& other : rows)
-            if (other.size == r.size && other.ms_median > slowest) slowest = other.ms_median;
-        const row* const own = find(rows, r.size, "insonify");
+            if (other.is_beside(r) && other.ms_median > slowest) slowest = other.ms_median;
+        const row* const own = own_beside(rows, r);
         const double length = longest * r.ms_median / slowest;
         std::string label = number(r.ms_median, r.ms_median < 100 ? 1 : 0);
         if (own != nullptr && own != &r) label += "  (" + number(r.ms_median / own->ms_median, 1) + " x)";

@@ -25,7 +25,7 @@ struct task {
     double altitude = 0;    ///< of the camera over (0, 0), looking straight down
     double half_width = 0;  ///< of what the picture shows of z = 0, metres
     glm::vec3 to_light{};   ///< unit
-    surface seabed, cylinder;
+    surface seabed, target;
 
     static constexpr float ambient = 0.1f;
     static constexpr std::uint8_t background = 0;
