@@ -826,16 +826,19 @@ INSONIFY_INLINE bool any(const Mask& mask) {
     }
 }
 
-/// Bit k is set where lane k of a mask is; for 1, 4 or 8 lanes of 32 bits.
+/// Bit k is set where lane k of a mask is; for 1, 4, 8 or 16 lanes of 32 bits.
 template <int N>
 INSONIFY_INLINE unsigned set_lanes(const lanes<std::int32_t, N>& mask) {
 #if INSONIFY_SIMD && defined(__SSE2__)
     if constexpr (N == 4) {
         return static_cast<unsigned>(__builtin_ia32_movmskps(lanes<float, 4>(mask)));
-    } else if constexpr (N == 8) {
-        const lanes<std::int32_t, 4> low = __builtin_shufflevector(mask, mask, 0, 1, 2, 3);
-        const lanes<std::int32_t, 4> high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
-        return set_lanes<4>(low) | set_lanes<4>(high) << 4;
+    } else if constexpr (N > 4) {
+        return [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+            const lanes<std::int32_t, N / 2> low = __builtin_shufflevector(mask, mask, I...),
+                                             high = __builtin_shufflevector(mask, mask, N / 2 + I...);
+            return set_lanes<N / 2>(low) | set_lanes<N / 2>(high) << N / 2;
+        }
+        (std::make_integer_sequence<int, N / 2>{});
     } else
 #endif
     {
@@ -1669,6 +1672,14 @@ inline int128 wide_area(const screen_vertex& a, const screen_vertex& b, const sc
     return wide_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
 }
 
+/// Whether a triangle's bounding box lies beyond all centres of the picture on one side of it.
+inline bool is_outside(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, const pixel_grid& grid) {
+    return grid.first_center((std::min)({a.x, b.x, c.x}), grid.width) == grid.width ||
+           grid.first_center((std::min)({a.y, b.y, c.y}), grid.height) == grid.height ||
+           grid.last_center((std::max)({a.x, b.x, c.x}), grid.width) == -1 ||
+           grid.last_center((std::max)({a.y, b.y, c.y}), grid.height) == -1;
+}
+
 /// The pixels of an image whose centres a triangle's bounding box holds.
 inline pixel_box center_box(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
                             const pixel_grid& grid) {
@@ -2492,11 +2503,18 @@ struct corner_lanes {
         extend(north, south, ay, by, cy);
     }
 
-    /// Whether all of them are small, and on the grid.
+    INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_place::no_x)); }
+    /// Which lie outside of the picture, see is_outside; of those on the grid.
+    INSONIFY_INLINE void outside(const pixel_grid& grid, ints& into) const {
+        const auto half = static_cast<std::int32_t>(grid.half());
+        const std::int32_t right = (grid.width << grid.subpixel_bits) - half,
+                           bottom = (grid.height << grid.subpixel_bits) - half;
+        into = ints((west > right) | (east <= half) | (north > bottom) | (south <= half));
+    }
+    /// Whether all of them are small; of those on the grid.
     INSONIFY_INLINE bool are_small() const {
         const uints most = uints{} + (1u << 14);
-        return !any(ints((west == grid_place::no_x) | (uints(east) - uints(west) >= most) |
-                         (uints(south) - uints(north) >= most)));
+        return !any(ints((uints(east) - uints(west) >= most) | (uints(south) - uints(north) >= most)));
     }
     /// Twice the area, positive for clockwise on the screen; of small ones.
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }
@@ -2772,7 +2790,8 @@ namespace insonify::inline INSONIFY_ABI {
 enum class cull_mode { none, back, front };
 
 /// What became of a mesh's triangles. Nothing that a draw meets by the million is an error.
-/// Each of `triangles` is counted once among drawn, culled, missed, degenerate and not_finite.
+/// Each of `triangles` is counted once among drawn, culled, missed, degenerate and not_finite: missed, if it lies
+/// outside of the picture, whatever else it is.
 struct draw_stats {
     std::uint64_t triangles = 0;   ///< submitted
     std::uint64_t drawn = 0;       ///< reached the pixel loop
@@ -3002,6 +3021,7 @@ class screen_mesh {
             if (this->corner(triangle, corner).place.is_off_grid()) return assemble_wide(shader, name, tiles, out);
         const glm::uvec3& index = mesh_.triangles[triangle];
         const screen_vertex a = vertices_[index.x], b = vertices_[index.y], c = vertices_[index.z];
+        if (is_outside(a, b, c, grid_)) return fate::missed;
         const std::int64_t area = compact_area(a, b, c);
         if (area == 0) return fate::degenerate;
         if (is_culled(area < 0)) return fate::culled;
@@ -3082,7 +3102,8 @@ struct assembly_kernel {
         Screen::count(out.stats, screen.assemble(shader, triangle, tiles, out));
     }
 
-    /// Gives up if one of them isn't small.
+    /// Gives up if one of them isn't small, unless they are all outside of the picture, where many of a near surface's
+    /// are and are large.
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle) const {
         using ints = lanes<std::int32_t, N>;
@@ -3090,45 +3111,45 @@ struct assembly_kernel {
             gather_pairs<N>(
                 x, y, [&](int k) { return &screen.corner(triangle + static_cast<std::size_t>(k), corner).place.x; });
         });
+        if (!at.are_on_grid()) return false;
+        constexpr unsigned all = (1u << N) - 1;
+        ints outside;
+        at.outside(screen.grid_, outside);
+        const unsigned far_off = set_lanes<N>(outside);
+        if (far_off == all) {
+            out.stats.missed += N;
+            return true;
+        }
         if (!at.are_small()) return false;
         const pixel_box picture{0, 0, screen.grid_.width - 1, screen.grid_.height - 1};
         ints area, x0, y0, x1, y1;
         at.area(area);
         at.centers(screen.grid_, picture, x0, y0, x1, y1);
-        const ints degenerate = ints(area == 0);
         ints culled = ints{};
         if (screen.cull_ == cull_mode::back) culled = ints(area > 0);
         if (screen.cull_ == cull_mode::front) culled = ints(area < 0);
-        const ints missed = ints((x1 < x0) | (y1 < y0));
 
         const auto name = static_cast<std::uint32_t>(triangle);
         const ints first_tile = ints((x0 >> tiles.log2_size) | (y0 >> tiles.log2_size << 16)),  // see tile_range
             last_tile = ints((x1 >> tiles.log2_size) | (y1 >> tiles.log2_size << 16));
-        const ints none = ints{},
-                   fate = (degenerate ? none + 1 : none) | (culled ? none + 2 : none) | (missed ? none + 4 : none);
+        const unsigned flat = set_lanes<N>(ints(area == 0)) & ~far_off, turned = set_lanes<N>(culled) & ~far_off,
+                       empty = set_lanes<N>(ints((x1 < x0) | (y1 < y0))), drawn = all & ~(flat | turned | empty);
+        out.stats.missed += static_cast<unsigned>(std::popcount(empty & ~(flat | turned)));
+        out.stats.degenerate += static_cast<unsigned>(std::popcount(flat));
+        out.stats.culled += static_cast<unsigned>(std::popcount(turned));
+        out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));
         // Most of the time they all go the same way.
         const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
-        if (!any(ints((fate | (first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
-            out.stats.drawn += N;
+        if (drawn == all && !any(ints(((first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
             out.runs.add(name, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
             return true;
         }
-        std::int32_t fates[static_cast<unsigned>(N)];
         std::uint32_t firsts[static_cast<unsigned>(N)], lasts[static_cast<unsigned>(N)];
-        store(fates, fate);
         store(firsts, first_tile);
         store(lasts, last_tile);
-        for (int k = 0; k < N; ++k) {
-            if (fates[k] == 0) {
-                ++out.stats.drawn;
-                out.runs.add(name + static_cast<std::uint32_t>(k), 1, {firsts[k], lasts[k]}, true);
-            } else if (fates[k] & 1) {
-                ++out.stats.degenerate;
-            } else if (fates[k] & 2) {
-                ++out.stats.culled;
-            } else {
-                ++out.stats.missed;
-            }
+        for (unsigned left = drawn; left != 0; left &= left - 1) {
+            const auto k = static_cast<unsigned>(std::countr_zero(left));
+            out.runs.add(name + k, 1, {firsts[k], lasts[k]}, true);
         }
         return true;
     }
@@ -3783,9 +3804,12 @@ class fragment_lanes {
 
     /// @param names  of what each lane shows: somebody's where a lane isn't visible
     template <class Screen>
-    INSONIFY_INLINE fragment_lanes(const Screen& screen, const record* records, int column, int row, const ints& shown,
-                                   bool all_shown, const std::uint32_t* names)
-        : x(column), y(row), visible(shown), all_visible(all_shown) {
+    INSONIFY_INLINE void look_up(const Screen& screen, const record* records, int column, int row, const ints& shown,
+                                 bool all_shown, const std::uint32_t* names) {
+        x = column;
+        y = row;
+        visible = shown;
+        all_visible = all_shown;
         lanes<std::uint32_t, N> name;
         load(name, names);
         const glm::uvec3* corners[count];
@@ -3878,7 +3902,8 @@ class fragment_lanes {
         if constexpr (N == 1) {
             return {};  // alone it would not have come here
         } else {
-            const fragment_lanes<1, Varyings> one(screen, records, px, py, 1, true, &name);
+            fragment_lanes<1, Varyings> one;
+            one.look_up(screen, records, px, py, 1, true, &name);
             return {{one.weights[0], one.weights[1], one.weights[2]}, one.front != 0};
         }
     }
@@ -3887,7 +3912,8 @@ class fragment_lanes {
     floats inverse_w_[3];                                          ///< of those of compact triangles
 };
 
-/// Hands the pixels of one tile that this draw has won to `shader(fragment_lanes)`.
+/// Hands the pixels of one tile that this draw has won to `shader(fragment_lanes)`. What they show is looked up for
+/// part of a row before any of it is shaded: either is one long chain, and so neighbours' chains run side by side.
 template <class Screen, class Varyings, class Shader>
 struct shading_kernel {
     static constexpr int widest = 8;  // of AVX-512 its registers help, wider vectors don't
@@ -3901,28 +3927,42 @@ struct shading_kernel {
     template <int Width>
     INSONIFY_INLINE void run() const {
         constexpr int N = Width;
-        using ints = lanes<std::int32_t, N>;
-        ints column;
-        count_up<std::int32_t, N>(column);
+        fragment_lanes<N, Varyings> found[static_cast<unsigned>(part / N)];
         for (int y = box.y0; y <= box.y1; ++y)
-            for (int x = box.x0; x <= box.x1; x += N) {
-                const std::uint32_t* const names = tile.winner(x, y);
-                lanes<std::uint32_t, N> shown;
-                load(shown, names);
-                const ints visible = ints(shown != tile_buffer<true>::nobody) & ints(column <= box.x1 - x);
-                if (!any(ints(visible == 0))) {
-                    shaded += N;
-                    shader(fragment_lanes<N, Varyings>(screen, records, x, y, visible, true, names));
-                } else if (any(visible)) {
-                    shade_some<N>(x, y, visible, names);
-                }
+            for (int x = box.x0; x <= box.x1; x += part) {
+                const int count = find<N>(found, x, y);
+                for (int i = 0; i < count; ++i) shader(found[i]);
             }
     }
 
   private:
+    static constexpr int part = 64;  ///< pixels; what is known of them stays in the first-level cache
+
+    /// Looks at the pixels from (x0, y) on.
+    /// @returns how many fragments that makes
     template <int N>
-    INSONIFY_INLINE void shade_some(int x, int y, const lanes<std::int32_t, N>& visible,
-                                    const std::uint32_t* names) const {
+    INSONIFY_INLINE int find(fragment_lanes<N, Varyings>* found, int x0, int y) const {
+        using ints = lanes<std::int32_t, N>;
+        ints column;
+        count_up<std::int32_t, N>(column);
+        int count = 0;
+        for (int x = x0; x <= (std::min)(box.x1, x0 + part - 1); x += N) {
+            const std::uint32_t* const names = tile.winner(x, y);
+            lanes<std::uint32_t, N> shown;
+            load(shown, names);
+            const ints visible = ints(shown != tile_buffer<true>::nobody) & ints(column <= box.x1 - x);
+            if (!any(ints(visible == 0))) {
+                shaded += N;
+                found[count++].look_up(screen, records, x, y, visible, true, names);
+            } else if (any(visible)) {
+                find_some<N>(found[count++], x, y, visible, names);
+            }
+        }
+        return count;
+    }
+    template <int N>
+    INSONIFY_INLINE void find_some(fragment_lanes<N, Varyings>& found, int x, int y,
+                                   const lanes<std::int32_t, N>& visible, const std::uint32_t* names) const {
         std::uint32_t shown[static_cast<unsigned>(N)], somebody = 0;
         for (int k = 0; k < N; ++k)
             if (lane(visible, k) != 0) {
@@ -3930,7 +3970,7 @@ struct shading_kernel {
                 ++shaded;
             }
         for (int k = 0; k < N; ++k) shown[k] = lane(visible, k) != 0 ? names[k] : somebody;
-        shader(fragment_lanes<N, Varyings>(screen, records, x, y, visible, false, shown));
+        found.look_up(screen, records, x, y, visible, false, shown);
     }
 };
 
@@ -7165,50 +7205,60 @@ struct sweep_grid {
     }
 };
 
-/// u of a grid's vertices, column by column, and less than anything around them.
-struct sweep_relief {
-    static constexpr int below = 2, above = 4;  ///< rows around
-    static constexpr float nothing = -1e30f;
-    static constexpr float least = -1e20f;  ///< of any u; what is interpolated with nothing lies below it
-
-    std::ptrdiff_t pitch;
-    unfilled_vector<float> u;
-
-    template <executor E>
-    sweep_relief(const mesh_view& m, const sweep_grid& grid, E& ex)
-        : pitch(grid.rows + below + above), u(static_cast<std::size_t>(grid.columns * pitch)) {
-        // In squares, so that both the mesh and what is made of it are read and written in runs.
-        constexpr int square = 32;
-        const auto drop = static_cast<float>(grid.drop);
-        bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
-            const int left = static_cast<int>(from), right = static_cast<int>(to);
-            for (int x = left; x < right; ++x) {
-                float* const column = u.data() + x * pitch;
-                std::fill_n(column, below, nothing);
-                std::fill_n(column + below + grid.rows, above, nothing);
-            }
-            for (int bottom = 0; bottom < grid.rows; bottom += square)
-                for (int x = left; x < right; ++x) {
-                    float* const column = u.data() + x * pitch + below;
-                    const auto start = static_cast<float>(x);
-                    const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
-                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y)
-                        column[y] = start + drop * vertex[y * grid.across].z;
-                }
-        });
-    }
-};
-
 /// Which columns of a grid are kept, and which lines: line k passes through Y = start + k spacing at X = 0.
 struct sweep_window {
+    int entry = 0;  ///< the first column from which anything can block what is asked about
     int first_column = 0, columns = 0;
     int slots = 1;             ///< of a column, side by side for each line: where it enters and, if cells fall, behind
                                ///< the edge of a row
     int lines = 0, pitch = 0;  ///< that count, and that are kept
     float start = 0, spacing = 1, slope = 0;
+
+    int last_column() const { return first_column + columns - 1; }
 };
 
-/// Carries crests along some lines over all columns of a grid.
+/// u of a grid's vertices as far as a window needs them, column by column, and less than anything around them.
+struct sweep_relief {
+    static constexpr int below = 2, above = 4;  ///< rows around
+    static constexpr float nothing = -1e30f;
+    static constexpr float least = -1e20f;  ///< of any u; what is interpolated with nothing lies below it
+
+    template <executor E>
+    sweep_relief(const mesh_view& m, const sweep_grid& grid, const sweep_window& window, E& ex)
+        : first_(window.entry), pitch_(grid.rows + below + above) {
+        const int columns = (std::min)(window.last_column() + 2, grid.columns) - first_;
+        u_.resize(static_cast<std::size_t>(columns * pitch_));
+        // In squares, so that both the mesh and what is made of it are read and written in runs.
+        constexpr int square = 32;
+        const auto drop = static_cast<float>(grid.drop);
+        bulk_ranges(ex, static_cast<std::size_t>(columns), square, [&](std::size_t from, std::size_t to) {
+            const int left = first_ + static_cast<int>(from), right = first_ + static_cast<int>(to);
+            for (int x = left; x < right; ++x) {
+                std::fill_n(column(x), below, nothing);
+                std::fill_n(column(x) + below + grid.rows, above, nothing);
+            }
+            for (int bottom = 0; bottom < grid.rows; bottom += square)
+                for (int x = left; x < right; ++x) {
+                    float* const heights = column(x) + below;
+                    const auto start = static_cast<float>(x);
+                    const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
+                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y)
+                        heights[y] = start + drop * vertex[y * grid.across].z;
+                }
+        });
+    }
+
+    const float* column(int x) const { return u_.data() + (x - first_) * pitch_; }
+
+  private:
+    float* column(int x) { return u_.data() + (x - first_) * pitch_; }
+
+    int first_;
+    std::ptrdiff_t pitch_;
+    unfilled_vector<float> u_;
+};
+
+/// Carries crests along some lines over the columns of a grid, as far as they are kept.
 struct sweep_kernel {
     static constexpr int block = 32;  ///< lines
     const sweep_grid& grid;
@@ -7223,10 +7273,12 @@ struct sweep_kernel {
         // Before the first of the lines enters the grid, and when the last of them has left it, nothing changes.
         const float lowest = window.start + window.spacing * static_cast<float>(first_line),
                     highest = lowest + window.spacing * static_cast<float>(block);
-        const int first = column_at(-1.0f - highest), last = column_at(static_cast<float>(grid.rows) - lowest) + 2;
+        const int end = window.last_column() + 1,
+                  first = (std::min)((std::max)(window.entry, column_at(-1.0f - highest)), end - 1),
+                  last = (std::min)(end, column_at(static_cast<float>(grid.rows) - lowest) + 2);
         for (int i = 0; i < block / N; ++i) lines[i].enter(*this, first_line + i * N, first);
-        keep<N>(lines, 0, first);
-        for (int column = first; column < (std::min)(last, grid.columns); ++column) {
+        keep<N>(lines, window.first_column, first);
+        for (int column = first; column < last; ++column) {
             float* const kept = kept_at(column);
             for (int i = 0; i < block / N; ++i) {
                 float* const to = kept == nullptr ? nullptr : kept + i * N * window.slots;
@@ -7238,7 +7290,7 @@ struct sweep_kernel {
                     lines[i].template step<false>(*this, column, to);
             }
         }
-        keep<N>(lines, last, grid.columns);
+        keep<N>(lines, (std::max)(first, last), end);
     }
 
   private:
@@ -7362,7 +7414,7 @@ struct sweep_kernel {
         }
         /// u of the vertex in the line's row, and of the next three.
         INSONIFY_INLINE void read(floats (&four)[4], const sweep_kernel& of, int column) const {
-            const float* const from = of.relief.u.data() + column * of.relief.pitch;
+            const float* const from = of.relief.column(column);
             transpose<N>(four, [&](int k) { return from + insonify::detail::lane(row, k); });
         }
         /// Exact at both ends, though one may be nothing; never beyond the second.
@@ -7404,16 +7456,17 @@ class horizon {
 
     /// @param frame      of the light
     /// @param m          the mesh
+    /// @param box        around it, in its own frame
     /// @param grid       how it lies; nothing that can be asked about lies below it
     /// @param to_world   from the mesh's frame to the one in which the light is described; it comes from above in both
     /// @param receivers  what can be asked about lies in this box, in the latter frame
     /// @param texel      metres, of which lines lie two thirds apart; grows if more than `largest` lines were needed,
-    /// or
-    ///                   2^30 values
+    ///                   or 2^30 values
     /// @param level      the widest instruction set to use; the answers are the same
     template <executor E>
-    horizon(const light_frame& frame, const mesh_view& m, const regular_grid& grid, const affine& to_world,
-            const bounding_box& receivers, double texel, int largest, E& ex, isa level = best_isa()) {
+    horizon(const light_frame& frame, const mesh_view& m, const bounding_box& box, const regular_grid& grid,
+            const affine& to_world, const bounding_box& receivers, double texel, int largest, E& ex,
+            isa level = best_isa()) {
         if (receivers.empty()) return;
         const glm::dvec3 travel = numeric::product(inverse(to_world).linear, -frame.to_light());
         const detail::sweep_grid sweep(grid, travel);
@@ -7428,7 +7481,8 @@ class horizon {
         const auto length = [](const glm::dvec3& v) { return numeric::square_root(numeric::dot(v, v)); };
         const double apart = length(numeric::cross(run, placed.linear[1])) / length(run);
 
-        const glm::dvec2 asked_x = x.range(receivers), asked_lines = line.range(receivers);
+        const glm::dvec2 asked_x = x.range(receivers), asked_lines = line.range(receivers),
+                         asked_u = u.range(receivers);
         const double first = (std::max)(asked_lines.x, -sweep.slope * (sweep.columns - 1));
         const double last = (std::min)(asked_lines.y, static_cast<double>(sweep.rows - 1));
         if (!(first <= last) || asked_x.y < 0) return;
@@ -7437,6 +7491,8 @@ class horizon {
         };
         window_.first_column = column(asked_x.x);
         window_.columns = column(asked_x.y) + 1 - window_.first_column;
+        // Up the light from there, even the highest lies below all that is asked about.
+        window_.entry = (std::min)(column(asked_u.x - sweep.drop * box.upper.z - 1), window_.first_column);
         window_.slots = sweep.is_rising ? 1 : 2;
         const int most = (std::min)(largest, (1 << 30) / (window_.columns * window_.slots));
         constexpr double closer = 1.5;  // than texels: a dB or two for one part in forty of a picture's time
@@ -7449,7 +7505,7 @@ class horizon {
         window_.pitch = (window_.lines + detail::sweep_kernel::block - 1) / detail::sweep_kernel::block *
                         detail::sweep_kernel::block;
 
-        const detail::sweep_relief relief(m, sweep, ex);
+        const detail::sweep_relief relief(m, sweep, window_, ex);
         const std::size_t kept = static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.pitch);
         crests_.resize((kept + lines_ahead) * static_cast<std::size_t>(window_.slots));
         bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
@@ -7461,9 +7517,8 @@ class horizon {
 
         to_x_ = x.narrowed();
         to_line_ = linear_map{line.along / step, (line.start - first) / step + 1}.narrowed();
-        const glm::dvec2 all_u = u.range(receivers);
         to_u_ = u.narrowed();
-        to_u_.w += static_cast<float>(0x1p-21 * (std::max)(-all_u.x, all_u.y));  // floats hold places no better
+        to_u_.w += static_cast<float>(0x1p-21 * (std::max)(-asked_u.x, asked_u.y));  // floats hold places no better
     }
 
     bool empty() const { return crests_.empty(); }
@@ -7606,7 +7661,7 @@ class refined_caster {
                    bool is_solid, const bounding_box& receivers, double texel, int largest, E& ex) {
         if (is_solid && is_lit_from_above(frame, to_world))
             if (const auto grid = regular_grid_of(m, ex)) {
-                horizon_ = horizon(frame, m, *grid, to_world, receivers, texel, largest, ex);
+                horizon_ = horizon(frame, m, box, *grid, to_world, receivers, texel, largest, ex);
                 return;
             }
         const map_extent all = extent_of(receivers, {}, frame);

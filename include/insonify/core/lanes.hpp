@@ -87,16 +87,19 @@ INSONIFY_INLINE bool any(const Mask& mask) {
     }
 }
 
-/// Bit k is set where lane k of a mask is; for 1, 4 or 8 lanes of 32 bits.
+/// Bit k is set where lane k of a mask is; for 1, 4, 8 or 16 lanes of 32 bits.
 template <int N>
 INSONIFY_INLINE unsigned set_lanes(const lanes<std::int32_t, N>& mask) {
 #if INSONIFY_SIMD && defined(__SSE2__)
     if constexpr (N == 4) {
         return static_cast<unsigned>(__builtin_ia32_movmskps(lanes<float, 4>(mask)));
-    } else if constexpr (N == 8) {
-        const lanes<std::int32_t, 4> low = __builtin_shufflevector(mask, mask, 0, 1, 2, 3);
-        const lanes<std::int32_t, 4> high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
-        return set_lanes<4>(low) | set_lanes<4>(high) << 4;
+    } else if constexpr (N > 4) {
+        return [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+            const lanes<std::int32_t, N / 2> low = __builtin_shufflevector(mask, mask, I...),
+                                             high = __builtin_shufflevector(mask, mask, N / 2 + I...);
+            return set_lanes<N / 2>(low) | set_lanes<N / 2>(high) << N / 2;
+        }
+        (std::make_integer_sequence<int, N / 2>{});
     } else
 #endif
     {

@@ -12,6 +12,7 @@
 #include <insonify/raster/fold.hpp>
 #include <insonify/raster/placement.hpp>
 
+#include <bit>
 #include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -22,7 +23,8 @@ namespace insonify::inline INSONIFY_ABI {
 enum class cull_mode { none, back, front };
 
 /// What became of a mesh's triangles. Nothing that a draw meets by the million is an error.
-/// Each of `triangles` is counted once among drawn, culled, missed, degenerate and not_finite.
+/// Each of `triangles` is counted once among drawn, culled, missed, degenerate and not_finite: missed, if it lies
+/// outside of the picture, whatever else it is.
 struct draw_stats {
     std::uint64_t triangles = 0;   ///< submitted
     std::uint64_t drawn = 0;       ///< reached the pixel loop
@@ -252,6 +254,7 @@ class screen_mesh {
             if (this->corner(triangle, corner).place.is_off_grid()) return assemble_wide(shader, name, tiles, out);
         const glm::uvec3& index = mesh_.triangles[triangle];
         const screen_vertex a = vertices_[index.x], b = vertices_[index.y], c = vertices_[index.z];
+        if (is_outside(a, b, c, grid_)) return fate::missed;
         const std::int64_t area = compact_area(a, b, c);
         if (area == 0) return fate::degenerate;
         if (is_culled(area < 0)) return fate::culled;
@@ -332,7 +335,8 @@ struct assembly_kernel {
         Screen::count(out.stats, screen.assemble(shader, triangle, tiles, out));
     }
 
-    /// Gives up if one of them isn't small.
+    /// Gives up if one of them isn't small, unless they are all outside of the picture, where many of a near surface's
+    /// are and are large.
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle) const {
         using ints = lanes<std::int32_t, N>;
@@ -340,45 +344,45 @@ struct assembly_kernel {
             gather_pairs<N>(
                 x, y, [&](int k) { return &screen.corner(triangle + static_cast<std::size_t>(k), corner).place.x; });
         });
+        if (!at.are_on_grid()) return false;
+        constexpr unsigned all = (1u << N) - 1;
+        ints outside;
+        at.outside(screen.grid_, outside);
+        const unsigned far_off = set_lanes<N>(outside);
+        if (far_off == all) {
+            out.stats.missed += N;
+            return true;
+        }
         if (!at.are_small()) return false;
         const pixel_box picture{0, 0, screen.grid_.width - 1, screen.grid_.height - 1};
         ints area, x0, y0, x1, y1;
         at.area(area);
         at.centers(screen.grid_, picture, x0, y0, x1, y1);
-        const ints degenerate = ints(area == 0);
         ints culled = ints{};
         if (screen.cull_ == cull_mode::back) culled = ints(area > 0);
         if (screen.cull_ == cull_mode::front) culled = ints(area < 0);
-        const ints missed = ints((x1 < x0) | (y1 < y0));
 
         const auto name = static_cast<std::uint32_t>(triangle);
         const ints first_tile = ints((x0 >> tiles.log2_size) | (y0 >> tiles.log2_size << 16)),  // see tile_range
             last_tile = ints((x1 >> tiles.log2_size) | (y1 >> tiles.log2_size << 16));
-        const ints none = ints{},
-                   fate = (degenerate ? none + 1 : none) | (culled ? none + 2 : none) | (missed ? none + 4 : none);
+        const unsigned flat = set_lanes<N>(ints(area == 0)) & ~far_off, turned = set_lanes<N>(culled) & ~far_off,
+                       empty = set_lanes<N>(ints((x1 < x0) | (y1 < y0))), drawn = all & ~(flat | turned | empty);
+        out.stats.missed += static_cast<unsigned>(std::popcount(empty & ~(flat | turned)));
+        out.stats.degenerate += static_cast<unsigned>(std::popcount(flat));
+        out.stats.culled += static_cast<unsigned>(std::popcount(turned));
+        out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));
         // Most of the time they all go the same way.
         const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
-        if (!any(ints((fate | (first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
-            out.stats.drawn += N;
+        if (drawn == all && !any(ints(((first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
             out.runs.add(name, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
             return true;
         }
-        std::int32_t fates[static_cast<unsigned>(N)];
         std::uint32_t firsts[static_cast<unsigned>(N)], lasts[static_cast<unsigned>(N)];
-        store(fates, fate);
         store(firsts, first_tile);
         store(lasts, last_tile);
-        for (int k = 0; k < N; ++k) {
-            if (fates[k] == 0) {
-                ++out.stats.drawn;
-                out.runs.add(name + static_cast<std::uint32_t>(k), 1, {firsts[k], lasts[k]}, true);
-            } else if (fates[k] & 1) {
-                ++out.stats.degenerate;
-            } else if (fates[k] & 2) {
-                ++out.stats.culled;
-            } else {
-                ++out.stats.missed;
-            }
+        for (unsigned left = drawn; left != 0; left &= left - 1) {
+            const auto k = static_cast<unsigned>(std::countr_zero(left));
+            out.runs.add(name + k, 1, {firsts[k], lasts[k]}, true);
         }
         return true;
     }

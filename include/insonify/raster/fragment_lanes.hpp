@@ -31,9 +31,12 @@ class fragment_lanes {
 
     /// @param names  of what each lane shows: somebody's where a lane isn't visible
     template <class Screen>
-    INSONIFY_INLINE fragment_lanes(const Screen& screen, const record* records, int column, int row, const ints& shown,
-                                   bool all_shown, const std::uint32_t* names)
-        : x(column), y(row), visible(shown), all_visible(all_shown) {
+    INSONIFY_INLINE void look_up(const Screen& screen, const record* records, int column, int row, const ints& shown,
+                                 bool all_shown, const std::uint32_t* names) {
+        x = column;
+        y = row;
+        visible = shown;
+        all_visible = all_shown;
         lanes<std::uint32_t, N> name;
         load(name, names);
         const glm::uvec3* corners[count];
@@ -126,7 +129,8 @@ class fragment_lanes {
         if constexpr (N == 1) {
             return {};  // alone it would not have come here
         } else {
-            const fragment_lanes<1, Varyings> one(screen, records, px, py, 1, true, &name);
+            fragment_lanes<1, Varyings> one;
+            one.look_up(screen, records, px, py, 1, true, &name);
             return {{one.weights[0], one.weights[1], one.weights[2]}, one.front != 0};
         }
     }
@@ -135,7 +139,8 @@ class fragment_lanes {
     floats inverse_w_[3];                                          ///< of those of compact triangles
 };
 
-/// Hands the pixels of one tile that this draw has won to `shader(fragment_lanes)`.
+/// Hands the pixels of one tile that this draw has won to `shader(fragment_lanes)`. What they show is looked up for
+/// part of a row before any of it is shaded: either is one long chain, and so neighbours' chains run side by side.
 template <class Screen, class Varyings, class Shader>
 struct shading_kernel {
     static constexpr int widest = 8;  // of AVX-512 its registers help, wider vectors don't
@@ -149,28 +154,42 @@ struct shading_kernel {
     template <int Width>
     INSONIFY_INLINE void run() const {
         constexpr int N = Width;
-        using ints = lanes<std::int32_t, N>;
-        ints column;
-        count_up<std::int32_t, N>(column);
+        fragment_lanes<N, Varyings> found[static_cast<unsigned>(part / N)];
         for (int y = box.y0; y <= box.y1; ++y)
-            for (int x = box.x0; x <= box.x1; x += N) {
-                const std::uint32_t* const names = tile.winner(x, y);
-                lanes<std::uint32_t, N> shown;
-                load(shown, names);
-                const ints visible = ints(shown != tile_buffer<true>::nobody) & ints(column <= box.x1 - x);
-                if (!any(ints(visible == 0))) {
-                    shaded += N;
-                    shader(fragment_lanes<N, Varyings>(screen, records, x, y, visible, true, names));
-                } else if (any(visible)) {
-                    shade_some<N>(x, y, visible, names);
-                }
+            for (int x = box.x0; x <= box.x1; x += part) {
+                const int count = find<N>(found, x, y);
+                for (int i = 0; i < count; ++i) shader(found[i]);
             }
     }
 
   private:
+    static constexpr int part = 64;  ///< pixels; what is known of them stays in the first-level cache
+
+    /// Looks at the pixels from (x0, y) on.
+    /// @returns how many fragments that makes
     template <int N>
-    INSONIFY_INLINE void shade_some(int x, int y, const lanes<std::int32_t, N>& visible,
-                                    const std::uint32_t* names) const {
+    INSONIFY_INLINE int find(fragment_lanes<N, Varyings>* found, int x0, int y) const {
+        using ints = lanes<std::int32_t, N>;
+        ints column;
+        count_up<std::int32_t, N>(column);
+        int count = 0;
+        for (int x = x0; x <= (std::min)(box.x1, x0 + part - 1); x += N) {
+            const std::uint32_t* const names = tile.winner(x, y);
+            lanes<std::uint32_t, N> shown;
+            load(shown, names);
+            const ints visible = ints(shown != tile_buffer<true>::nobody) & ints(column <= box.x1 - x);
+            if (!any(ints(visible == 0))) {
+                shaded += N;
+                found[count++].look_up(screen, records, x, y, visible, true, names);
+            } else if (any(visible)) {
+                find_some<N>(found[count++], x, y, visible, names);
+            }
+        }
+        return count;
+    }
+    template <int N>
+    INSONIFY_INLINE void find_some(fragment_lanes<N, Varyings>& found, int x, int y,
+                                   const lanes<std::int32_t, N>& visible, const std::uint32_t* names) const {
         std::uint32_t shown[static_cast<unsigned>(N)], somebody = 0;
         for (int k = 0; k < N; ++k)
             if (lane(visible, k) != 0) {
@@ -178,7 +197,7 @@ struct shading_kernel {
                 ++shaded;
             }
         for (int k = 0; k < N; ++k) shown[k] = lane(visible, k) != 0 ? names[k] : somebody;
-        shader(fragment_lanes<N, Varyings>(screen, records, x, y, visible, false, shown));
+        found.look_up(screen, records, x, y, visible, false, shown);
     }
 };
 

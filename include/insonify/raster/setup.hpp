@@ -110,6 +110,14 @@ inline int128 wide_area(const screen_vertex& a, const screen_vertex& b, const sc
     return wide_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
 }
 
+/// Whether a triangle's bounding box lies beyond all centres of the picture on one side of it.
+inline bool is_outside(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, const pixel_grid& grid) {
+    return grid.first_center((std::min)({a.x, b.x, c.x}), grid.width) == grid.width ||
+           grid.first_center((std::min)({a.y, b.y, c.y}), grid.height) == grid.height ||
+           grid.last_center((std::max)({a.x, b.x, c.x}), grid.width) == -1 ||
+           grid.last_center((std::max)({a.y, b.y, c.y}), grid.height) == -1;
+}
+
 /// The pixels of an image whose centres a triangle's bounding box holds.
 inline pixel_box center_box(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
                             const pixel_grid& grid) {

@@ -31,11 +31,18 @@ struct corner_lanes {
         extend(north, south, ay, by, cy);
     }
 
-    /// Whether all of them are small, and on the grid.
+    INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_place::no_x)); }
+    /// Which lie outside of the picture, see is_outside; of those on the grid.
+    INSONIFY_INLINE void outside(const pixel_grid& grid, ints& into) const {
+        const auto half = static_cast<std::int32_t>(grid.half());
+        const std::int32_t right = (grid.width << grid.subpixel_bits) - half,
+                           bottom = (grid.height << grid.subpixel_bits) - half;
+        into = ints((west > right) | (east <= half) | (north > bottom) | (south <= half));
+    }
+    /// Whether all of them are small; of those on the grid.
     INSONIFY_INLINE bool are_small() const {
         const uints most = uints{} + (1u << 14);
-        return !any(ints((west == grid_place::no_x) | (uints(east) - uints(west) >= most) |
-                         (uints(south) - uints(north) >= most)));
+        return !any(ints((uints(east) - uints(west) >= most) | (uints(south) - uints(north) >= most)));
     }
     /// Twice the area, positive for clockwise on the screen; of small ones.
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }

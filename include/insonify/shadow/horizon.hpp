@@ -28,16 +28,17 @@ class horizon {
 
     /// @param frame      of the light
     /// @param m          the mesh
+    /// @param box        around it, in its own frame
     /// @param grid       how it lies; nothing that can be asked about lies below it
     /// @param to_world   from the mesh's frame to the one in which the light is described; it comes from above in both
     /// @param receivers  what can be asked about lies in this box, in the latter frame
     /// @param texel      metres, of which lines lie two thirds apart; grows if more than `largest` lines were needed,
-    /// or
-    ///                   2^30 values
+    ///                   or 2^30 values
     /// @param level      the widest instruction set to use; the answers are the same
     template <executor E>
-    horizon(const light_frame& frame, const mesh_view& m, const regular_grid& grid, const affine& to_world,
-            const bounding_box& receivers, double texel, int largest, E& ex, isa level = best_isa()) {
+    horizon(const light_frame& frame, const mesh_view& m, const bounding_box& box, const regular_grid& grid,
+            const affine& to_world, const bounding_box& receivers, double texel, int largest, E& ex,
+            isa level = best_isa()) {
         if (receivers.empty()) return;
         const glm::dvec3 travel = numeric::product(inverse(to_world).linear, -frame.to_light());
         const detail::sweep_grid sweep(grid, travel);
@@ -52,7 +53,8 @@ class horizon {
         const auto length = [](const glm::dvec3& v) { return numeric::square_root(numeric::dot(v, v)); };
         const double apart = length(numeric::cross(run, placed.linear[1])) / length(run);
 
-        const glm::dvec2 asked_x = x.range(receivers), asked_lines = line.range(receivers);
+        const glm::dvec2 asked_x = x.range(receivers), asked_lines = line.range(receivers),
+                         asked_u = u.range(receivers);
         const double first = (std::max)(asked_lines.x, -sweep.slope * (sweep.columns - 1));
         const double last = (std::min)(asked_lines.y, static_cast<double>(sweep.rows - 1));
         if (!(first <= last) || asked_x.y < 0) return;
@@ -61,6 +63,8 @@ class horizon {
         };
         window_.first_column = column(asked_x.x);
         window_.columns = column(asked_x.y) + 1 - window_.first_column;
+        // Up the light from there, even the highest lies below all that is asked about.
+        window_.entry = (std::min)(column(asked_u.x - sweep.drop * box.upper.z - 1), window_.first_column);
         window_.slots = sweep.is_rising ? 1 : 2;
         const int most = (std::min)(largest, (1 << 30) / (window_.columns * window_.slots));
         constexpr double closer = 1.5;  // than texels: a dB or two for one part in forty of a picture's time
@@ -73,7 +77,7 @@ class horizon {
         window_.pitch = (window_.lines + detail::sweep_kernel::block - 1) / detail::sweep_kernel::block *
                         detail::sweep_kernel::block;
 
-        const detail::sweep_relief relief(m, sweep, ex);
+        const detail::sweep_relief relief(m, sweep, window_, ex);
         const std::size_t kept = static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.pitch);
         crests_.resize((kept + lines_ahead) * static_cast<std::size_t>(window_.slots));
         bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
@@ -85,9 +89,8 @@ class horizon {
 
         to_x_ = x.narrowed();
         to_line_ = linear_map{line.along / step, (line.start - first) / step + 1}.narrowed();
-        const glm::dvec2 all_u = u.range(receivers);
         to_u_ = u.narrowed();
-        to_u_.w += static_cast<float>(0x1p-21 * (std::max)(-all_u.x, all_u.y));  // floats hold places no better
+        to_u_.w += static_cast<float>(0x1p-21 * (std::max)(-asked_u.x, asked_u.y));  // floats hold places no better
     }
 
     bool empty() const { return crests_.empty(); }

@@ -28,7 +28,7 @@ class refined_caster {
                    bool is_solid, const bounding_box& receivers, double texel, int largest, E& ex) {
         if (is_solid && is_lit_from_above(frame, to_world))
             if (const auto grid = regular_grid_of(m, ex)) {
-                horizon_ = horizon(frame, m, *grid, to_world, receivers, texel, largest, ex);
+                horizon_ = horizon(frame, m, box, *grid, to_world, receivers, texel, largest, ex);
                 return;
             }
         const map_extent all = extent_of(receivers, {}, frame);

@@ -60,50 +60,60 @@ struct sweep_grid {
     }
 };
 
-/// u of a grid's vertices, column by column, and less than anything around them.
-struct sweep_relief {
-    static constexpr int below = 2, above = 4;  ///< rows around
-    static constexpr float nothing = -1e30f;
-    static constexpr float least = -1e20f;  ///< of any u; what is interpolated with nothing lies below it
-
-    std::ptrdiff_t pitch;
-    unfilled_vector<float> u;
-
-    template <executor E>
-    sweep_relief(const mesh_view& m, const sweep_grid& grid, E& ex)
-        : pitch(grid.rows + below + above), u(static_cast<std::size_t>(grid.columns * pitch)) {
-        // In squares, so that both the mesh and what is made of it are read and written in runs.
-        constexpr int square = 32;
-        const auto drop = static_cast<float>(grid.drop);
-        bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
-            const int left = static_cast<int>(from), right = static_cast<int>(to);
-            for (int x = left; x < right; ++x) {
-                float* const column = u.data() + x * pitch;
-                std::fill_n(column, below, nothing);
-                std::fill_n(column + below + grid.rows, above, nothing);
-            }
-            for (int bottom = 0; bottom < grid.rows; bottom += square)
-                for (int x = left; x < right; ++x) {
-                    float* const column = u.data() + x * pitch + below;
-                    const auto start = static_cast<float>(x);
-                    const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
-                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y)
-                        column[y] = start + drop * vertex[y * grid.across].z;
-                }
-        });
-    }
-};
-
 /// Which columns of a grid are kept, and which lines: line k passes through Y = start + k spacing at X = 0.
 struct sweep_window {
+    int entry = 0;  ///< the first column from which anything can block what is asked about
     int first_column = 0, columns = 0;
     int slots = 1;             ///< of a column, side by side for each line: where it enters and, if cells fall, behind
                                ///< the edge of a row
     int lines = 0, pitch = 0;  ///< that count, and that are kept
     float start = 0, spacing = 1, slope = 0;
+
+    int last_column() const { return first_column + columns - 1; }
 };
 
-/// Carries crests along some lines over all columns of a grid.
+/// u of a grid's vertices as far as a window needs them, column by column, and less than anything around them.
+struct sweep_relief {
+    static constexpr int below = 2, above = 4;  ///< rows around
+    static constexpr float nothing = -1e30f;
+    static constexpr float least = -1e20f;  ///< of any u; what is interpolated with nothing lies below it
+
+    template <executor E>
+    sweep_relief(const mesh_view& m, const sweep_grid& grid, const sweep_window& window, E& ex)
+        : first_(window.entry), pitch_(grid.rows + below + above) {
+        const int columns = (std::min)(window.last_column() + 2, grid.columns) - first_;
+        u_.resize(static_cast<std::size_t>(columns * pitch_));
+        // In squares, so that both the mesh and what is made of it are read and written in runs.
+        constexpr int square = 32;
+        const auto drop = static_cast<float>(grid.drop);
+        bulk_ranges(ex, static_cast<std::size_t>(columns), square, [&](std::size_t from, std::size_t to) {
+            const int left = first_ + static_cast<int>(from), right = first_ + static_cast<int>(to);
+            for (int x = left; x < right; ++x) {
+                std::fill_n(column(x), below, nothing);
+                std::fill_n(column(x) + below + grid.rows, above, nothing);
+            }
+            for (int bottom = 0; bottom < grid.rows; bottom += square)
+                for (int x = left; x < right; ++x) {
+                    float* const heights = column(x) + below;
+                    const auto start = static_cast<float>(x);
+                    const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
+                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y)
+                        heights[y] = start + drop * vertex[y * grid.across].z;
+                }
+        });
+    }
+
+    const float* column(int x) const { return u_.data() + (x - first_) * pitch_; }
+
+  private:
+    float* column(int x) { return u_.data() + (x - first_) * pitch_; }
+
+    int first_;
+    std::ptrdiff_t pitch_;
+    unfilled_vector<float> u_;
+};
+
+/// Carries crests along some lines over the columns of a grid, as far as they are kept.
 struct sweep_kernel {
     static constexpr int block = 32;  ///< lines
     const sweep_grid& grid;
@@ -118,10 +128,12 @@ struct sweep_kernel {
         // Before the first of the lines enters the grid, and when the last of them has left it, nothing changes.
         const float lowest = window.start + window.spacing * static_cast<float>(first_line),
                     highest = lowest + window.spacing * static_cast<float>(block);
-        const int first = column_at(-1.0f - highest), last = column_at(static_cast<float>(grid.rows) - lowest) + 2;
+        const int end = window.last_column() + 1,
+                  first = (std::min)((std::max)(window.entry, column_at(-1.0f - highest)), end - 1),
+                  last = (std::min)(end, column_at(static_cast<float>(grid.rows) - lowest) + 2);
         for (int i = 0; i < block / N; ++i) lines[i].enter(*this, first_line + i * N, first);
-        keep<N>(lines, 0, first);
-        for (int column = first; column < (std::min)(last, grid.columns); ++column) {
+        keep<N>(lines, window.first_column, first);
+        for (int column = first; column < last; ++column) {
             float* const kept = kept_at(column);
             for (int i = 0; i < block / N; ++i) {
                 float* const to = kept == nullptr ? nullptr : kept + i * N * window.slots;
@@ -133,7 +145,7 @@ struct sweep_kernel {
                     lines[i].template step<false>(*this, column, to);
             }
         }
-        keep<N>(lines, last, grid.columns);
+        keep<N>(lines, (std::max)(first, last), end);
     }
 
   private:
@@ -257,7 +269,7 @@ struct sweep_kernel {
         }
         /// u of the vertex in the line's row, and of the next three.
         INSONIFY_INLINE void read(floats (&four)[4], const sweep_kernel& of, int column) const {
-            const float* const from = of.relief.u.data() + column * of.relief.pitch;
+            const float* const from = of.relief.column(column);
             transpose<N>(four, [&](int k) { return from + insonify::detail::lane(row, k); });
         }
         /// Exact at both ends, though one may be nothing; never beyond the second.

@@ -49,7 +49,7 @@ shadow::horizon horizon_of(const in::mesh& m, const shadow::light_frame& light, 
                            in::isa level = in::best_isa()) {
     const auto grid = in::regular_grid_of(m);
     REQUIRE(grid);
-    return {light, m, *grid, place, box, texel, largest, ex, level};
+    return {light, m, in::bounds(m), *grid, place, box, texel, largest, ex, level};
 }
 shadow::horizon horizon_of(const in::mesh& m, const shadow::light_frame& light, double texel) {
     return horizon_of(m, light, texel, {}, in::bounds(m));
