@@ -20,7 +20,8 @@ class insonify_renderer {
     insonify_renderer(workload::scene w, int threads) : pool_(threads) {
         scene_.seabed = in::seabed::none{};
         scene_.add(std::move(w.seabed), {}, "seabed", {.reflectivity = 1}).is_solid = true;  // nothing lies below it
-        scene_.add(std::move(w.target), {}, "target", {.reflectivity = 1});
+        scene_.add(std::move(w.target), {}, "target", {.reflectivity = 1}).is_solid =
+            true;  // both are closed: peers cull
         const auto radians = [](double degrees) { return static_cast<float>(in::numeric::to_radians(degrees)); };
         rig_ = {.altitude = static_cast<float>(w.altitude),
                 .field_of_view = radians(workload::field_of_view),

@@ -223,6 +223,32 @@ TEST_CASE("Every triangle is accounted for once") {
     CHECK(stats.drawn >= 2);  // {0, 2, 1}, and what is left of the clipped one
 }
 
+TEST_CASE("What lies outside of the picture is missed, whatever else it is; what touches a centre of it is not") {
+    // On either side of 8 x 8 pixels: one that has no area, one that is culled, one that goes on for 4000 pixels. Each
+    // comes eight times and more, as a mesh's triangles do that lie together.
+    const float beyond = GENERATE(-5000.0f, 7.5f);  // the last centre doesn't belong to what begins there
+    const bool along_y = GENERATE(false, true);
+    const auto at = [&](float past, float level) {
+        return along_y ? glm::vec3(level, beyond + past, 0) : glm::vec3(beyond + past, level, 0);
+    };
+    const auto level = GENERATE(as<in::isa>(), in::isa::scalar, in::best_isa());
+    for (const in::cull_mode cull : {in::cull_mode::none, in::cull_mode::back, in::cull_mode::front}) {
+        in::mesh m{{at(0.01f, 4), at(1, 4), at(0.01f, 5), at(4000, 4)}, {}, {}};
+        for (int i = 0; i < 37; ++i) m.triangles.insert(m.triangles.end(), {{0, 0, 0}, {0, 1, 2}, {0, 2, 3}});
+        in::image<float> depth(8, 8);
+        const in::draw_options options{.cull = cull, .load = in::depth_load::clear, .level = level};
+        auto stats = in::draw(m, pixel_space{8, 8}, in::depth_target{depth}, options);
+        CHECK(stats.missed == m.triangles.size());
+        if (beyond < 0) continue;
+        // A quarter of a pixel nearer, the last row or column of centres is theirs.
+        for (glm::vec3& p : m.positions) p[along_y ? 1 : 0] -= 0.25f;
+        stats = in::draw(m, pixel_space{8, 8}, in::depth_target{depth}, options);
+        CHECK(stats.degenerate == m.triangles.size() / 3);
+        CHECK(stats.missed + stats.drawn + stats.culled == m.triangles.size() / 3 * 2);
+        CHECK((cull != in::cull_mode::none || stats.drawn > 0));
+    }
+}
+
 TEST_CASE("Clipped triangles keep their numbers, however many there are before them") {
     // 20000 triangles in 200 x 100 cells of two pixels; every third one reaches behind the far plane, outside its cell.
     const int width = 400, height = 200;

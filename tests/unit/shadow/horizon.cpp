@@ -249,6 +249,24 @@ TEST_CASE("Fewer lines than asked for lie farther apart, and still say roughly w
     ask(horizon_of(bottom, light, 0.01, {}, in::bounds(bottom), 1), asked);  // one line at most: anything but a crash
 }
 
+TEST_CASE("Asked about less, a horizon answers the same: what it leaves out can't block") {
+    const shadow::light_frame light({radians(GENERATE(10, 100, 215, 301)), radians(14)});
+    const in::mesh bottom =
+        seabed_of(in::seabed::rock{.relief = 0.1f, .outcrop = 0.8f, .block = 0.3f}, 129, GENERATE(false, true));
+    const in::bounding_box all = in::bounds(bottom);
+    const in::bounding_box part{{-0.3, -0.2, all.lower.z}, {0.2, 0.3, all.upper.z}};
+    std::vector<glm::vec3> asked;
+    for (const glm::vec3& p : bottom.positions)
+        if (p.x > -0.3f && p.x < 0.2f && p.y > -0.2f && p.y < 0.3f) asked.push_back(p + glm::vec3(0, 0, 1e-4f));
+    // Lines don't fall on the same places, so a few at the edges of shadows differ.
+    const std::vector<bool> of_all = ask(horizon_of(bottom, light, 0.002, {}, all), asked),
+                            of_part = ask(horizon_of(bottom, light, 0.002, {}, part), asked);
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < asked.size(); ++i) differ += of_all[i] != of_part[i];
+    CHECK(std::count(of_all.begin(), of_all.end(), true) > static_cast<std::ptrdiff_t>(asked.size() / 10));
+    CHECK(differ <= asked.size() / 100);
+}
+
 TEST_CASE("A horizon is the same at every instruction set and for any executor") {
     const shadow::light_frame light({0.4, radians(6)});
     in::thread_pool pool(3);
