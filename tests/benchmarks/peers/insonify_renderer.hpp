@@ -19,9 +19,9 @@ class insonify_renderer {
   public:
     insonify_renderer(workload::scene w, int threads) : pool_(threads) {
         scene_.seabed = in::seabed::none{};
-        scene_.add(std::move(w.seabed), {}, "seabed", {.reflectivity = 1}).is_solid = true;  // nothing lies below it
-        scene_.add(std::move(w.target), {}, "target", {.reflectivity = 1}).is_solid =
-            true;  // both are closed: peers cull
+        // Nothing lies below the one, and the other is closed: peers are told to cull.
+        scene_.add(std::move(w.seabed), {}, "seabed", {.reflectivity = 1}).is_solid = true;
+        scene_.add(std::move(w.target), {}, "target", {.reflectivity = 1}).is_solid = true;
         const auto radians = [](double degrees) { return static_cast<float>(in::numeric::to_radians(degrees)); };
         rig_ = {.altitude = static_cast<float>(w.altitude),
                 .field_of_view = radians(workload::field_of_view),
