@@ -581,8 +581,7 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
         const auto a = result.row(y), b = truth.row(y);
         for (std::size_t x = 0; x < b.size(); ++x) {
             if (a[x] == b[x]) continue;  // two equal infinities among them
-            const double signed_difference = static_cast<double>(a[x]) - static_cast<double>(b[x]);
-            const double difference = numeric::magnitude(signed_difference);
+            const double difference = numeric::magnitude(static_cast<double>(a[x]) - static_cast<double>(b[x]));
             row_sum += difference * difference;
             if (!(difference <= out.largest) && out.largest == out.largest) out.largest = difference;  // keeps a NaN
         }
@@ -2790,8 +2789,8 @@ namespace insonify::inline INSONIFY_ABI {
 enum class cull_mode { none, back, front };
 
 /// What became of a mesh's triangles. Nothing that a draw meets by the million is an error.
-/// Each of `triangles` is counted once among drawn, culled, missed, degenerate and not_finite: missed, if it lies
-/// outside of the picture, whatever else it is.
+/// Each of `triangles` is counted once among drawn, culled, missed, degenerate and not_finite. What lies outside of
+/// the picture and needn't be clipped is missed, whatever else it is.
 struct draw_stats {
     std::uint64_t triangles = 0;   ///< submitted
     std::uint64_t drawn = 0;       ///< reached the pixel loop
@@ -3102,8 +3101,8 @@ struct assembly_kernel {
         Screen::count(out.stats, screen.assemble(shader, triangle, tiles, out));
     }
 
-    /// Gives up if one of them isn't small, unless they are all outside of the picture, where many of a near surface's
-    /// are and are large.
+    /// Gives up if one of them isn't small, unless all lie outside of the picture: seen from close by, most of a
+    /// surface's triangles do, and are large.
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle) const {
         using ints = lanes<std::int32_t, N>;
@@ -10524,8 +10523,7 @@ inline height_range worked_range(const heap& e, const height_range& ground) {
 inline std::array<float, 16> smooth_shares(float fraction) {
     std::array<float, 16> shares;
     for (std::size_t n = 0; n < 16; ++n) {
-        float t = 0.25f * (fraction + 7 - static_cast<float>(n));
-        t = numeric::magnitude(t);
+        const float t = numeric::magnitude(0.25f * (fraction + 7 - static_cast<float>(n)));
         const float s = 2 - t;
         shares[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
     }
@@ -10756,10 +10754,7 @@ inline sediment sediment_of(std::string_view name) {
 inline sediment sediment_of_phi(float phi) {
     detail::require(numeric::is_finite(phi), "phi", phi, "a finite grain size");
     std::size_t best = 0;
-    const auto distance = [&](std::size_t i) {
-        const float d = sediments[i].phi - phi;
-        return numeric::magnitude(d);
-    };
+    const auto distance = [&](std::size_t i) { return numeric::magnitude(sediments[i].phi - phi); };
     for (std::size_t i = 1; i < sediment_count; ++i)
         if (distance(i) < distance(best)) best = i;
     return static_cast<sediment>(best);

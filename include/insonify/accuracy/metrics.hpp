@@ -80,8 +80,7 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
         const auto a = result.row(y), b = truth.row(y);
         for (std::size_t x = 0; x < b.size(); ++x) {
             if (a[x] == b[x]) continue;  // two equal infinities among them
-            const double signed_difference = static_cast<double>(a[x]) - static_cast<double>(b[x]);
-            const double difference = numeric::magnitude(signed_difference);
+            const double difference = numeric::magnitude(static_cast<double>(a[x]) - static_cast<double>(b[x]));
             row_sum += difference * difference;
             if (!(difference <= out.largest) && out.largest == out.largest) out.largest = difference;  // keeps a NaN
         }

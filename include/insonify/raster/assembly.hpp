@@ -23,8 +23,8 @@ namespace insonify::inline INSONIFY_ABI {
 enum class cull_mode { none, back, front };
 
 /// What became of a mesh's triangles. Nothing that a draw meets by the million is an error.
-/// Each of `triangles` is counted once among drawn, culled, missed, degenerate and not_finite: missed, if it lies
-/// outside of the picture, whatever else it is.
+/// Each of `triangles` is counted once among drawn, culled, missed, degenerate and not_finite. What lies outside of
+/// the picture and needn't be clipped is missed, whatever else it is.
 struct draw_stats {
     std::uint64_t triangles = 0;   ///< submitted
     std::uint64_t drawn = 0;       ///< reached the pixel loop
@@ -335,8 +335,8 @@ struct assembly_kernel {
         Screen::count(out.stats, screen.assemble(shader, triangle, tiles, out));
     }
 
-    /// Gives up if one of them isn't small, unless they are all outside of the picture, where many of a near surface's
-    /// are and are large.
+    /// Gives up if one of them isn't small, unless all lie outside of the picture: seen from close by, most of a
+    /// surface's triangles do, and are large.
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle) const {
         using ints = lanes<std::int32_t, N>;

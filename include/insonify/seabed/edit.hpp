@@ -257,8 +257,7 @@ inline height_range worked_range(const heap& e, const height_range& ground) {
 inline std::array<float, 16> smooth_shares(float fraction) {
     std::array<float, 16> shares;
     for (std::size_t n = 0; n < 16; ++n) {
-        float t = 0.25f * (fraction + 7 - static_cast<float>(n));
-        t = numeric::magnitude(t);
+        const float t = numeric::magnitude(0.25f * (fraction + 7 - static_cast<float>(n)));
         const float s = 2 - t;
         shares[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
     }

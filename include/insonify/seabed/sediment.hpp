@@ -83,10 +83,7 @@ inline sediment sediment_of(std::string_view name) {
 inline sediment sediment_of_phi(float phi) {
     detail::require(numeric::is_finite(phi), "phi", phi, "a finite grain size");
     std::size_t best = 0;
-    const auto distance = [&](std::size_t i) {
-        const float d = sediments[i].phi - phi;
-        return numeric::magnitude(d);
-    };
+    const auto distance = [&](std::size_t i) { return numeric::magnitude(sediments[i].phi - phi); };
     for (std::size_t i = 1; i < sediment_count; ++i)
         if (distance(i) < distance(best)) best = i;
     return static_cast<sediment>(best);
