@@ -3,7 +3,7 @@
 //
 //   Yours to set
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
-//     INSONIFY_KEEP_MEMORY    1 (default) or 0, the default under sanitizers: no thread keeps large memory for its next
+//     INSONIFY_KEEP_MEMORY    1 (default) or 0, the default under sanitizers: no thread keeps memory for its next
 //                             picture, all of it comes from operator new
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
 //     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return

@@ -37,7 +37,7 @@
 //
 //   Yours to set
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
-//     INSONIFY_KEEP_MEMORY    1 (default) or 0, the default under sanitizers: no thread keeps large memory for its next
+//     INSONIFY_KEEP_MEMORY    1 (default) or 0, the default under sanitizers: no thread keeps memory for its next
 //                             picture, all of it comes from operator new
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
 //     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return
@@ -1036,12 +1036,13 @@ INSONIFY_INLINE void count_up(lanes<T, N>& into) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/spare_memory.hpp ------------------------------------------------------------
-// Large memory that was given back, for who asks for as much next.
+// Memory that was given back, for who asks for as much next.
 //
-// The system clears every page before it hands it out. Where pictures are made one after another, in new memory each
-// time, that is up to a third of the time. So a thread holds on to the large blocks that it gives back; together with
-// what it has in use, never to more than half as much again as it has had in use at once. The half is for what comes
-// and goes within a picture: without it, that would drive out what the picture's peak needs.
+// The system clears every page before it hands it out, and what is freed in large pieces goes back to it. Where
+// pictures are made one after another, in new memory each time, that is up to a third of the time. So a thread holds on
+// to the blocks that it gives back; together with what it has in use, never to more than half as much again as it has
+// had in use at once. The half is for what comes and goes within a picture: without it, that would drive out what the
+// picture's peak needs.
 
 #include <algorithm>
 #include <new>
@@ -1054,20 +1055,23 @@ namespace insonify::inline INSONIFY_ABI {
 
 namespace detail {
 
-/// Blocks of whole large pages, as they come from the system and go back to it.
-struct large_pages {
-    static constexpr std::size_t page = std::size_t{1} << 21;  ///< the system clears it in one go
+/// Blocks as they come from the system and go back to it.
+struct memory_block {
+    static constexpr std::size_t least = std::size_t{1} << 16;  ///< bytes that are worth a block
+    static constexpr std::size_t page = std::size_t{1} << 21;   ///< a large one, which the system clears in one go
+    static constexpr std::size_t alignment = 64;                ///< at least
 
     /// How much a block for so many bytes holds. Sizes that differ by less than an eighth get the same; what nobody
     /// touches of a page costs nothing.
     static std::size_t rounded(std::size_t bytes) {
-        const std::size_t step = (std::max)(page, std::bit_floor(bytes) / 8);
+        const std::size_t step = (std::max)(is_paged(bytes) ? page : least / 8, std::bit_floor(bytes) / 8);
         return (bytes + step - 1) / step * step;
     }
 
     /// @throws std::bad_alloc
     static void* allocate(std::size_t bytes) {
         const std::size_t size = rounded(bytes);
+        if (!is_paged(size)) return ::operator new (size, std::align_val_t{alignment});
 #if defined(__linux__)
         void* const mapped = ::mmap(nullptr, size + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
         if (mapped == MAP_FAILED) raise(std::bad_alloc());
@@ -1084,12 +1088,20 @@ struct large_pages {
 #endif
     }
 
-    static void free(void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
+    static void free(void* memory, std::size_t bytes) noexcept {
+        const std::size_t size = rounded(bytes);
+        if (!is_paged(size)) return ::operator delete (memory, std::align_val_t{alignment});
 #if defined(__linux__)
-        ::munmap(memory, rounded(bytes));
+        ::munmap(memory, size);
 #else
         ::operator delete (memory, std::align_val_t{page});
 #endif
+    }
+
+  private:
+    /// At least two large pages, of which the first and the last waste one at most.
+    static bool is_paged(std::size_t bytes) {
+        return bytes >= 2 * page;
     }
 };
 
@@ -1112,17 +1124,17 @@ class spare_memory {
         return &kept.memory;
     }
 
-    /// Memory for so many bytes, at the beginning of a large page.
+    /// Memory for so many bytes: of 4 MB and more, at the beginning of a large page.
     /// @throws std::bad_alloc
     void* take(std::size_t bytes) {
-        const std::size_t size = large_pages::rounded(bytes);
+        const std::size_t size = memory_block::rounded(bytes);
         void* memory = nullptr;
         for (int i = 0; i < count_ && memory == nullptr; ++i)
             if (blocks_[i].size == size) memory = drop(i);
         if (memory == nullptr) {
             const std::size_t most = (std::max)(most_, in_use_ + size);
             while (count_ > 0 && kept_ + in_use_ + size > limit(most)) free(0);
-            memory = large_pages::allocate(bytes);
+            memory = memory_block::allocate(bytes);
             most_ = most;
         }
         in_use_ += size;
@@ -1131,9 +1143,9 @@ class spare_memory {
 
     /// Takes back what `take`, of any thread, gave for as many bytes.
     void give(void* memory, std::size_t bytes) noexcept {
-        const std::size_t size = large_pages::rounded(bytes);
+        const std::size_t size = memory_block::rounded(bytes);
         in_use_ -= (std::min)(in_use_, size);
-        if (count_ == most_blocks || kept_ + in_use_ + size > limit(most_)) return large_pages::free(memory, size);
+        if (count_ == most_blocks || kept_ + in_use_ + size > limit(most_)) return memory_block::free(memory, size);
         blocks_[count_++] = {memory, size};
         kept_ += size;
     }
@@ -1156,7 +1168,7 @@ class spare_memory {
 
     void free(int i) noexcept {
         const std::size_t size = blocks_[i].size;
-        large_pages::free(drop(i), size);
+        memory_block::free(drop(i), size);
     }
     void* drop(int i) noexcept {
         const block dropped = blocks_[i];
@@ -1165,7 +1177,7 @@ class spare_memory {
         return dropped.memory;
     }
 
-    static constexpr int most_blocks = 32;
+    static constexpr int most_blocks = 64;
     block blocks_[most_blocks]{};
     int count_ = 0;
     std::size_t kept_ = 0;    ///< bytes of all blocks
@@ -1175,9 +1187,9 @@ class spare_memory {
 
 }  // namespace detail
 
-/// Gives back to the system what the calling thread has kept of large memory for its next picture. A thread keeps
-/// blocks of 4 MB and more, together with what it has in use never more than half as much again as it has had in use
-/// at once; its end releases them, too.
+/// Gives back to the system what the calling thread has kept of memory for its next picture. A thread keeps blocks of
+/// 64 KB and more, together with what it has in use never more than half as much again as it has had in use at once;
+/// its end releases them, too.
 inline void release_memory() noexcept {
     if (detail::spare_memory* const spare = detail::spare_memory::mine()) spare->release();
 }
@@ -1188,8 +1200,7 @@ inline void release_memory() noexcept {
 // Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
 // many will.
 //
-// Large memory comes in whole large pages, and stays with the thread for the next that is as large, unless
-// INSONIFY_KEEP_MEMORY is 0.
+// From 64 KB on it stays with the thread for the next that is as large, unless INSONIFY_KEEP_MEMORY is 0.
 
 #include <memory>
 #include <vector>
@@ -1213,14 +1224,14 @@ class unfilled_allocator {
         if (!is_large(count)) return std::allocator<T>().allocate(count);
         spare_memory* const spare = spare_memory::mine();
         const std::size_t bytes = count * sizeof(T);
-        return static_cast<T*>(spare != nullptr ? spare->take(bytes) : large_pages::allocate(bytes));
+        return static_cast<T*>(spare != nullptr ? spare->take(bytes) : memory_block::allocate(bytes));
     }
     void deallocate(T* memory, std::size_t count) {
         if (!is_large(count)) return std::allocator<T>().deallocate(memory, count);
         if (spare_memory* const spare = spare_memory::mine())
             spare->give(memory, count * sizeof(T));
         else
-            large_pages::free(memory, count * sizeof(T));
+            memory_block::free(memory, count * sizeof(T));
     }
 
     template <class U>
@@ -1235,12 +1246,9 @@ class unfilled_allocator {
     friend bool operator==(const unfilled_allocator&, const unfilled_allocator&) { return true; }
 
   private:
-    static_assert(alignof(T) <= large_pages::page);
+    static_assert(alignof(T) <= memory_block::alignment);
 
-    /// At least two pages, of which the first and the last waste one at most.
-    static bool is_large(std::size_t count) {
-        return INSONIFY_KEEP_MEMORY && count >= 2 * large_pages::page / sizeof(T);
-    }
+    static bool is_large(std::size_t count) { return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T); }
 };
 
 /// Elements stay unset until somebody sets them.

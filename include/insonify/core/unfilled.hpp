@@ -1,8 +1,7 @@
 // Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
 // many will.
 //
-// Large memory comes in whole large pages, and stays with the thread for the next that is as large, unless
-// INSONIFY_KEEP_MEMORY is 0.
+// From 64 KB on it stays with the thread for the next that is as large, unless INSONIFY_KEEP_MEMORY is 0.
 #pragma once
 
 #include <insonify/core/spare_memory.hpp>
@@ -32,14 +31,14 @@ class unfilled_allocator {
         if (!is_large(count)) return std::allocator<T>().allocate(count);
         spare_memory* const spare = spare_memory::mine();
         const std::size_t bytes = count * sizeof(T);
-        return static_cast<T*>(spare != nullptr ? spare->take(bytes) : large_pages::allocate(bytes));
+        return static_cast<T*>(spare != nullptr ? spare->take(bytes) : memory_block::allocate(bytes));
     }
     void deallocate(T* memory, std::size_t count) {
         if (!is_large(count)) return std::allocator<T>().deallocate(memory, count);
         if (spare_memory* const spare = spare_memory::mine())
             spare->give(memory, count * sizeof(T));
         else
-            large_pages::free(memory, count * sizeof(T));
+            memory_block::free(memory, count * sizeof(T));
     }
 
     template <class U>
@@ -54,12 +53,9 @@ class unfilled_allocator {
     friend bool operator==(const unfilled_allocator&, const unfilled_allocator&) { return true; }
 
   private:
-    static_assert(alignof(T) <= large_pages::page);
+    static_assert(alignof(T) <= memory_block::alignment);
 
-    /// At least two pages, of which the first and the last waste one at most.
-    static bool is_large(std::size_t count) {
-        return INSONIFY_KEEP_MEMORY && count >= 2 * large_pages::page / sizeof(T);
-    }
+    static bool is_large(std::size_t count) { return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T); }
 };
 
 /// Elements stay unset until somebody sets them.

@@ -1,5 +1,4 @@
-// Large memory given back waits for who asks for as much next; a thread holds hardly more than it has had in use at
-// once.
+// Memory given back waits for who asks for as much next; a thread holds hardly more than it has had in use at once.
 #include <insonify/core/spare_memory.hpp>
 #include <insonify/core/unfilled.hpp>
 
@@ -11,12 +10,12 @@
 #include "../../catch.hpp"
 
 namespace in = insonify;
-using in::detail::large_pages;
+using in::detail::memory_block;
 using in::detail::spare_memory;
 
 namespace {
 
-constexpr std::size_t page = large_pages::page;
+constexpr std::size_t page = memory_block::page;
 
 }  // namespace
 
@@ -35,15 +34,20 @@ TEST_CASE("What was given back comes again, to who asks for about as much") {
 }
 
 TEST_CASE("Pictures of one size, made one after another, share their memory") {
-    const std::size_t floats = 3 * page / sizeof(float);
-    const float* seen = nullptr;
-    for (int i = 0; i < 3; ++i) {
-        const in::detail::unfilled_vector<float> picture(floats);
-        if (i > 0 && INSONIFY_KEEP_MEMORY) CHECK(picture.data() == seen);
-        seen = picture.data();
+    for (const std::size_t bytes : {memory_block::least, 5 * memory_block::least, 3 * page}) {
+        INFO(bytes);
+        const float* seen = nullptr;
+        for (int i = 0; i < 3; ++i) {
+            const in::detail::unfilled_vector<float> picture(bytes / sizeof(float));
+            if (i > 0 && INSONIFY_KEEP_MEMORY) CHECK(picture.data() == seen);
+            seen = picture.data();
+        }
+        CHECK(spare_memory::mine()->kept() >= (INSONIFY_KEEP_MEMORY ? bytes : 0));
+        in::release_memory();
+        CHECK(spare_memory::mine()->kept() == 0);
     }
-    CHECK(spare_memory::mine()->kept() >= (INSONIFY_KEEP_MEMORY ? 3 * page : 0));
-    in::release_memory();
+    const in::detail::unfilled_vector<char> little(memory_block::least - 1);
+    CHECK(in::detail::unfilled_vector<char>(little).size() == little.size());
     CHECK(spare_memory::mine()->kept() == 0);
 }
 
@@ -97,20 +101,21 @@ TEST_CASE("A thread that frees what others took keeps no more than it has had it
 TEST_CASE("However many blocks are given back, few are kept") {
     spare_memory spare;
     std::vector<void*> taken;
-    for (int i = 0; i < 40; ++i) taken.push_back(spare.take(2 * page));
+    for (int i = 0; i < 80; ++i) taken.push_back(spare.take(2 * page));
     for (void* const memory : taken) spare.give(memory, 2 * page);
-    CHECK(spare.kept() == 32 * 2 * page);
+    CHECK(spare.kept() == 64 * 2 * page);
     spare.release();
 }
 
 TEST_CASE("Sizes count as the same if they differ by less than an eighth") {
-    CHECK(large_pages::rounded(1) == page);
-    CHECK(large_pages::rounded(2 * page) == 2 * page);
-    CHECK(large_pages::rounded(2 * page + 1) == 3 * page);
-    for (std::size_t bytes = page; bytes < 100 * page; bytes += page / 3 + 1) {
-        CHECK(large_pages::rounded(bytes) >= bytes);
-        CHECK(large_pages::rounded(bytes) <= bytes + bytes / 8 + page);
-        CHECK(large_pages::rounded(bytes) % page == 0);
+    CHECK(memory_block::rounded(2 * page) == 2 * page);
+    CHECK(memory_block::rounded(2 * page + 1) == 3 * page);
+    for (std::size_t bytes = memory_block::least; bytes < 100 * page; bytes += bytes / 99) {
+        const std::size_t size = memory_block::rounded(bytes);
+        CHECK(size >= bytes);
+        CHECK(size <= bytes + bytes / 8 + (bytes < 2 * page ? 0 : page));
+        CHECK(size == memory_block::rounded(size));
+        if (size >= 2 * page) CHECK(size % page == 0);
     }
 }
 
@@ -119,7 +124,7 @@ TEST_CASE("More than the system has is refused, and nothing is lost") {
     void* const first = spare.take(2 * page);
     CHECK_THROWS_AS(spare.take(std::size_t{1} << 60), std::bad_alloc);
     spare.give(first, 2 * page);
-    spare.give(large_pages::allocate(2 * page), 2 * page);
+    spare.give(memory_block::allocate(2 * page), 2 * page);
     CHECK(spare.kept() == 2 * page);  // as much as has been in use
     CHECK(spare.take(2 * page) == first);
     spare.give(first, 2 * page);

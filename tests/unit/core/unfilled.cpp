@@ -31,6 +31,7 @@ TEST_CASE("Memory of two large pages or more begins one, where it is kept") {
     constexpr std::size_t page = std::size_t{1} << 21;
     CHECK(std::bit_cast<std::uintptr_t>(bytes(2 * page).data()) % page == 0);
     CHECK(std::bit_cast<std::uintptr_t>(in::detail::unfilled_vector<double>(page).data()) % page == 0);
+    CHECK(std::bit_cast<std::uintptr_t>(bytes(page / 9).data()) % 64 == 0);
 }
 
 TEST_CASE("What is given is kept, what isn't is left to be set") {
