@@ -3806,8 +3806,8 @@ class fragment_lanes {
     std::uint32_t triangles[static_cast<unsigned>(N)];  ///< of the mesh
     ints front;                                         ///< seen from the counter-clockwise side
     floats weights[3];                                  ///< of the corners, perspective-correct
-    bool is_compact;                                    ///< none of the lanes' triangles is clipped or very large
-    floats right[3], down[3];  ///< if so, from the pixel's centre to the corners, in sub-pixels
+    unsigned wide;                                      ///< bit k: lane k's triangle is clipped or very large
+    floats right[3], down[3];  ///< from the pixel's centre to the corners of the others, in sub-pixels
 
     /// @param names  of what each lane shows: somebody's where a lane isn't visible
     template <class Screen>
@@ -3819,21 +3819,16 @@ class fragment_lanes {
         all_visible = all_shown;
         lanes<std::uint32_t, N> name;
         load(name, names);
+        const bool any_wide = any(ints(name >= screen.compact_names()));
+        std::memcpy(triangles, names, sizeof triangles);
+        if (any_wide)
+            for (std::uint32_t& triangle : triangles) triangle = screen.triangle(triangle);
         const glm::uvec3* corners[count];
-        is_compact = !any(ints(name >= screen.compact_names()));
-        if (is_compact) {
-            std::memcpy(triangles, names, sizeof triangles);
-            unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(names[k]); });
-            read_corners(screen, records, corners);
-            weigh();
-        } else {
-            for (int k = 0; k < N; ++k) {
-                triangles[k] = screen.triangle(names[k]);
-                corners[k] = &screen.indices(triangles[k]);
-            }
-            read_corners(screen, records, corners);
-            weigh_one_by_one(screen, records, names);
-        }
+        unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(triangles[k]); });
+        read_corners(screen, records, corners);
+        weigh();
+        wide = 0;
+        if (any_wide) weigh_wide(screen, names);
     }
 
     /// Float k of the varyings; the same bits whichever way the triangle runs.
@@ -3859,14 +3854,12 @@ class fragment_lanes {
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             std::size_t vertex[count];
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { vertex[k] = (*corners[k])[i]; });
-            if (is_compact) {
-                const kept_lanes<N, float> corner([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
-                    return screen.vertices()[vertex[k]];
-                });
-                convert(right[i], ints(corner.x - px));
-                convert(down[i], ints(corner.y - py));
-                inverse_w_[i] = corner.inverse_w;
-            }
+            const kept_lanes<N, float> corner([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
+                return screen.vertices()[vertex[k]];
+            });
+            convert(right[i], ints(corner.x - px));
+            convert(down[i], ints(corner.y - py));
+            inverse_w_[i] = corner.inverse_w;
             unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
                 transpose<N>(values_[i] + 4 * block,
                              [&](int k) INSONIFY_INLINE_LAMBDA { return records[vertex[k]].values + 4 * block; });
@@ -3886,11 +3879,13 @@ class fragment_lanes {
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * scale; });
     }
-    /// Where one of them was clipped, or is too large.
+    /// Of lanes whose triangle was clipped, or is too large.
     template <class Screen>
-    INSONIFY_INLINE void weigh_one_by_one(const Screen& screen, const record* records, const std::uint32_t* names) {
+    INSONIFY_INLINE void weigh_wide(const Screen& screen, const std::uint32_t* names) {
         for (int k = 0; k < N; ++k) {
-            const weights_of_one one = weigh_one(screen, records, names[k], x + k, y);
+            if (screen.is_compact(names[k])) continue;
+            wide |= 1u << k;
+            const weights_of_one one = weigh_one(screen, names[k], x + k, y);
             set_lane(front, k, one.front ? std::int32_t{-1} : std::int32_t{0});
             for (int i = 0; i < 3; ++i) set_lane(weights[i], k, one.weights[i]);
         }
@@ -3900,19 +3895,9 @@ class fragment_lanes {
         bool front;
     };
     template <class Screen>
-    INSONIFY_RARE static weights_of_one weigh_one(const Screen& screen, const record* records, std::uint32_t name,
-                                                  int px, int py) {
-        if (!screen.is_compact(name)) {
-            const screen_triangle t = screen[name];
-            return {glm::vec3(t.weights_at(px, py, screen.grid())), t.front};
-        }
-        if constexpr (N == 1) {
-            return {};  // alone it would not have come here
-        } else {
-            fragment_lanes<1, Varyings> one;
-            one.look_up(screen, records, px, py, 1, true, &name);
-            return {{one.weights[0], one.weights[1], one.weights[2]}, one.front != 0};
-        }
+    INSONIFY_RARE static weights_of_one weigh_one(const Screen& screen, std::uint32_t name, int px, int py) {
+        const screen_triangle t = screen[name];
+        return {glm::vec3(t.weights_at(px, py, screen.grid())), t.front};
     }
 
     floats values_[3][static_cast<unsigned>(4 * record::blocks)];  ///< of the corners
@@ -11208,11 +11193,13 @@ class shadow_maps {
         using floats = lanes<float, N>;
         // A target's shadow goes on over what would be dark without it.
         ints dark;
-        for (std::size_t i = 0; i < targets_.size(); ++i) {
-            const pixel_box& shadowed = targets_[i].shadowed;
+        std::uint16_t instance = 0;
+        for (const target_caster& target : targets_) {
+            ++instance;
+            const pixel_box& shadowed = target.shadowed;
             if (at.y < shadowed.y0 || at.y > shadowed.y1 || at.x > shadowed.x1 || at.x + N <= shadowed.x0) continue;
-            targets_[i].form.template darken<N>(dark, useful, at.position);
-            shares.darken(dark ? floats{} : floats{} + 1.0f, static_cast<std::uint16_t>(i + 1));
+            target.form.template darken<N>(dark, useful, at.position);
+            shares.darken(dark ? floats{} : floats{} + 1.0f, instance);
         }
         const glm::dvec2& travel = light_.travel();
         const floats facing =
@@ -11593,7 +11580,8 @@ class surface_shader {
         floats reflectivity;
         if constexpr (Object::uniform) {
             reflectivity = floats{} + object_.surface.reflectivity;
-            for (std::uint8_t& type : types) type = object_.seabed;
+            if constexpr (labelled)
+                for (std::uint8_t& type : types) type = object_.seabed;
         } else {
             for (int k = 0; k < N; ++k) types[k] = object_.type_at(f, k);
             gather<N>(reflectivity, [&](int k) { return object_.materials[types[k]].reflectivity; });
@@ -11670,10 +11658,8 @@ class surface_shader {
                                       const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& side) const {
         using floats = lanes<float, N>;
         floats corner[3][3], ab[3], ac[3];
-        if (f.is_compact)
-            unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { rays.corner(corner[i], f, i, subpixel_); });
-        else
-            place_corners<N>(corner, f);
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { rays.corner(corner[i], f, i, subpixel_); });
+        if (f.wide != 0) place_corners<N>(corner, f);
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             ab[i] = corner[1][i] - corner[0][i];
             ac[i] = corner[2][i] - corner[0][i];
@@ -11682,15 +11668,17 @@ class surface_shader {
         into[1] = side * (ab[2] * ac[0] - ac[2] * ab[0]);
         into[2] = side * (ab[0] * ac[1] - ac[0] * ab[1]);
     }
-    /// From the mesh, whatever became of them on the screen.
+    /// Those of wide triangles, from the mesh.
     template <int N>
     INSONIFY_INLINE void place_corners(lanes<float, N> (&corner)[3][3],
                                        const fragment_lanes<N, surface_varyings>& f) const {
-        for (int k = 0; k < N; ++k)
+        for (int k = 0; k < N; ++k) {
+            if ((f.wide >> k & 1) == 0) continue;
             for (int i = 0; i < 3; ++i) {
                 const glm::vec3 at = placement_.place(mesh_.positions[mesh_.triangles[f.triangles[k]][i]]);
                 for (int axis = 0; axis < 3; ++axis) set_lane(corner[i][axis], k, at[axis]);
             }
+        }
     }
 
     template <int N>

@@ -26,8 +26,8 @@ class fragment_lanes {
     std::uint32_t triangles[static_cast<unsigned>(N)];  ///< of the mesh
     ints front;                                         ///< seen from the counter-clockwise side
     floats weights[3];                                  ///< of the corners, perspective-correct
-    bool is_compact;                                    ///< none of the lanes' triangles is clipped or very large
-    floats right[3], down[3];  ///< if so, from the pixel's centre to the corners, in sub-pixels
+    unsigned wide;                                      ///< bit k: lane k's triangle is clipped or very large
+    floats right[3], down[3];  ///< from the pixel's centre to the corners of the others, in sub-pixels
 
     /// @param names  of what each lane shows: somebody's where a lane isn't visible
     template <class Screen>
@@ -39,21 +39,16 @@ class fragment_lanes {
         all_visible = all_shown;
         lanes<std::uint32_t, N> name;
         load(name, names);
+        const bool any_wide = any(ints(name >= screen.compact_names()));
+        std::memcpy(triangles, names, sizeof triangles);
+        if (any_wide)
+            for (std::uint32_t& triangle : triangles) triangle = screen.triangle(triangle);
         const glm::uvec3* corners[count];
-        is_compact = !any(ints(name >= screen.compact_names()));
-        if (is_compact) {
-            std::memcpy(triangles, names, sizeof triangles);
-            unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(names[k]); });
-            read_corners(screen, records, corners);
-            weigh();
-        } else {
-            for (int k = 0; k < N; ++k) {
-                triangles[k] = screen.triangle(names[k]);
-                corners[k] = &screen.indices(triangles[k]);
-            }
-            read_corners(screen, records, corners);
-            weigh_one_by_one(screen, records, names);
-        }
+        unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(triangles[k]); });
+        read_corners(screen, records, corners);
+        weigh();
+        wide = 0;
+        if (any_wide) weigh_wide(screen, names);
     }
 
     /// Float k of the varyings; the same bits whichever way the triangle runs.
@@ -79,14 +74,12 @@ class fragment_lanes {
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             std::size_t vertex[count];
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { vertex[k] = (*corners[k])[i]; });
-            if (is_compact) {
-                const kept_lanes<N, float> corner([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
-                    return screen.vertices()[vertex[k]];
-                });
-                convert(right[i], ints(corner.x - px));
-                convert(down[i], ints(corner.y - py));
-                inverse_w_[i] = corner.inverse_w;
-            }
+            const kept_lanes<N, float> corner([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
+                return screen.vertices()[vertex[k]];
+            });
+            convert(right[i], ints(corner.x - px));
+            convert(down[i], ints(corner.y - py));
+            inverse_w_[i] = corner.inverse_w;
             unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
                 transpose<N>(values_[i] + 4 * block,
                              [&](int k) INSONIFY_INLINE_LAMBDA { return records[vertex[k]].values + 4 * block; });
@@ -106,11 +99,13 @@ class fragment_lanes {
         const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * scale; });
     }
-    /// Where one of them was clipped, or is too large.
+    /// Of lanes whose triangle was clipped, or is too large.
     template <class Screen>
-    INSONIFY_INLINE void weigh_one_by_one(const Screen& screen, const record* records, const std::uint32_t* names) {
+    INSONIFY_INLINE void weigh_wide(const Screen& screen, const std::uint32_t* names) {
         for (int k = 0; k < N; ++k) {
-            const weights_of_one one = weigh_one(screen, records, names[k], x + k, y);
+            if (screen.is_compact(names[k])) continue;
+            wide |= 1u << k;
+            const weights_of_one one = weigh_one(screen, names[k], x + k, y);
             set_lane(front, k, one.front ? std::int32_t{-1} : std::int32_t{0});
             for (int i = 0; i < 3; ++i) set_lane(weights[i], k, one.weights[i]);
         }
@@ -120,19 +115,9 @@ class fragment_lanes {
         bool front;
     };
     template <class Screen>
-    INSONIFY_RARE static weights_of_one weigh_one(const Screen& screen, const record* records, std::uint32_t name,
-                                                  int px, int py) {
-        if (!screen.is_compact(name)) {
-            const screen_triangle t = screen[name];
-            return {glm::vec3(t.weights_at(px, py, screen.grid())), t.front};
-        }
-        if constexpr (N == 1) {
-            return {};  // alone it would not have come here
-        } else {
-            fragment_lanes<1, Varyings> one;
-            one.look_up(screen, records, px, py, 1, true, &name);
-            return {{one.weights[0], one.weights[1], one.weights[2]}, one.front != 0};
-        }
+    INSONIFY_RARE static weights_of_one weigh_one(const Screen& screen, std::uint32_t name, int px, int py) {
+        const screen_triangle t = screen[name];
+        return {glm::vec3(t.weights_at(px, py, screen.grid())), t.front};
     }
 
     floats values_[3][static_cast<unsigned>(4 * record::blocks)];  ///< of the corners

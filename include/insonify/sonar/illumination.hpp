@@ -88,11 +88,13 @@ class shadow_maps {
         using floats = lanes<float, N>;
         // A target's shadow goes on over what would be dark without it.
         ints dark;
-        for (std::size_t i = 0; i < targets_.size(); ++i) {
-            const pixel_box& shadowed = targets_[i].shadowed;
+        std::uint16_t instance = 0;
+        for (const target_caster& target : targets_) {
+            ++instance;
+            const pixel_box& shadowed = target.shadowed;
             if (at.y < shadowed.y0 || at.y > shadowed.y1 || at.x > shadowed.x1 || at.x + N <= shadowed.x0) continue;
-            targets_[i].form.template darken<N>(dark, useful, at.position);
-            shares.darken(dark ? floats{} : floats{} + 1.0f, static_cast<std::uint16_t>(i + 1));
+            target.form.template darken<N>(dark, useful, at.position);
+            shares.darken(dark ? floats{} : floats{} + 1.0f, instance);
         }
         const glm::dvec2& travel = light_.travel();
         const floats facing =

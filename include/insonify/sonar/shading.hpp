@@ -147,7 +147,8 @@ class surface_shader {
         floats reflectivity;
         if constexpr (Object::uniform) {
             reflectivity = floats{} + object_.surface.reflectivity;
-            for (std::uint8_t& type : types) type = object_.seabed;
+            if constexpr (labelled)
+                for (std::uint8_t& type : types) type = object_.seabed;
         } else {
             for (int k = 0; k < N; ++k) types[k] = object_.type_at(f, k);
             gather<N>(reflectivity, [&](int k) { return object_.materials[types[k]].reflectivity; });
@@ -224,10 +225,8 @@ class surface_shader {
                                       const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& side) const {
         using floats = lanes<float, N>;
         floats corner[3][3], ab[3], ac[3];
-        if (f.is_compact)
-            unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { rays.corner(corner[i], f, i, subpixel_); });
-        else
-            place_corners<N>(corner, f);
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { rays.corner(corner[i], f, i, subpixel_); });
+        if (f.wide != 0) place_corners<N>(corner, f);
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             ab[i] = corner[1][i] - corner[0][i];
             ac[i] = corner[2][i] - corner[0][i];
@@ -236,15 +235,17 @@ class surface_shader {
         into[1] = side * (ab[2] * ac[0] - ac[2] * ab[0]);
         into[2] = side * (ab[0] * ac[1] - ac[0] * ab[1]);
     }
-    /// From the mesh, whatever became of them on the screen.
+    /// Those of wide triangles, from the mesh.
     template <int N>
     INSONIFY_INLINE void place_corners(lanes<float, N> (&corner)[3][3],
                                        const fragment_lanes<N, surface_varyings>& f) const {
-        for (int k = 0; k < N; ++k)
+        for (int k = 0; k < N; ++k) {
+            if ((f.wide >> k & 1) == 0) continue;
             for (int i = 0; i < 3; ++i) {
                 const glm::vec3 at = placement_.place(mesh_.positions[mesh_.triangles[f.triangles[k]][i]]);
                 for (int axis = 0; axis < 3; ++axis) set_lane(corner[i][axis], k, at[axis]);
             }
+        }
     }
 
     template <int N>
