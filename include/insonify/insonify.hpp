@@ -31,6 +31,7 @@
 #include <insonify/filter/echo_noise.hpp>
 #include <insonify/filter/gray.hpp>
 #include <insonify/filter/histogram.hpp>
+#include <insonify/filter/level_sweep.hpp>
 #include <insonify/filter/match.hpp>
 #include <insonify/filter/noise.hpp>
 #include <insonify/filter/noise_pass.hpp>
@@ -40,6 +41,7 @@
 #include <insonify/filter/poisson_tables.hpp>
 #include <insonify/filter/quick_poisson.hpp>
 #include <insonify/filter/rejection.hpp>
+#include <insonify/filter/sweep.hpp>
 #include <insonify/filter/where.hpp>
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/cone.hpp>

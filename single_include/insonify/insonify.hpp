@@ -13140,7 +13140,8 @@ INSONIFY_ARITHMETIC_END
 // A filter is a callable or a plain aggregate of one of three kinds:
 //
 //     image     f(image)                                                             -> image
-//     measured  f.pass(view), which looks at the whole image, returns a function as below
+//     measured  f.pass(view), which looks at the whole image, returns a function as below; a level_filter
+//               (filter/histogram.hpp) may be told its histogram instead
 //     pixel     f(pixel), f(pixel, x, y), or f.pass() that returns such a function   -> pixel
 //
 // What `pass` returns is a value and is copied for each run of rows, so it may remember what it did last. It may do
@@ -14441,6 +14442,33 @@ namespace detail {
 template <class Pixel>
 inline constexpr int source_levels = std::same_as<Pixel, std::uint16_t> ? 65536 : 256;
 
+/// A value for each of 256 levels.
+template <class T>
+class level_values {
+  public:
+    using value_type = T;
+
+    explicit level_values(std::shared_ptr<const std::vector<T>> values) : values_(std::move(values)) {}
+
+    T operator()(std::uint8_t level) const { return (*values_)[level]; }
+    void row(const std::uint8_t* from, T* to, int count, int, int) const {
+        const T* const values = values_->data();
+        for (int i = 0; i < count; ++i) to[i] = values[from[i]];
+    }
+
+    /// What a function makes of them.
+    template <class F>
+    auto then(const F& f) const {
+        std::vector<std::invoke_result_t<const F&, const T&>> results;
+        for (const T& value : *values_) results.push_back(f(value));
+        return level_values<typename decltype(results)::value_type>(
+            std::make_shared<const decltype(results)>(std::move(results)));
+    }
+
+  private:
+    std::shared_ptr<const std::vector<T>> values_;  // passes are copied; the table isn't
+};
+
 /// A new value for each level; floats take that of the nearest of 256 levels, NaN stays.
 template <countable_pixel Pixel>
 class level_map {
@@ -14472,6 +14500,9 @@ class level_map {
             for (int i = 0; i < count; ++i) to[i] = values[from[i]];
         }
     }
+
+    /// The same of pixels that are known by their levels.
+    level_values<Pixel> by_level() const { return level_values<Pixel>(values_); }
 
   private:
     std::shared_ptr<const std::vector<Pixel>> values_;  // passes are copied; the table isn't
@@ -14507,6 +14538,13 @@ level_map<Pixel> map_levels(const histogram& source, const histogram& wanted) {
 
 }  // namespace detail
 
+/// Looks at no more of an image of floats than how often each of 256 levels comes: `f.pass(histogram)` returns a
+/// function of the level.
+template <class F>
+concept level_filter = requires(const F& f, const histogram& counted) {
+    { f.pass(counted) } -> pixel_function<std::uint8_t>;
+};
+
 /// Spreads the values evenly over [0, 1]. MATLAB: histeq(I, levels).
 struct equalize {
     int levels = 64;  ///< how many different values come out, 2 to 65536
@@ -14517,9 +14555,16 @@ struct equalize {
     template <countable_pixel Pixel, executor_argument E = serial_executor>
     detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         detail::require_bins("equalize.levels", levels);
-        const histogram flat{std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)};
-        return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), flat);
+        return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), flat());
     }
+    /// For floats that were counted by 256 levels.
+    detail::level_values<float> pass(const histogram& counted) const {
+        detail::require_bins("equalize.levels", levels);
+        return detail::map_levels<float>(counted, flat()).by_level();
+    }
+
+  private:
+    histogram flat() const { return {std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)}; }
 };
 
 /// Gives an image the histogram of a reference, by bins: fast, and as coarse as the bins. MATLAB: imhistmatch(I,
@@ -14547,12 +14592,131 @@ class match_binned {
     detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), wanted_);
     }
+    /// For floats that were counted by 256 levels.
+    detail::level_values<float> pass(const histogram& counted) const {
+        return detail::map_levels<float>(counted, wanted_).by_level();
+    }
 
   private:
     histogram wanted_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/filter/sweep.hpp -----------------------------------------------------------------
+// One pass over an image: row by row, in runs that fit the nearest cache, shared out by an executor.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Column and row that filters take the first pixel of an image for.
+struct pixel_origin {
+    int x = 0, y = 0;
+};
+
+namespace detail {
+
+/// Neighbours in a row, at most run_length of them; `to` may be `from`.
+template <class Pass, class From, class To>
+INSONIFY_INLINE void call_row(Pass& pass, const From* from, To* to, int count, int x, int y) {
+    if constexpr (row_function<Pass, From>) {
+        pass.row(from, to, count, x, y);
+    } else {
+        for (int i = 0; i < count; ++i) to[i] = call_pixel(pass, from[i], x + i, y);
+    }
+}
+
+/// Whoever wants to know where the image lies and how large it is before its pixels come is told.
+template <class Pass>
+void place_pass(Pass& pass, const pixel_area& area) {
+    if constexpr (requires { pass.place(area); }) pass.place(area);
+}
+
+/// What is done with a run's pass behind its last row: nothing.
+inline constexpr auto forget_pass = [](const auto&) {};
+
+/// Rows in runs of some 64 Ki pixels, in any order, each with a copy of the pass; `to` may be `from`.
+/// @param done  called with each of the copies, by any of the executor's threads
+template <class From, class To, class Pass, executor E, class Done = decltype(forget_pass)>
+void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin,
+           const Done& done = forget_pass) {
+    Pass placed = pass;
+    place_pass(placed, {origin.x, origin.y, from.width(), from.height()});
+    const int rows = 65536 / (std::max)(from.width(), 1) + 1;
+    bulk_ranges(ex, static_cast<std::size_t>(from.height()), static_cast<std::size_t>(rows),
+                [&](std::size_t first, std::size_t last) {
+                    Pass own = placed;
+                    for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
+                        const From* const source = from.row(y).data();
+                        To* const target = to.row(y).data();
+                        for (int x = 0; x < from.width(); x += run_length) {
+                            const int count = (std::min)(run_length, from.width() - x);
+                            call_row(own, source + x, target + x, count, origin.x + x, origin.y + y);
+                        }
+                    }
+                    done(own);
+                });
+}
+
+}  // namespace detail
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/filter/level_sweep.hpp -----------------------------------------------------------
+// The levels of what a pass makes, and how often each comes: for a filter that looks at no more than that, one sweep
+// instead of two, and a quarter of the memory.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// A pass, and behind it the levels of its floats, counted.
+template <class Pass>
+struct level_pass {
+    Pass pass;
+    code_counter<std::uint8_t> counter{};
+    int nan = 0;
+
+    template <class Pixel>
+    std::uint8_t operator()(const Pixel& pixel, int x, int y) {
+        std::uint8_t level = 0;
+        row(&pixel, &level, 1, x, y);
+        return level;
+    }
+    template <class Pixel>
+    void row(const Pixel* from, std::uint8_t* to, int count, int x, int y) {
+        float values[run_length];
+        call_row(pass, from, values, count, x, y);
+        const auto pixels = static_cast<std::size_t>(count);
+        quantize_row(std::span<const float>(values, pixels), std::span<std::uint8_t>(to, pixels));
+        counter.add(to, count);
+        nan += count_nan(values, count);
+    }
+    void place(const pixel_area& area) { place_pass(pass, area); }
+};
+
+/// The nearest of 256 levels of each float that a pass makes, and how many there are of each; nothing if some of the
+/// floats are no numbers, which have no level.
+template <class From, class Pass, executor E>
+std::optional<histogram> sweep_levels(image_view<const From> from, image_view<std::uint8_t> to, const Pass& pass, E& ex,
+                                      pixel_origin origin) {
+    std::array<std::atomic<std::uint64_t>, 256> counts{};
+    std::atomic<bool> has_nan = false;
+    sweep(from, to, level_pass<Pass>{pass}, ex, origin, [&](const level_pass<Pass>& run) {
+        histogram own{std::vector<std::uint64_t>(counts.size())};
+        run.counter.add_to(own);
+        for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += own.counts[i];
+        if (run.nan > 0) has_nan = true;
+    });
+    if (has_nan) return std::nullopt;
+    return histogram{std::vector<std::uint64_t>(counts.begin(), counts.end())};
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
 
 INSONIFY_ARITHMETIC_END
 
@@ -14991,7 +15155,8 @@ INSONIFY_ARITHMETIC_END
 // `apply_into` and `apply_in_place` the memory.
 //
 // Point-wise neighbours run as one sweep over the image, and a measured stage is the first of the sweep behind it
-// (filter/concept.hpp says which is which).
+// (filter/concept.hpp says which is which). Between the two are the pixels or, where it asks for no more, their levels;
+// if it turns out that one of them is NaN, which has none, the stages before run again.
 //
 // A user's lambda or class is a filter as it is. One of the two sides of `f | g` must be a filter of the library (they
 // declare `is_filter`) or a chain; `filter_chain<>{} | mine | yours` starts one without.
@@ -14999,11 +15164,6 @@ INSONIFY_ARITHMETIC_END
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
-
-/// Column and row that filters take the first pixel of an image for.
-struct pixel_origin {
-    int x = 0, y = 0;
-};
 
 namespace detail {
 
@@ -15033,22 +15193,6 @@ struct untouched {
         return pixel;
     }
 };
-
-/// Neighbours in a row, at most run_length of them; `to` may be `from`.
-template <class Pass, class From, class To>
-INSONIFY_INLINE void call_row(Pass& pass, const From* from, To* to, int count, int x, int y) {
-    if constexpr (row_function<Pass, From>) {
-        pass.row(from, to, count, x, y);
-    } else {
-        for (int i = 0; i < count; ++i) to[i] = call_pixel(pass, from[i], x + i, y);
-    }
-}
-
-/// Whoever wants to know where the image lies and how large it is before its pixels come is told.
-template <class Pass>
-void place_pass(Pass& pass, const pixel_area& area) {
-    if constexpr (requires { pass.place(area); }) pass.place(area);
-}
 
 /// Two passes in one.
 template <class First, class Second>
@@ -15139,26 +15283,6 @@ struct run_context {
     Sink sink;
 };
 
-/// One sweep: rows in runs of some 64 Ki pixels, in any order; `to` may be `from`.
-template <class From, class To, class Pass, executor E>
-void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin) {
-    Pass placed = pass;
-    place_pass(placed, {origin.x, origin.y, from.width(), from.height()});
-    const int rows = 65536 / (std::max)(from.width(), 1) + 1;
-    bulk_ranges(ex, static_cast<std::size_t>(from.height()), static_cast<std::size_t>(rows),
-                [&](std::size_t first, std::size_t last) {
-                    Pass own = placed;
-                    for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
-                        const From* const source = from.row(y).data();
-                        To* const target = to.row(y).data();
-                        for (int x = 0; x < from.width(); x += run_length) {
-                            const int count = (std::min)(run_length, from.width() - x);
-                            call_row(own, source + x, target + x, count, origin.x + x, origin.y + y);
-                        }
-                    }
-                });
-}
-
 template <class T>
 image_view<const T> look_at(const image<T>& source) {
     return source;
@@ -15185,6 +15309,18 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
         return out;
     }
 }
+
+template <class F>
+concept library_filter = requires {
+    typename std::remove_cvref_t<F>::is_filter;
+};
+
+/// A filter of the library behind a pass of few values: each is asked for once, not pixel by pixel.
+template <class Pass, class F>
+concept by_value_of_level = library_filter<F> && requires(const Pass& pass, const F& f) {
+    f(pass(std::uint8_t{}));
+    pass.then(f);
+};
 
 /// Runs the stages on `source`, of which `pass` is still to be done.
 template <class Source, class Pass, class E>
@@ -15213,9 +15349,17 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     } else if constexpr (clean) {
         return run_stages(std::forward<Source>(source), make_pass(stage, look_at(source), run.ex), run, rest...);
     } else if constexpr (measured_filter<F, pixel>) {
+        if constexpr (std::same_as<pixel, float> && level_filter<F>) {
+            // Levels are a quarter of what the pixels are.
+            image<std::uint8_t> levels(source.width(), source.height(), unfilled{});
+            if (const auto counted = sweep_levels(look_at(source), levels.view(), pass, run.ex, run.origin))
+                return run_stages(std::move(levels), stage.pass(*counted), run, rest...);
+        }
         image<pixel> seen = materialize(std::forward<Source>(source), pass, run.ex, run.origin);
         const auto next = make_pass(stage, look_at(seen), run.ex);
         return run_stages(std::move(seen), next, run, rest...);
+    } else if constexpr (by_value_of_level<Pass, F>) {
+        return run_stages(std::forward<Source>(source), pass.then(stage), run, rest...);
     } else {
         auto next = make_pass(stage, image_view<const pixel>{}, run.ex);
         return run_stages(std::forward<Source>(source), fused<Pass, decltype(next)>{pass, std::move(next)}, run,
@@ -15254,11 +15398,6 @@ template <class F>
 inline constexpr bool is_chain = false;
 template <class... Stages>
 inline constexpr bool is_chain<filter_chain<Stages...>> = true;
-
-template <class F>
-concept library_filter = requires {
-    typename std::remove_cvref_t<F>::is_filter;
-};
 
 template <class F>
 concept stage = !is_image<std::remove_cvref_t<F>> &&

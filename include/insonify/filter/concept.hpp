@@ -3,7 +3,8 @@
 // A filter is a callable or a plain aggregate of one of three kinds:
 //
 //     image     f(image)                                                             -> image
-//     measured  f.pass(view), which looks at the whole image, returns a function as below
+//     measured  f.pass(view), which looks at the whole image, returns a function as below; a level_filter
+//               (filter/histogram.hpp) may be told its histogram instead
 //     pixel     f(pixel), f(pixel, x, y), or f.pass() that returns such a function   -> pixel
 //
 // What `pass` returns is a value and is copied for each run of rows, so it may remember what it did last. It may do

@@ -223,6 +223,33 @@ namespace detail {
 template <class Pixel>
 inline constexpr int source_levels = std::same_as<Pixel, std::uint16_t> ? 65536 : 256;
 
+/// A value for each of 256 levels.
+template <class T>
+class level_values {
+  public:
+    using value_type = T;
+
+    explicit level_values(std::shared_ptr<const std::vector<T>> values) : values_(std::move(values)) {}
+
+    T operator()(std::uint8_t level) const { return (*values_)[level]; }
+    void row(const std::uint8_t* from, T* to, int count, int, int) const {
+        const T* const values = values_->data();
+        for (int i = 0; i < count; ++i) to[i] = values[from[i]];
+    }
+
+    /// What a function makes of them.
+    template <class F>
+    auto then(const F& f) const {
+        std::vector<std::invoke_result_t<const F&, const T&>> results;
+        for (const T& value : *values_) results.push_back(f(value));
+        return level_values<typename decltype(results)::value_type>(
+            std::make_shared<const decltype(results)>(std::move(results)));
+    }
+
+  private:
+    std::shared_ptr<const std::vector<T>> values_;  // passes are copied; the table isn't
+};
+
 /// A new value for each level; floats take that of the nearest of 256 levels, NaN stays.
 template <countable_pixel Pixel>
 class level_map {
@@ -254,6 +281,9 @@ class level_map {
             for (int i = 0; i < count; ++i) to[i] = values[from[i]];
         }
     }
+
+    /// The same of pixels that are known by their levels.
+    level_values<Pixel> by_level() const { return level_values<Pixel>(values_); }
 
   private:
     std::shared_ptr<const std::vector<Pixel>> values_;  // passes are copied; the table isn't
@@ -289,6 +319,13 @@ level_map<Pixel> map_levels(const histogram& source, const histogram& wanted) {
 
 }  // namespace detail
 
+/// Looks at no more of an image of floats than how often each of 256 levels comes: `f.pass(histogram)` returns a
+/// function of the level.
+template <class F>
+concept level_filter = requires(const F& f, const histogram& counted) {
+    { f.pass(counted) } -> pixel_function<std::uint8_t>;
+};
+
 /// Spreads the values evenly over [0, 1]. MATLAB: histeq(I, levels).
 struct equalize {
     int levels = 64;  ///< how many different values come out, 2 to 65536
@@ -299,9 +336,16 @@ struct equalize {
     template <countable_pixel Pixel, executor_argument E = serial_executor>
     detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         detail::require_bins("equalize.levels", levels);
-        const histogram flat{std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)};
-        return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), flat);
+        return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), flat());
     }
+    /// For floats that were counted by 256 levels.
+    detail::level_values<float> pass(const histogram& counted) const {
+        detail::require_bins("equalize.levels", levels);
+        return detail::map_levels<float>(counted, flat()).by_level();
+    }
+
+  private:
+    histogram flat() const { return {std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)}; }
 };
 
 /// Gives an image the histogram of a reference, by bins: fast, and as coarse as the bins. MATLAB: imhistmatch(I,
@@ -328,6 +372,10 @@ class match_binned {
     template <countable_pixel Pixel, executor_argument E = serial_executor>
     detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), wanted_);
+    }
+    /// For floats that were counted by 256 levels.
+    detail::level_values<float> pass(const histogram& counted) const {
+        return detail::map_levels<float>(counted, wanted_).by_level();
     }
 
   private:

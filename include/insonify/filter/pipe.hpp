@@ -2,15 +2,14 @@
 // `apply_into` and `apply_in_place` the memory.
 //
 // Point-wise neighbours run as one sweep over the image, and a measured stage is the first of the sweep behind it
-// (filter/concept.hpp says which is which).
+// (filter/concept.hpp says which is which). Between the two are the pixels or, where it asks for no more, their levels;
+// if it turns out that one of them is NaN, which has none, the stages before run again.
 //
 // A user's lambda or class is a filter as it is. One of the two sides of `f | g` must be a filter of the library (they
 // declare `is_filter`) or a chain; `filter_chain<>{} | mine | yours` starts one without.
 #pragma once
 
-#include <insonify/core/executor.hpp>
-#include <insonify/core/image.hpp>
-#include <insonify/filter/concept.hpp>
+#include <insonify/filter/level_sweep.hpp>
 
 #include <algorithm>
 #include <concepts>
@@ -21,11 +20,6 @@
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
-
-/// Column and row that filters take the first pixel of an image for.
-struct pixel_origin {
-    int x = 0, y = 0;
-};
 
 namespace detail {
 
@@ -55,22 +49,6 @@ struct untouched {
         return pixel;
     }
 };
-
-/// Neighbours in a row, at most run_length of them; `to` may be `from`.
-template <class Pass, class From, class To>
-INSONIFY_INLINE void call_row(Pass& pass, const From* from, To* to, int count, int x, int y) {
-    if constexpr (row_function<Pass, From>) {
-        pass.row(from, to, count, x, y);
-    } else {
-        for (int i = 0; i < count; ++i) to[i] = call_pixel(pass, from[i], x + i, y);
-    }
-}
-
-/// Whoever wants to know where the image lies and how large it is before its pixels come is told.
-template <class Pass>
-void place_pass(Pass& pass, const pixel_area& area) {
-    if constexpr (requires { pass.place(area); }) pass.place(area);
-}
 
 /// Two passes in one.
 template <class First, class Second>
@@ -161,26 +139,6 @@ struct run_context {
     Sink sink;
 };
 
-/// One sweep: rows in runs of some 64 Ki pixels, in any order; `to` may be `from`.
-template <class From, class To, class Pass, executor E>
-void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin) {
-    Pass placed = pass;
-    place_pass(placed, {origin.x, origin.y, from.width(), from.height()});
-    const int rows = 65536 / (std::max)(from.width(), 1) + 1;
-    bulk_ranges(ex, static_cast<std::size_t>(from.height()), static_cast<std::size_t>(rows),
-                [&](std::size_t first, std::size_t last) {
-                    Pass own = placed;
-                    for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
-                        const From* const source = from.row(y).data();
-                        To* const target = to.row(y).data();
-                        for (int x = 0; x < from.width(); x += run_length) {
-                            const int count = (std::min)(run_length, from.width() - x);
-                            call_row(own, source + x, target + x, count, origin.x + x, origin.y + y);
-                        }
-                    }
-                });
-}
-
 template <class T>
 image_view<const T> look_at(const image<T>& source) {
     return source;
@@ -207,6 +165,18 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
         return out;
     }
 }
+
+template <class F>
+concept library_filter = requires {
+    typename std::remove_cvref_t<F>::is_filter;
+};
+
+/// A filter of the library behind a pass of few values: each is asked for once, not pixel by pixel.
+template <class Pass, class F>
+concept by_value_of_level = library_filter<F> && requires(const Pass& pass, const F& f) {
+    f(pass(std::uint8_t{}));
+    pass.then(f);
+};
 
 /// Runs the stages on `source`, of which `pass` is still to be done.
 template <class Source, class Pass, class E>
@@ -235,9 +205,17 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     } else if constexpr (clean) {
         return run_stages(std::forward<Source>(source), make_pass(stage, look_at(source), run.ex), run, rest...);
     } else if constexpr (measured_filter<F, pixel>) {
+        if constexpr (std::same_as<pixel, float> && level_filter<F>) {
+            // Levels are a quarter of what the pixels are.
+            image<std::uint8_t> levels(source.width(), source.height(), unfilled{});
+            if (const auto counted = sweep_levels(look_at(source), levels.view(), pass, run.ex, run.origin))
+                return run_stages(std::move(levels), stage.pass(*counted), run, rest...);
+        }
         image<pixel> seen = materialize(std::forward<Source>(source), pass, run.ex, run.origin);
         const auto next = make_pass(stage, look_at(seen), run.ex);
         return run_stages(std::move(seen), next, run, rest...);
+    } else if constexpr (by_value_of_level<Pass, F>) {
+        return run_stages(std::forward<Source>(source), pass.then(stage), run, rest...);
     } else {
         auto next = make_pass(stage, image_view<const pixel>{}, run.ex);
         return run_stages(std::forward<Source>(source), fused<Pass, decltype(next)>{pass, std::move(next)}, run,
@@ -276,11 +254,6 @@ template <class F>
 inline constexpr bool is_chain = false;
 template <class... Stages>
 inline constexpr bool is_chain<filter_chain<Stages...>> = true;
-
-template <class F>
-concept library_filter = requires {
-    typename std::remove_cvref_t<F>::is_filter;
-};
 
 template <class F>
 concept stage = !is_image<std::remove_cvref_t<F>> &&

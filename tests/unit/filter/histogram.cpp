@@ -6,6 +6,7 @@
 #include <insonify/filter/match.hpp>
 #include <insonify/filter/pipe.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -299,6 +300,33 @@ TEST_CASE("histograms of parts add up, on any executor") {
     const auto codes = source | in::to_uint8;
     CHECK(apply(codes, look, pool) == (codes | look));
     CHECK(apply(source, in::equalize{}, pool) == (source | in::equalize{}));
+}
+
+TEST_CASE("behind other filters floats are matched as they are alone, with and without what is not a number") {
+    const auto reference = random_image(30, 30, 18, 2, 255);
+    const auto double_it = [](float v) { return 2 * v - 0.3f; };  // beyond both ends, too
+    const auto same = [](const in::image<float>& a, const in::image<float>& b) {
+        return std::equal(a.pixels().begin(), a.pixels().end(), b.pixels().begin(), b.pixels().end(),
+                          [](float p, float q) { return p == q || (std::isnan(p) && std::isnan(q)); });
+    };
+    in::image<float> source = random_image(700, 301, 19, 1, 9999);
+    for (const bool holes : {false, true}) {
+        if (holes) source(699, 300) = source(0, 7) = not_a_number;
+        const auto doubled = apply(source, double_it);
+        const auto behind = [&](const auto& look) {
+            const auto alone = doubled | look;
+            in::thread_pool pool(3);
+            CHECK(same(apply(source, in::filter_chain<>{} | double_it | look, pool), alone));
+            CHECK((source | (in::filter_chain<>{} | double_it | look | in::to_uint8)) == (alone | in::to_uint8));
+            CHECK(same(source | (in::filter_chain<>{} | double_it | look | double_it), apply(alone, double_it)));
+            in::image<float> in_place = source;
+            apply_in_place(in_place.view(), in::filter_chain<>{} | double_it | look, pool);
+            CHECK(same(in_place, alone));
+        };
+        behind(in::match_binned(reference));
+        behind(in::equalize{.levels = 17});
+    }
+    CHECK_THROWS_AS(source | (in::filter_chain<>{} | double_it | in::equalize{.levels = 1}), in::invalid_input);
 }
 
 TEST_CASE("bins and equalization of images without contrast, without pixels and without numbers") {
