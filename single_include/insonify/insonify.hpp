@@ -7004,8 +7004,9 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// Vertex (i, j) is number j columns + i and lies at origin + i right + j up in x and y, at any height. Each cell is
-/// cut into two triangles the same way; all of them are counter-clockwise seen from +z.
+/// Vertex (i, j) is number j columns + i and lies at origin + i right + j up in x and y, at any height; rows may go
+/// down from the top, as those of pictures, `up` being to the right of `right`. Each cell is cut into two triangles the
+/// same way; all of them are counter-clockwise seen from +z.
 struct regular_grid {
     int columns = 0, rows = 0;              ///< vertices
     glm::dvec2 origin{0}, right{0}, up{0};  ///< metres, in the mesh's frame
@@ -7068,13 +7069,24 @@ struct pattern_kernel {
 struct cell_cut {
     std::uint32_t columns;
     bool is_rising;
+    bool is_mirrored;  ///< triangles are counter-clockwise if `up` is to the right of `right`
 
     static std::optional<cell_cut> of(const glm::uvec3 (&cell)[2]) {
         std::uint32_t opposite = 0;
         for (const glm::uvec3& t : cell) opposite = (std::max)({opposite, t.x, t.y, t.z});
         if (opposite < 3) return std::nullopt;
-        const std::uint32_t columns = opposite - 1, around[4] = {0, 1, opposite, columns};  // counter-clockwise
-        // Each triangle goes around the cell and leaves one corner out, the two of them opposite ones.
+        const std::uint32_t columns = opposite - 1,
+                            around[2][4] = {{0, 1, opposite, columns}, {0, columns, opposite, 1}};
+        for (const bool is_mirrored : {false, true})
+            if (const auto left_out = missing_corner(cell, around[is_mirrored]))
+                return cell_cut{columns, *left_out % 2 == 1, is_mirrored};
+        return std::nullopt;
+    }
+
+  private:
+    /// Each triangle goes around the cell and leaves one corner out, the two of them opposite ones.
+    /// @returns the first's
+    static std::optional<int> missing_corner(const glm::uvec3 (&cell)[2], const std::uint32_t (&around)[4]) {
         int left_out[2];
         for (int i = 0; i < 2; ++i) {
             left_out[i] = -1;
@@ -7086,7 +7098,7 @@ struct cell_cut {
             if (left_out[i] < 0) return std::nullopt;
         }
         if ((left_out[0] + 2) % 4 != left_out[1]) return std::nullopt;
-        return cell_cut{columns, left_out[0] % 2 == 1};
+        return left_out[0];
     }
 };
 
@@ -7110,8 +7122,8 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}) {
     grid.origin = place(0);
     grid.right = (place(columns - 1) - grid.origin) / static_cast<double>(columns - 1);
     grid.up = (place((rows - 1) * columns) - grid.origin) / static_cast<double>(rows - 1);
-    // Written so that NaN doesn't pass.
-    if (!(grid.right.x * grid.up.y - grid.right.y * grid.up.x > 0)) return std::nullopt;
+    const double area = grid.right.x * grid.up.y - grid.right.y * grid.up.x;
+    if (!(cut->is_mirrored ? area < 0 : area > 0)) return std::nullopt;  // written so that NaN doesn't pass
     const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
     const double shorter = numeric::square_root((std::min)(square(grid.right), square(grid.up)));
     const auto tolerance = static_cast<float>(shorter / 256);

@@ -12,15 +12,17 @@ namespace in = insonify;
 namespace {
 
 /// Vertices at (x, y) = (2 + 0.5 i - 0.1 j, -1 + 0.2 i + 0.4 j), any heights, each cell cut into two triangles.
-in::mesh grid_of(int columns, int rows, bool is_rising = true, int turned = 0) {
+/// @param sinks  rows go down, -1 + 0.2 i - 0.4 j, as those of pictures; triangles face up all the same
+in::mesh grid_of(int columns, int rows, bool is_rising = true, int turned = 0, bool sinks = false) {
     in::mesh m;
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i) {
-            m.positions.emplace_back(2 + 0.5 * i - 0.1 * j, -1 + 0.2 * i + 0.4 * j, std::sin(i) * j);
+            m.positions.emplace_back(2 + 0.5 * i - 0.1 * j, -1 + 0.2 * i + (sinks ? -0.4 : 0.4) * j, std::sin(i) * j);
             if (i + 1 == columns || j + 1 == rows) continue;
             const auto a = static_cast<std::uint32_t>(j * columns + i), d = a + static_cast<std::uint32_t>(columns);
             glm::uvec3 both[2] = {{a, a + 1, is_rising ? d + 1 : d}, {is_rising ? a : a + 1, d + 1, d}};
             for (glm::uvec3& t : both) {
+                if (sinks) std::swap(t.y, t.z);
                 for (int k = 0; k < turned; ++k) t = {t.y, t.z, t.x};
                 m.triangles.push_back(t);
             }
@@ -31,11 +33,11 @@ in::mesh grid_of(int columns, int rows, bool is_rising = true, int turned = 0) {
 }  // namespace
 
 TEST_CASE("A grid is known by its size, its steps and the way its cells are cut") {
-    for (const bool is_rising : {true, false})
+    for (const auto& [is_rising, sinks] : {std::pair{true, false}, {false, false}, {true, true}, {false, true}})
         for (int turned = 0; turned < 3; ++turned)
             for (const auto& [columns, rows] : {std::pair{2, 2}, {2, 9}, {9, 2}, {3, 4}, {41, 67}}) {
-                CAPTURE(is_rising, turned, columns, rows);
-                const auto grid = in::regular_grid_of(grid_of(columns, rows, is_rising, turned));
+                CAPTURE(is_rising, sinks, turned, columns, rows);
+                const auto grid = in::regular_grid_of(grid_of(columns, rows, is_rising, turned, sinks));
                 REQUIRE(grid);
                 CHECK(grid->columns == columns);
                 CHECK(grid->rows == rows);
@@ -45,7 +47,7 @@ TEST_CASE("A grid is known by its size, its steps and the way its cells are cut"
                 CHECK(grid->right.x == Approx(0.5));
                 CHECK(grid->right.y == Approx(0.2));
                 CHECK(grid->up.x == Approx(-0.1));
-                CHECK(grid->up.y == Approx(0.4));
+                CHECK(grid->up.y == Approx(sinks ? -0.4 : 0.4));
             }
     in::thread_pool pool(2);
     CHECK(in::regular_grid_of(grid_of(100, 200), pool));

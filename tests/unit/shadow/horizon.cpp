@@ -19,28 +19,32 @@ using points::ask, points::radians;
 
 namespace {
 
-/// A grid of 3 m x 3 m around the origin; cells are cut along the other diagonal if they fall.
+/// A grid of 3 m x 3 m around the origin; cells are cut along the other diagonal if they fall, and rows go down as
+/// those of pictures if they sink.
 template <class Height>
-in::mesh grid_of(int side, bool falls, const Height& height) {
+in::mesh grid_of(int side, bool falls, const Height& height, bool sinks = false) {
     in::mesh m;
     const double spacing = 3.0 / (side - 1);
     for (int j = 0; j < side; ++j)
         for (int i = 0; i < side; ++i) {
-            const double x = -1.5 + spacing * i, y = -1.5 + spacing * j;
+            const double x = -1.5 + spacing * i, y = sinks ? 1.5 - spacing * j : -1.5 + spacing * j;
             m.positions.emplace_back(x, y, height(x, y));
             if (i + 1 == side || j + 1 == side) continue;
             const auto a = static_cast<std::uint32_t>(j * side + i), d = a + static_cast<std::uint32_t>(side);
-            m.triangles.emplace_back(a, a + 1, falls ? d : d + 1);
-            m.triangles.emplace_back(falls ? a + 1 : a, d + 1, d);
+            glm::uvec3 both[2] = {{a, a + 1, falls ? d : d + 1}, {falls ? a + 1 : a, d + 1, d}};
+            for (glm::uvec3& t : both) m.triangles.push_back(sinks ? glm::uvec3(t.x, t.z, t.y) : t);
         }
     return m;
 }
 
-in::mesh seabed_of(const in::seabed::any& recipe, int side, bool falls) {
+in::mesh seabed_of(const in::seabed::any& recipe, int side, bool falls, bool sinks = false) {
     const auto field = in::seabed::sample(recipe, {{-1.5, -1.5}, 3.0 / (side - 1), side, side});
     std::size_t next = 0;
-    return grid_of(side, falls, [&](double, double) { return static_cast<double>(field.heights.pixels()[next++]); });
+    return grid_of(
+        side, falls, [&](double, double) { return static_cast<double>(field.heights.pixels()[next++]); }, sinks);
 }
+
+constexpr struct { bool falls, sinks; } every_order[] = {{false, false}, {true, false}, {false, true}, {true, true}};
 
 /// @param box  of what is asked about
 template <class E = in::serial_executor>
@@ -58,16 +62,17 @@ shadow::horizon horizon_of(const in::mesh& m, const shadow::light_frame& light, 
 }  // namespace
 
 TEST_CASE("A ridge's shadow on level ground ends at height / tan(elevation), from all around") {
-    for (const bool falls : {false, true})
+    for (const auto& [falls, sinks] : every_order)
         for (const double elevation : {2.0, 6.0, 20.0, 45.0})
             for (double azimuth = 15; azimuth < 360; azimuth += 30) {
-                CAPTURE(falls, elevation, azimuth);
+                CAPTURE(falls, sinks, elevation, azimuth);
                 const shadow::light_frame light({radians(azimuth), radians(elevation)});
                 // One row of vertices stands up, across the axis that the light follows more.
                 const double height = 0.5 * std::tan(radians(elevation));
                 const bool along_x = std::abs(light.travel().x) > std::abs(light.travel().y);
                 const in::mesh m = grid_of(
-                    61, falls, [&](double x, double y) { return std::abs(along_x ? x : y) < 0.01 ? height : 0.0; });
+                    61, falls, [&](double x, double y) { return std::abs(along_x ? x : y) < 0.01 ? height : 0.0; },
+                    sinks);
                 const shadow::horizon h = horizon_of(m, light, 0.04);
                 const glm::dvec2 tip = 0.5 * light.travel();
                 const auto point = [&](double beyond) {
@@ -88,13 +93,13 @@ TEST_CASE("Points of a seabed are dark where a ray meets it, but for a few at th
     in::random_sequence random(11);
     double azimuth = 10;
     for (const auto& [recipe, most_wrong] : kinds)
-        for (const bool falls : {false, true}) {
-            const in::mesh bottom = seabed_of(recipe, 65, falls);
+        for (const auto& [falls, sinks] : every_order) {
+            const in::mesh bottom = seabed_of(recipe, 65, falls, sinks);
             for (const double elevation : {1.0, 6.0, 20.0, 45.0}) {
                 azimuth += 49;  // all octants come by
                 const shadow::light_frame light({radians(azimuth), radians(elevation)});
                 const auto asked = points::facing(bottom, light.to_light(), 1000, random);
-                CAPTURE(recipe.index(), falls, azimuth, elevation);
+                CAPTURE(recipe.index(), falls, sinks, azimuth, elevation);
                 CHECK(points::wrong(horizon_of(bottom, light, 3.0 / 128), asked, bottom, light.to_light()) <=
                       most_wrong);
             }
