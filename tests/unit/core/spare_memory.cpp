@@ -107,13 +107,13 @@ TEST_CASE("However many blocks are given back, few are kept") {
     spare.release();
 }
 
-TEST_CASE("Sizes count as the same if they differ by less than an eighth") {
+TEST_CASE("Sizes count as the same if they differ by less than a quarter") {
     CHECK(memory_block::rounded(2 * page) == 2 * page);
     CHECK(memory_block::rounded(2 * page + 1) == 3 * page);
     for (std::size_t bytes = memory_block::least; bytes < 100 * page; bytes += bytes / 99) {
         const std::size_t size = memory_block::rounded(bytes);
         CHECK(size >= bytes);
-        CHECK(size <= bytes + bytes / 8 + (bytes < 2 * page ? 0 : page));
+        CHECK(size <= bytes + bytes / 4 + (bytes < 2 * page ? 0 : page));
         CHECK(size == memory_block::rounded(size));
         if (size >= 2 * page) CHECK(size % page == 0);
     }
