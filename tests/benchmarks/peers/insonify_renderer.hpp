@@ -23,7 +23,7 @@ class insonify_renderer {
         scene_.add(std::move(w.seabed), {}, "seabed", {.reflectivity = 1}).is_solid = true;
         scene_.add(std::move(w.target), {}, "target", {.reflectivity = 1}).is_solid = true;
         const auto radians = [](double degrees) { return static_cast<float>(in::numeric::to_radians(degrees)); };
-        rig_ = {.altitude = static_cast<float>(w.altitude),
+        rig_ = {.altitude = static_cast<float>(w.setting.altitude),
                 .field_of_view = radians(workload::field_of_view),
                 .size = {w.size.pixels, w.size.pixels},
                 .grazing = radians(workload::light_elevation),

@@ -145,40 +145,39 @@ bytes exact_picture([[maybe_unused]] const workload::scene& scene, [[maybe_unuse
 #endif
 }
 
-report::row summary(const runner& r, const workload::setting& what, const workload::size& size, const bytes& exact) {
+report::row summary(const runner& r, const workload::scene& scene, const bytes& exact) {
+    const int pixels = scene.size.pixels;
     std::vector<double> times = r.times;
     std::sort(times.begin(), times.end());
-    report::row row{what.name, size.name, r.name, times[times.size() / 2], times.front(), {}};
+    report::row row{scene.setting.name, scene.size.name, r.name, times[times.size() / 2], times.front(), {}};
     if (!exact.empty()) {
         std::size_t off = 0;
         for (std::size_t i = 0; i < exact.size(); ++i) off += std::abs(int{r.picture[i]} - int{exact[i]}) > 8;
-        const in::image_view<const std::uint8_t> result(r.picture.data(), size.pixels, size.pixels);
-        const in::image_view<const std::uint8_t> truth(exact.data(), size.pixels, size.pixels);
+        const in::image_view<const std::uint8_t> result(r.picture.data(), pixels, pixels);
+        const in::image_view<const std::uint8_t> truth(exact.data(), pixels, pixels);
         row.from_exact = {in::accuracy::compare_images(result, truth).psnr(255),
                           100.0 * static_cast<double>(off) / static_cast<double>(exact.size())};
     }
     return row;
 }
 
-void dump(const options& o, const workload::setting& what, const workload::size& size, const std::string& name,
-          const bytes& picture) {
+void dump(const options& o, const workload::scene& scene, const std::string& name, const bytes& picture) {
     if (o.dump.empty() || picture.empty()) return;
     std::filesystem::create_directories(o.dump);
-    in::write_netpbm(o.dump + "/" + what.name + "_" + size.name + "_" + name + ".pgm",
-                     in::image_view<const std::uint8_t>(picture.data(), size.pixels, size.pixels));
+    const int pixels = scene.size.pixels;
+    in::write_netpbm(o.dump + "/" + scene.setting.name + "_" + scene.size.name + "_" + name + ".pgm",
+                     in::image_view<const std::uint8_t>(picture.data(), pixels, pixels));
 }
 
-void measure(const workload::setting& what, const workload::size& size, const options& o,
-             std::vector<report::row>& rows) {
-    const workload::scene scene(size, what);
+void measure(const workload::scene& scene, const options& o, std::vector<report::row>& rows) {
     const bytes exact = exact_picture(scene, o.threads);
-    dump(o, what, size, "exact", exact);
+    dump(o, scene, "exact", exact);
     std::vector<runner> runners = make_runners(scene, o);
     for (int frame = -2; frame < o.frames; ++frame)
         for (runner& r : runners) r.run(frame >= 0);
     for (const runner& r : runners) {
-        dump(o, what, size, r.name, r.picture);
-        rows.push_back(summary(r, what, size, exact));
+        dump(o, scene, r.name, r.picture);
+        rows.push_back(summary(r, scene, exact));
     }
 }
 
@@ -199,7 +198,7 @@ int main(int argc, char** argv) try {
     for (const workload::setting& what : workload::settings)
         for (const workload::size& size : workload::sizes)
             if (is_asked(o.workloads, what.name) && is_asked(o.sizes, std::string(1, size.name)))
-                measure(what, size, o, rows);
+                measure(workload::scene(size, what), o, rows);
     if (rows.empty()) return 1;
     std::printf("threads %d; frames %d of each renderer, in turn\n", o.threads, o.frames);
     report::print_table(rows);

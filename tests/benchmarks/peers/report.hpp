@@ -4,6 +4,7 @@
 #include <insonify/core/error.hpp>
 
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,13 +52,18 @@ inline void print_table(const std::vector<row>& rows) {
     }
 }
 
+/// JSON has no word for infinity: the first number beyond what a double holds is read as that.
+inline std::string json_number(double value, int digits) {
+    return value <= (std::numeric_limits<double>::max)() ? number(value, digits) : "1e999";
+}
+
 inline std::string to_json(const std::vector<row>& rows) {
     std::string text = "[";
     for (const row& r : rows) {
         text += text.size() == 1 ? "\n" : ",\n";
         text += R"(  {"workload": ")" + r.workload + R"(", "size": ")" + std::string(1, r.size) +
                 R"(", "renderer": ")" + r.renderer + R"(", "ms_median": )" + number(r.ms_median, 3) +
-                R"(, "psnr_db": )" + (r.from_exact ? number(r.from_exact->psnr_db, 3) : "null") +
+                R"(, "psnr_db": )" + (r.from_exact ? json_number(r.from_exact->psnr_db, 3) : "null") +
                 R"(, "off_by_8_percent": )" + (r.from_exact ? number(r.from_exact->off_by_8_percent, 4) : "null") + "}";
     }
     return text + "\n]\n";

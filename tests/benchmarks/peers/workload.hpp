@@ -126,12 +126,12 @@ inline constexpr std::array<setting, 3> settings{
 /// One of them in one size: the meshes, in the world's frame, and where the light stands.
 struct scene {
     workload::size size;
-    double altitude;
+    workload::setting setting;
     in::mesh seabed, target;
     glm::dvec3 to_light;
 
-    explicit scene(const workload::size& s, const setting& what = reference)
-        : size(s), altitude(what.altitude), seabed(what.seabed(s.cells)), target(what.target(s.cells)) {
+    explicit scene(const workload::size& s, const workload::setting& what = reference)
+        : size(s), setting(what), seabed(what.seabed(s.cells)), target(what.target(s.cells)) {
         const auto [sin_azimuth, cos_azimuth] = in::numeric::sin_cos(in::numeric::to_radians(light_azimuth));
         const auto [sin_elevation, cos_elevation] = in::numeric::sin_cos(in::numeric::to_radians(light_elevation));
         to_light = {-cos_azimuth * cos_elevation, -sin_azimuth * cos_elevation, sin_elevation};
@@ -140,12 +140,9 @@ struct scene {
     /// The same as plain data, which stays the scene's.
     workload::task task() const {
         const auto plain = [](const in::mesh& m) { return surface{m.positions, m.normals, m.triangles}; };
-        return {size.pixels,
-                size.cells,
-                altitude,
-                altitude * in::numeric::tan(in::numeric::to_radians(field_of_view / 2)),
-                glm::vec3(to_light),
-                plain(seabed),
+        return {size.pixels,         size.cells,
+                setting.altitude,    setting.altitude * in::numeric::tan(in::numeric::to_radians(field_of_view / 2)),
+                glm::vec3(to_light), plain(seabed),
                 plain(target)};
     }
 };
