@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "peers/insonify_renderer.hpp"
 
@@ -73,6 +74,11 @@ const std::map<std::string_view, std::function<piece()>> pieces{
     {"rock", [] { return sampling(in::seabed::rock{}); }},
     {"gaussian", [] { return filtering(in::gaussian{.variance = 0.01f}); }},
     {"speckle", [] { return filtering(in::speckle{.variance = 0.1f}); }},
+    {"noise_and_match",
+     [] {
+         const in::histogram wanted{std::vector<std::uint64_t>(64, 1)};
+         return filtering(in::gaussian{} | in::speckle{} | in::match_binned(wanted) | in::to_uint8);
+     }},
     {"poisson", [] { return filtering(in::poisson{.photons = 100}); }},
 };
 
