@@ -69,16 +69,18 @@ class fragment_lanes {
         const pixel_grid& grid = screen.grid();
         ints column;
         count_up<std::int32_t, N>(column);
-        const ints px = ((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half());
-        const ints py = ints{} + static_cast<std::int32_t>(grid.center(y));
+        // Unsigned: what is off the grid has no place, and from there it may be farther than an integer holds.
+        using places = lanes<std::uint32_t, N>;
+        const places px = places(((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half()));
+        const places py = places{} + static_cast<std::uint32_t>(grid.center(y));
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             std::size_t vertex[count];
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { vertex[k] = (*corners[k])[i]; });
             const kept_lanes<N, float> corner([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
                 return screen.vertices()[vertex[k]];
             });
-            convert(right[i], ints(corner.x - px));
-            convert(down[i], ints(corner.y - py));
+            convert(right[i], ints(places(corner.x) - px));
+            convert(down[i], ints(places(corner.y) - py));
             inverse_w_[i] = corner.inverse_w;
             unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
                 transpose<N>(values_[i] + 4 * block,

@@ -107,6 +107,26 @@ TEST_CASE("Light from a tenth of a degree to straight above") {
     }
 }
 
+TEST_CASE("Ground of two triangles 20000 km wide looks the same at every instruction set, and beside a cube") {
+    in::mesh ground;
+    for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+        ground.positions.emplace_back(1e7f * at, 0);
+        ground.normals.emplace_back(0, 0, 1);
+    }
+    ground.triangles = {{0, 1, 2}, {0, 2, 3}};
+    in::scene scene = scene_at({});
+    scene.seabed = in::seabed::none{};
+    scene.add(ground, {}, "ground");
+    const auto at_level = [&](in::isa level) {
+        return in::render(scene, in::overhead{.altitude = 5, .size = {130, 97}}, in::render_options<>{.level = level});
+    };
+    const auto one_by_one = at_level(in::isa::scalar);
+    CHECK(one_by_one.image(3, 3) > 0);
+    CHECK(one_by_one.labels.instance(3, 3) == 3);
+    for (const in::isa level : {in::isa::baseline, in::best_isa()})
+        CHECK(differences(at_level(level), one_by_one, 0) == 0);
+}
+
 TEST_CASE("Pictures of any shape, of any scene") {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(1, 300), glm::ivec2(300, 1), glm::ivec2(2047, 3)}) {
         const auto frame = in::render(scene_at({0, 0, 0}), in::overhead{.altitude = 5, .size = size});
