@@ -1221,13 +1221,13 @@ class unfilled_allocator {
     unfilled_allocator(const unfilled_allocator<U>&) {}
 
     T* allocate(std::size_t count) {
-        if (!is_large(count)) return std::allocator<T>().allocate(count);
+        if (!is_block(count)) return std::allocator<T>().allocate(count);
         spare_memory* const spare = spare_memory::mine();
         const std::size_t bytes = count * sizeof(T);
         return static_cast<T*>(spare != nullptr ? spare->take(bytes) : memory_block::allocate(bytes));
     }
     void deallocate(T* memory, std::size_t count) {
-        if (!is_large(count)) return std::allocator<T>().deallocate(memory, count);
+        if (!is_block(count)) return std::allocator<T>().deallocate(memory, count);
         if (spare_memory* const spare = spare_memory::mine())
             spare->give(memory, count * sizeof(T));
         else
@@ -1248,7 +1248,7 @@ class unfilled_allocator {
   private:
     static_assert(alignof(T) <= memory_block::alignment);
 
-    static bool is_large(std::size_t count) { return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T); }
+    static bool is_block(std::size_t count) { return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T); }
 };
 
 /// Elements stay unset until somebody sets them.
@@ -14460,8 +14460,6 @@ inline constexpr int source_levels = std::same_as<Pixel, std::uint16_t> ? 65536 
 template <class T>
 class level_values {
   public:
-    using value_type = T;
-
     explicit level_values(std::shared_ptr<const std::vector<T>> values) : values_(std::move(values)) {}
 
     T operator()(std::uint8_t level) const { return (*values_)[level]; }
@@ -14473,10 +14471,10 @@ class level_values {
     /// What a function makes of them.
     template <class F>
     auto then(const F& f) const {
-        std::vector<std::invoke_result_t<const F&, const T&>> results;
+        using result = std::invoke_result_t<const F&, const T&>;
+        std::vector<result> results;
         for (const T& value : *values_) results.push_back(f(value));
-        return level_values<typename decltype(results)::value_type>(
-            std::make_shared<const decltype(results)>(std::move(results)));
+        return level_values<result>(std::make_shared<const std::vector<result>>(std::move(results)));
     }
 
   private:

@@ -28,13 +28,13 @@ class unfilled_allocator {
     unfilled_allocator(const unfilled_allocator<U>&) {}
 
     T* allocate(std::size_t count) {
-        if (!is_large(count)) return std::allocator<T>().allocate(count);
+        if (!is_block(count)) return std::allocator<T>().allocate(count);
         spare_memory* const spare = spare_memory::mine();
         const std::size_t bytes = count * sizeof(T);
         return static_cast<T*>(spare != nullptr ? spare->take(bytes) : memory_block::allocate(bytes));
     }
     void deallocate(T* memory, std::size_t count) {
-        if (!is_large(count)) return std::allocator<T>().deallocate(memory, count);
+        if (!is_block(count)) return std::allocator<T>().deallocate(memory, count);
         if (spare_memory* const spare = spare_memory::mine())
             spare->give(memory, count * sizeof(T));
         else
@@ -55,7 +55,7 @@ class unfilled_allocator {
   private:
     static_assert(alignof(T) <= memory_block::alignment);
 
-    static bool is_large(std::size_t count) { return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T); }
+    static bool is_block(std::size_t count) { return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T); }
 };
 
 /// Elements stay unset until somebody sets them.

@@ -227,8 +227,6 @@ inline constexpr int source_levels = std::same_as<Pixel, std::uint16_t> ? 65536 
 template <class T>
 class level_values {
   public:
-    using value_type = T;
-
     explicit level_values(std::shared_ptr<const std::vector<T>> values) : values_(std::move(values)) {}
 
     T operator()(std::uint8_t level) const { return (*values_)[level]; }
@@ -240,10 +238,10 @@ class level_values {
     /// What a function makes of them.
     template <class F>
     auto then(const F& f) const {
-        std::vector<std::invoke_result_t<const F&, const T&>> results;
+        using result = std::invoke_result_t<const F&, const T&>;
+        std::vector<result> results;
         for (const T& value : *values_) results.push_back(f(value));
-        return level_values<typename decltype(results)::value_type>(
-            std::make_shared<const decltype(results)>(std::move(results)));
+        return level_values<result>(std::make_shared<const std::vector<result>>(std::move(results)));
     }
 
   private:

@@ -140,9 +140,13 @@ struct scene {
     /// The same as plain data, which stays the scene's.
     workload::task task() const {
         const auto plain = [](const in::mesh& m) { return surface{m.positions, m.normals, m.triangles}; };
-        return {size.pixels,         size.cells,
-                setting.altitude,    setting.altitude * in::numeric::tan(in::numeric::to_radians(field_of_view / 2)),
-                glm::vec3(to_light), plain(seabed),
+        const double altitude = setting.altitude;
+        return {size.pixels,
+                size.cells,
+                altitude,
+                altitude * in::numeric::tan(in::numeric::to_radians(field_of_view / 2)),
+                glm::vec3(to_light),
+                plain(seabed),
                 plain(target)};
     }
 };

@@ -26,12 +26,12 @@ TEST_CASE("Memory holds what is put there, small or large, moved or copied") {
     }
 }
 
-TEST_CASE("Memory of two large pages or more begins one, where it is kept") {
+TEST_CASE("Memory of two large pages or more begins one, where it is kept, and a smaller block a line of the cache") {
     if (!INSONIFY_KEEP_MEMORY) return;
     constexpr std::size_t page = std::size_t{1} << 21;
     CHECK(std::bit_cast<std::uintptr_t>(bytes(2 * page).data()) % page == 0);
     CHECK(std::bit_cast<std::uintptr_t>(in::detail::unfilled_vector<double>(page).data()) % page == 0);
-    CHECK(std::bit_cast<std::uintptr_t>(bytes(page / 9).data()) % 64 == 0);
+    CHECK(std::bit_cast<std::uintptr_t>(bytes(page / 9).data()) % in::detail::memory_block::alignment == 0);
 }
 
 TEST_CASE("What is given is kept, what isn't is left to be set") {
