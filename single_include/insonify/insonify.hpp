@@ -916,18 +916,20 @@ template <int N, class Lanes, class From>
 INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
 #if INSONIFY_SIMD
     if constexpr (N > 1) {
-        constexpr int half = N / 2;
+        // Pairs 0 1 4 5 ... and 2 3 6 7 ...: so both shuffles stay within sixteen bytes, where they are cheap.
+        constexpr int half = N / 2, run = half < 2 ? half : 2;
         lanes<std::int64_t, half> low, high;
         const auto pair = [&](int k) INSONIFY_INLINE_LAMBDA {
             std::int64_t bits;
             std::memcpy(&bits, from(k), sizeof bits);
             return bits;
         };
-        gather<half>(low, [&](int k) { return pair(k); });
-        gather<half>(high, [&](int k) { return pair(half + k); });
+        gather<half>(low, [&](int k) INSONIFY_INLINE_LAMBDA { return pair(k / run * 2 * run + k % run); });
+        gather<half>(high, [&](int k) INSONIFY_INLINE_LAMBDA { return pair((k / run * 2 + 1) * run + k % run); });
         [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-            first = __builtin_shufflevector(Lanes(low), Lanes(high), 2 * I...);
-            second = __builtin_shufflevector(Lanes(low), Lanes(high), 2 * I + 1 ...);
+            constexpr auto at = [](int k) { return k / run % 2 * N + k / (2 * run) * 2 * run + k % run * 2; };
+            first = __builtin_shufflevector(Lanes(low), Lanes(high), at(I)...);
+            second = __builtin_shufflevector(Lanes(low), Lanes(high), (at(I) + 1)...);
         }
         (std::make_integer_sequence<int, N>{});
     } else
@@ -2123,6 +2125,8 @@ class projection {
           compact_y_(grid.reach(pixel_grid::compact_bits) / half_height_),
           widest_x_(grid.reach(pixel_grid::widest_bits) / half_width_),
           widest_y_(grid.reach(pixel_grid::widest_bits) / half_height_),
+          right_(grid, grid.width, half_width_),
+          down_(grid, grid.height, -half_height_),
           sign_(keep == keep_depth::smaller ? 1.0 : -1.0),
           exact_(exact) {}
 
@@ -2178,8 +2182,8 @@ class projection {
         over_w(down, p[1]);
         over_w(z, p[2]);
         z = z * sign_;
-        snap<N>(x, right * half_width_, grid_.width);
-        snap<N>(y, (0.0 - down) * half_height_, grid_.height);
+        snap<N>(x, right * right_.units, right_.origin);
+        snap<N>(y, down * down_.units, down_.origin);
         x = compact ? x : masks{} + std::int64_t{grid_place::no_x};
         y = compact ? y : masks{};
     }
@@ -2200,13 +2204,23 @@ class projection {
   private:
     static constexpr double smallest_w = 1e-30;
 
+    /// An axis of the way from clip space over w to the grid, as pixel_grid::snap goes it: to scale by a power of two
+    /// at once changes no rounding.
+    struct axis {
+        double units;          ///< sub-pixels
+        std::uint64_t origin;  ///< of the picture, less what the magic number leaves
+        axis(const pixel_grid& grid, int extent, double half)
+            : units(half * static_cast<double>(grid.unit())),
+              origin(
+                  static_cast<std::uint64_t>(extent * grid.half() - std::bit_cast<std::int64_t>(pixel_grid::magic))) {}
+    };
     template <int N>
-    INSONIFY_INLINE void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& pixels, int extent) const {
-        const lanes<double, N> sum = pixels * static_cast<double>(grid_.unit()) + pixel_grid::magic;
+    INSONIFY_INLINE static void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& units,
+                                     std::uint64_t origin) {
+        const lanes<double, N> sum = units + pixel_grid::magic;
         lanes<std::uint64_t, N> bits;  // what isn't compact may wrap around
         std::memcpy(&bits, &sum, sizeof bits);
-        bits =
-            bits - static_cast<std::uint64_t>(std::bit_cast<std::int64_t>(pixel_grid::magic) - extent * grid_.half());
+        bits = bits + origin;
         std::memcpy(&into, &bits, sizeof into);
     }
 
@@ -2251,6 +2265,7 @@ class projection {
     double half_width_, half_height_;
     double compact_x_, compact_y_;  ///< |x| / w and |y| / w up to which vertices are compact
     double widest_x_, widest_y_;    ///< and up to which they are not clipped
+    axis right_, down_;
     double sign_;
     bool exact_;
 };
@@ -2492,11 +2507,46 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
+/// N boxes of pixels.
+template <int N>
+struct box_lanes {
+    using ints = lanes<std::int32_t, N>;
+    ints x0, y0, x1, y1;
+
+    INSONIFY_INLINE void is_empty(ints& into) const { into = ints((x1 < x0) | (y1 < y0)); }
+    /// Which share no column or no row with another, each being a box.
+    INSONIFY_INLINE void is_beside(const box_lanes& other, ints& into) const {
+        into = ints((x0 > other.x1) | (x1 < other.x0) | (y0 > other.y1) | (y1 < other.y0));
+    }
+    INSONIFY_INLINE void cut_to(const box_lanes& other) {
+        x0 = x0 > other.x0 ? x0 : other.x0;
+        y0 = y0 > other.y0 ? y0 : other.y0;
+        x1 = x1 < other.x1 ? x1 : other.x1;
+        y1 = y1 < other.y1 ? y1 : other.y1;
+    }
+};
+
+/// Where triangles are looked for: what is the same for all of them, ready to be compared with.
+template <int N>
+struct pixel_area {
+    using ints = lanes<std::int32_t, N>;
+    box_lanes<N> box;
+    ints half;           ///< of a pixel, in sub-pixels
+    ints before, after;  ///< a sub-pixel less and more
+    int bits;            ///< of sub-pixels
+
+    INSONIFY_INLINE pixel_area(const pixel_grid& grid, const pixel_box& pixels)
+        : box{ints{} + pixels.x0, ints{} + pixels.y0, ints{} + pixels.x1, ints{} + pixels.y1},
+          half(ints{} + static_cast<std::int32_t>(grid.half())),
+          before(half - 1),
+          after(half + 1),
+          bits(grid.subpixel_bits) {}
+};
+
 /// Where the corners of N triangles lie, and how far they extend.
 template <int N>
 struct corner_lanes {
     using ints = lanes<std::int32_t, N>;
-    using uints = lanes<std::uint32_t, N>;
     ints ax, ay, bx, by, cx, cy;
     ints west, north, east, south;
 
@@ -2511,34 +2561,20 @@ struct corner_lanes {
     }
 
     INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_place::no_x)); }
-    /// Which lie outside of the picture, see is_outside; of those on the grid.
-    INSONIFY_INLINE void outside(const pixel_grid& grid, ints& into) const {
-        const auto half = static_cast<std::int32_t>(grid.half());
-        const std::int32_t right = (grid.width << grid.subpixel_bits) - half,
-                           bottom = (grid.height << grid.subpixel_bits) - half;
-        into = ints((west > right) | (east <= half) | (north > bottom) | (south <= half));
-    }
     /// Whether all of them are small; of those on the grid.
     INSONIFY_INLINE bool are_small() const {
-        const uints most = uints{} + (1u << 14);
-        return !any(ints((uints(east) - uints(west) >= most) | (uints(south) - uints(north) >= most)));
+        constexpr std::int32_t most = 1 << 14;
+        return !any(ints(((east - west) | (south - north)) >= most));
     }
     /// Twice the area, positive for clockwise on the screen; of small ones.
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }
 
-    /// The pixels of a box that the triangles' bounding boxes hold, see center_box.
-    INSONIFY_INLINE void centers(const pixel_grid& grid, const pixel_box& box, ints& x0, ints& y0, ints& x1,
-                                 ints& y1) const {
-        const auto half = static_cast<std::int32_t>(grid.half());
-        x0 = (west + (half - 1)) >> grid.subpixel_bits;
-        y0 = (north + (half - 1)) >> grid.subpixel_bits;
-        x1 = (east - (half + 1)) >> grid.subpixel_bits;
-        y1 = (south - (half + 1)) >> grid.subpixel_bits;
-        const ints left = ints{} + box.x0, top = ints{} + box.y0, right = ints{} + box.x1, bottom = ints{} + box.y1;
-        x0 = x0 > left ? x0 : left;
-        y0 = y0 > top ? y0 : top;
-        x1 = x1 < right ? x1 : right;
-        y1 = y1 < bottom ? y1 : bottom;
+    /// The pixels whose centres the triangles' bounding boxes hold, see pixel_grid::first_center.
+    INSONIFY_INLINE void centers(const pixel_area<N>& area, box_lanes<N>& into) const {
+        into.x0 = (west + area.before) >> area.bits;
+        into.y0 = (north + area.before) >> area.bits;
+        into.x1 = (east - area.after) >> area.bits;
+        into.y1 = (south - area.after) >> area.bits;
     }
 
   private:
@@ -2563,20 +2599,20 @@ struct small_setup {
     std::int32_t right[static_cast<unsigned>(N)], down[static_cast<unsigned>(N)];  ///< from a to the first pixel
 
     /// @param at  corners in clockwise order
-    INSONIFY_INLINE small_setup(const corner_lanes<N>& at, const pixel_grid& grid, const pixel_box& box) {
-        ints left, top, last_x, last_y;
-        at.centers(grid, box, left, top, last_x, last_y);
-        store(x0, left);
-        store(y0, top);
-        store(x1, last_x);
-        store(y1, last_y);
-        const auto half = static_cast<std::int32_t>(grid.half());
-        const ints x = (left << grid.subpixel_bits) + half, y = (top << grid.subpixel_bits) + half;
+    INSONIFY_INLINE small_setup(const corner_lanes<N>& at, const pixel_area<N>& area) {
+        box_lanes<N> box;
+        at.centers(area, box);
+        box.cut_to(area.box);
+        store(x0, box.x0);
+        store(y0, box.y0);
+        store(x1, box.x1);
+        store(y1, box.y1);
+        const ints x = (box.x0 << area.bits) + area.half, y = (box.y0 << area.bits) + area.half;
         store(right, ints(x - at.ax));
         store(down, ints(y - at.ay));
-        edge(bc, at.bx, at.by, at.cx, at.cy, x, y, grid.subpixel_bits);
-        edge(ca, at.cx, at.cy, at.ax, at.ay, x, y, grid.subpixel_bits);
-        edge(ab, at.ax, at.ay, at.bx, at.by, x, y, grid.subpixel_bits);
+        edge(bc, at.bx, at.by, at.cx, at.cy, x, y, area.bits);
+        edge(ca, at.cx, at.cy, at.ax, at.ay, x, y, area.bits);
+        edge(ab, at.ax, at.ay, at.bx, at.by, x, y, area.bits);
     }
 
   private:
@@ -2748,31 +2784,34 @@ struct placement_kernel {
             floats varyings[static_cast<unsigned>(4 * Record::blocks)] = {};
             shader(clip, varyings, position, normal);
             unroll<Record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
-                const auto& four = reinterpret_cast<const floats(&)[4]>(varyings[4 * block]);
-                store_rows(four, [&](std::size_t k) { return records[start + k].values + 4 * block; });
+                floats rows[4];
+                transpose_fours<4>(rows, reinterpret_cast<const floats(&)[4]>(varyings[4 * block]));
+                unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA {
+                    store(records[start + static_cast<std::size_t>(k)].values + 4 * block, rows[k]);
+                });
             });
         }
     }
 
+    /// Two halves of a kept vertex at a time: its place, and what goes with it.
     INSONIFY_INLINE void keep_four(std::size_t start, const lanes<std::int64_t, 4>& x, const lanes<std::int64_t, 4>& y,
                                    const lanes<double, 4>& z, const lanes<double, 4>& inverse_w) const {
-        lanes<std::int32_t, 4> place;
-        floats four[4];
-        convert(place, x);
-        std::memcpy(&four[0], &place, sizeof place);
-        convert(place, y);
-        std::memcpy(&four[1], &place, sizeof place);
-        convert(four[2], z);
-        convert(four[3], inverse_w);
-        store_rows(four, [&](std::size_t k) { return reinterpret_cast<float*>(&vertices.kept[start + k]); });
-    }
-
-    /// Lane k of the four goes to row(k), one after another.
-    template <class Row>
-    INSONIFY_INLINE static void store_rows(const floats (&four)[4], const Row& row) {
-        floats rows[4];
-        transpose_fours<4>(rows, four);
-        for (std::size_t k = 0; k < 4; ++k) store(row(k), rows[k]);
+        using pairs = lanes<std::uint64_t, 4>;
+        pairs right, down;
+        std::memcpy(&right, &x, sizeof right);
+        std::memcpy(&down, &y, sizeof down);
+        const pairs both = (down << 32) | (right & 0xFFFFFFFFu);
+        floats place[2], depth, nearness;
+        std::memcpy(&place, &both, sizeof place);
+        convert(depth, z);
+        convert(nearness, inverse_w);
+        const floats rest[2] = {__builtin_shufflevector(depth, nearness, 0, 4, 1, 5),
+                                __builtin_shufflevector(depth, nearness, 2, 6, 3, 7)};
+        unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
+            auto* const two = reinterpret_cast<float*>(&vertices.kept[start + 2 * static_cast<std::size_t>(i)]);
+            store(two, floats(__builtin_shufflevector(place[i], rest[i], 0, 1, 4, 5)));
+            store(two + 4, floats(__builtin_shufflevector(place[i], rest[i], 2, 3, 6, 7)));
+        });
     }
 #endif
 };
@@ -2932,6 +2971,8 @@ class screen_mesh {
             if (chunk.bad_index) return;
             chunk.stats.triangles = last - first;
             dispatch(assembly_kernel<screen_mesh, Shader>{*this, shader, tiles, first, last, chunk}, options.level);
+            draw_stats& s = chunk.stats;
+            s.missed = s.triangles - (s.drawn + s.culled + s.degenerate + s.not_finite);
         });
         for (const assembled_chunk& c : chunks)
             if (c.bad_index) detail::refuse("mesh.triangles", *c.bad_index, "an index of a position");
@@ -3010,7 +3051,7 @@ class screen_mesh {
         switch (f) {
             case fate::drawn: ++stats.drawn; break;
             case fate::culled: ++stats.culled; break;
-            case fate::missed: ++stats.missed; break;
+            case fate::missed: break;  // what is left
             case fate::degenerate: ++stats.degenerate; break;
             case fate::not_finite: ++stats.not_finite; break;
         }
@@ -3097,9 +3138,10 @@ struct assembly_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
+        const pixel_area<N> picture(screen.grid_, {0, 0, screen.grid_.width - 1, screen.grid_.height - 1});
         std::size_t i = first;
         for (; i + N <= last; i += N)
-            if (!assemble_small<N>(i))
+            if (!assemble_small<N>(i, picture))
                 for (std::size_t k = i; k < i + N; ++k) assemble_one(k);
         for (; i < last; ++i) assemble_one(i);
     }
@@ -3112,7 +3154,7 @@ struct assembly_kernel {
     /// Gives up if one of them isn't small, unless all lie outside of the picture: seen from close by, most of a
     /// surface's triangles do, and are large.
     template <int N>
-    INSONIFY_INLINE bool assemble_small(std::size_t triangle) const {
+    INSONIFY_INLINE bool assemble_small(std::size_t triangle, const pixel_area<N>& picture) const {
         using ints = lanes<std::int32_t, N>;
         const corner_lanes<N> at([&](int corner, ints& x, ints& y) INSONIFY_INLINE_LAMBDA {
             gather_pairs<N>(
@@ -3120,28 +3162,26 @@ struct assembly_kernel {
         });
         if (!at.are_on_grid()) return false;
         constexpr unsigned all = (1u << N) - 1;
+        box_lanes<N> box;
+        at.centers(picture, box);
         ints outside;
-        at.outside(screen.grid_, outside);
+        box.is_beside(picture.box, outside);
         const unsigned far_off = set_lanes<N>(outside);
-        if (far_off == all) {
-            out.stats.missed += N;
-            return true;
-        }
+        if (far_off == all) return true;
         if (!at.are_small()) return false;
-        const pixel_box picture{0, 0, screen.grid_.width - 1, screen.grid_.height - 1};
-        ints area, x0, y0, x1, y1;
+        ints area, empty, culled = ints{};
         at.area(area);
-        at.centers(screen.grid_, picture, x0, y0, x1, y1);
-        ints culled = ints{};
         if (screen.cull_ == cull_mode::back) culled = ints(area > 0);
         if (screen.cull_ == cull_mode::front) culled = ints(area < 0);
+        box.cut_to(picture.box);
+        box.is_empty(empty);
 
         const auto name = static_cast<std::uint32_t>(triangle);
-        const ints first_tile = ints((x0 >> tiles.log2_size) | (y0 >> tiles.log2_size << 16)),  // see tile_range
-            last_tile = ints((x1 >> tiles.log2_size) | (y1 >> tiles.log2_size << 16));
+        const ints first_tile =
+                       ints((box.x0 >> tiles.log2_size) | (box.y0 >> tiles.log2_size << 16)),  // see tile_range
+            last_tile = ints((box.x1 >> tiles.log2_size) | (box.y1 >> tiles.log2_size << 16));
         const unsigned flat = set_lanes<N>(ints(area == 0)) & ~far_off, turned = set_lanes<N>(culled) & ~far_off,
-                       empty = set_lanes<N>(ints((x1 < x0) | (y1 < y0))), drawn = all & ~(flat | turned | empty);
-        out.stats.missed += static_cast<unsigned>(std::popcount(empty & ~(flat | turned)));
+                       drawn = all & ~(set_lanes<N>(empty) | flat | turned);
         out.stats.degenerate += static_cast<unsigned>(std::popcount(flat));
         out.stats.culled += static_cast<unsigned>(std::popcount(turned));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));
@@ -3672,9 +3712,10 @@ struct tile_kernel {
         tile.restart(box.x0, box.y0);
         tile.template clear<Width>();
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
+        const pixel_area<N> area(triangles.grid(), box);
         run_reader left(triangles.runs());
         while (!left.empty()) {
-            draw_small_ones<N>(left);
+            draw_small_ones<N>(left, area);
             if (left.empty()) break;
             const triangle_run run = left.take_run();
             for (std::uint32_t i = 0; i < run.count; ++i) draw_one<N>(run.first + i);
@@ -3717,7 +3758,7 @@ struct tile_kernel {
     /// while a group of them is drawn, the next one's corners and the indices of the one after that are on their way.
     /// Neighbours share corners, and cache lines: every second triangle, and every fourth, stand for the others.
     template <int N>
-    INSONIFY_INLINE void draw_small_ones(run_reader& left) const {
+    INSONIFY_INLINE void draw_small_ones(run_reader& left, const pixel_area<N>& area) const {
         struct group {
             std::uint32_t names[static_cast<unsigned>(N)];
             int count;
@@ -3738,12 +3779,12 @@ struct tile_kernel {
         for (int i = 0; groups[i % 3].count > 0; ++i) {
             take(i + 2);
             approach(i + 1);
-            draw_small<N>(groups[i % 3].names, groups[i % 3].count);
+            draw_small<N>(groups[i % 3].names, groups[i % 3].count, area);
         }
     }
 
     template <int N>
-    INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count) const {
+    INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count, const pixel_area<N>& pixels) const {
         using reals = lanes<Real, N>;
         const auto name = [&](int k) { return names[k < count ? k : 0]; };
         reals z[3];
@@ -3763,7 +3804,7 @@ struct tile_kernel {
         lanes<std::conditional_t<exact, std::int64_t, std::int32_t>, N> real_front;
         convert(real_front, front);
         exchange(real_front, z[1], z[2]);
-        const small_setup<N> t(at, triangles.grid(), box);
+        const small_setup<N> t(at, pixels);
         const small_planes<N, Real> planes(at, area, z[0], z[1], z[2]);
         small_fill<N, Real, Winners>{t, planes, static_cast<int>(triangles.grid().unit()), tile, names, count}(
             [&](int k, int x, int y) { return triangles.nearest_depth(names[k], x, y); });

@@ -178,18 +178,20 @@ template <int N, class Lanes, class From>
 INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
 #if INSONIFY_SIMD
     if constexpr (N > 1) {
-        constexpr int half = N / 2;
+        // Pairs 0 1 4 5 ... and 2 3 6 7 ...: so both shuffles stay within sixteen bytes, where they are cheap.
+        constexpr int half = N / 2, run = half < 2 ? half : 2;
         lanes<std::int64_t, half> low, high;
         const auto pair = [&](int k) INSONIFY_INLINE_LAMBDA {
             std::int64_t bits;
             std::memcpy(&bits, from(k), sizeof bits);
             return bits;
         };
-        gather<half>(low, [&](int k) { return pair(k); });
-        gather<half>(high, [&](int k) { return pair(half + k); });
+        gather<half>(low, [&](int k) INSONIFY_INLINE_LAMBDA { return pair(k / run * 2 * run + k % run); });
+        gather<half>(high, [&](int k) INSONIFY_INLINE_LAMBDA { return pair((k / run * 2 + 1) * run + k % run); });
         [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-            first = __builtin_shufflevector(Lanes(low), Lanes(high), 2 * I...);
-            second = __builtin_shufflevector(Lanes(low), Lanes(high), 2 * I + 1 ...);
+            constexpr auto at = [](int k) { return k / run % 2 * N + k / (2 * run) * 2 * run + k % run * 2; };
+            first = __builtin_shufflevector(Lanes(low), Lanes(high), at(I)...);
+            second = __builtin_shufflevector(Lanes(low), Lanes(high), (at(I) + 1)...);
         }
         (std::make_integer_sequence<int, N>{});
     } else

@@ -158,6 +158,8 @@ class screen_mesh {
             if (chunk.bad_index) return;
             chunk.stats.triangles = last - first;
             dispatch(assembly_kernel<screen_mesh, Shader>{*this, shader, tiles, first, last, chunk}, options.level);
+            draw_stats& s = chunk.stats;
+            s.missed = s.triangles - (s.drawn + s.culled + s.degenerate + s.not_finite);
         });
         for (const assembled_chunk& c : chunks)
             if (c.bad_index) detail::refuse("mesh.triangles", *c.bad_index, "an index of a position");
@@ -236,7 +238,7 @@ class screen_mesh {
         switch (f) {
             case fate::drawn: ++stats.drawn; break;
             case fate::culled: ++stats.culled; break;
-            case fate::missed: ++stats.missed; break;
+            case fate::missed: break;  // what is left
             case fate::degenerate: ++stats.degenerate; break;
             case fate::not_finite: ++stats.not_finite; break;
         }
@@ -323,9 +325,10 @@ struct assembly_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
+        const pixel_area<N> picture(screen.grid_, {0, 0, screen.grid_.width - 1, screen.grid_.height - 1});
         std::size_t i = first;
         for (; i + N <= last; i += N)
-            if (!assemble_small<N>(i))
+            if (!assemble_small<N>(i, picture))
                 for (std::size_t k = i; k < i + N; ++k) assemble_one(k);
         for (; i < last; ++i) assemble_one(i);
     }
@@ -338,7 +341,7 @@ struct assembly_kernel {
     /// Gives up if one of them isn't small, unless all lie outside of the picture: seen from close by, most of a
     /// surface's triangles do, and are large.
     template <int N>
-    INSONIFY_INLINE bool assemble_small(std::size_t triangle) const {
+    INSONIFY_INLINE bool assemble_small(std::size_t triangle, const pixel_area<N>& picture) const {
         using ints = lanes<std::int32_t, N>;
         const corner_lanes<N> at([&](int corner, ints& x, ints& y) INSONIFY_INLINE_LAMBDA {
             gather_pairs<N>(
@@ -346,28 +349,26 @@ struct assembly_kernel {
         });
         if (!at.are_on_grid()) return false;
         constexpr unsigned all = (1u << N) - 1;
+        box_lanes<N> box;
+        at.centers(picture, box);
         ints outside;
-        at.outside(screen.grid_, outside);
+        box.is_beside(picture.box, outside);
         const unsigned far_off = set_lanes<N>(outside);
-        if (far_off == all) {
-            out.stats.missed += N;
-            return true;
-        }
+        if (far_off == all) return true;
         if (!at.are_small()) return false;
-        const pixel_box picture{0, 0, screen.grid_.width - 1, screen.grid_.height - 1};
-        ints area, x0, y0, x1, y1;
+        ints area, empty, culled = ints{};
         at.area(area);
-        at.centers(screen.grid_, picture, x0, y0, x1, y1);
-        ints culled = ints{};
         if (screen.cull_ == cull_mode::back) culled = ints(area > 0);
         if (screen.cull_ == cull_mode::front) culled = ints(area < 0);
+        box.cut_to(picture.box);
+        box.is_empty(empty);
 
         const auto name = static_cast<std::uint32_t>(triangle);
-        const ints first_tile = ints((x0 >> tiles.log2_size) | (y0 >> tiles.log2_size << 16)),  // see tile_range
-            last_tile = ints((x1 >> tiles.log2_size) | (y1 >> tiles.log2_size << 16));
+        const ints first_tile =
+                       ints((box.x0 >> tiles.log2_size) | (box.y0 >> tiles.log2_size << 16)),  // see tile_range
+            last_tile = ints((box.x1 >> tiles.log2_size) | (box.y1 >> tiles.log2_size << 16));
         const unsigned flat = set_lanes<N>(ints(area == 0)) & ~far_off, turned = set_lanes<N>(culled) & ~far_off,
-                       empty = set_lanes<N>(ints((x1 < x0) | (y1 < y0))), drawn = all & ~(flat | turned | empty);
-        out.stats.missed += static_cast<unsigned>(std::popcount(empty & ~(flat | turned)));
+                       drawn = all & ~(set_lanes<N>(empty) | flat | turned);
         out.stats.degenerate += static_cast<unsigned>(std::popcount(flat));
         out.stats.culled += static_cast<unsigned>(std::popcount(turned));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));

@@ -45,6 +45,8 @@ class projection {
           compact_y_(grid.reach(pixel_grid::compact_bits) / half_height_),
           widest_x_(grid.reach(pixel_grid::widest_bits) / half_width_),
           widest_y_(grid.reach(pixel_grid::widest_bits) / half_height_),
+          right_(grid, grid.width, half_width_),
+          down_(grid, grid.height, -half_height_),
           sign_(keep == keep_depth::smaller ? 1.0 : -1.0),
           exact_(exact) {}
 
@@ -100,8 +102,8 @@ class projection {
         over_w(down, p[1]);
         over_w(z, p[2]);
         z = z * sign_;
-        snap<N>(x, right * half_width_, grid_.width);
-        snap<N>(y, (0.0 - down) * half_height_, grid_.height);
+        snap<N>(x, right * right_.units, right_.origin);
+        snap<N>(y, down * down_.units, down_.origin);
         x = compact ? x : masks{} + std::int64_t{grid_place::no_x};
         y = compact ? y : masks{};
     }
@@ -122,13 +124,23 @@ class projection {
   private:
     static constexpr double smallest_w = 1e-30;
 
+    /// An axis of the way from clip space over w to the grid, as pixel_grid::snap goes it: to scale by a power of two
+    /// at once changes no rounding.
+    struct axis {
+        double units;          ///< sub-pixels
+        std::uint64_t origin;  ///< of the picture, less what the magic number leaves
+        axis(const pixel_grid& grid, int extent, double half)
+            : units(half * static_cast<double>(grid.unit())),
+              origin(
+                  static_cast<std::uint64_t>(extent * grid.half() - std::bit_cast<std::int64_t>(pixel_grid::magic))) {}
+    };
     template <int N>
-    INSONIFY_INLINE void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& pixels, int extent) const {
-        const lanes<double, N> sum = pixels * static_cast<double>(grid_.unit()) + pixel_grid::magic;
+    INSONIFY_INLINE static void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& units,
+                                     std::uint64_t origin) {
+        const lanes<double, N> sum = units + pixel_grid::magic;
         lanes<std::uint64_t, N> bits;  // what isn't compact may wrap around
         std::memcpy(&bits, &sum, sizeof bits);
-        bits =
-            bits - static_cast<std::uint64_t>(std::bit_cast<std::int64_t>(pixel_grid::magic) - extent * grid_.half());
+        bits = bits + origin;
         std::memcpy(&into, &bits, sizeof into);
     }
 
@@ -173,6 +185,7 @@ class projection {
     double half_width_, half_height_;
     double compact_x_, compact_y_;  ///< |x| / w and |y| / w up to which vertices are compact
     double widest_x_, widest_y_;    ///< and up to which they are not clipped
+    axis right_, down_;
     double sign_;
     bool exact_;
 };

@@ -158,31 +158,34 @@ struct placement_kernel {
             floats varyings[static_cast<unsigned>(4 * Record::blocks)] = {};
             shader(clip, varyings, position, normal);
             unroll<Record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
-                const auto& four = reinterpret_cast<const floats(&)[4]>(varyings[4 * block]);
-                store_rows(four, [&](std::size_t k) { return records[start + k].values + 4 * block; });
+                floats rows[4];
+                transpose_fours<4>(rows, reinterpret_cast<const floats(&)[4]>(varyings[4 * block]));
+                unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA {
+                    store(records[start + static_cast<std::size_t>(k)].values + 4 * block, rows[k]);
+                });
             });
         }
     }
 
+    /// Two halves of a kept vertex at a time: its place, and what goes with it.
     INSONIFY_INLINE void keep_four(std::size_t start, const lanes<std::int64_t, 4>& x, const lanes<std::int64_t, 4>& y,
                                    const lanes<double, 4>& z, const lanes<double, 4>& inverse_w) const {
-        lanes<std::int32_t, 4> place;
-        floats four[4];
-        convert(place, x);
-        std::memcpy(&four[0], &place, sizeof place);
-        convert(place, y);
-        std::memcpy(&four[1], &place, sizeof place);
-        convert(four[2], z);
-        convert(four[3], inverse_w);
-        store_rows(four, [&](std::size_t k) { return reinterpret_cast<float*>(&vertices.kept[start + k]); });
-    }
-
-    /// Lane k of the four goes to row(k), one after another.
-    template <class Row>
-    INSONIFY_INLINE static void store_rows(const floats (&four)[4], const Row& row) {
-        floats rows[4];
-        transpose_fours<4>(rows, four);
-        for (std::size_t k = 0; k < 4; ++k) store(row(k), rows[k]);
+        using pairs = lanes<std::uint64_t, 4>;
+        pairs right, down;
+        std::memcpy(&right, &x, sizeof right);
+        std::memcpy(&down, &y, sizeof down);
+        const pairs both = (down << 32) | (right & 0xFFFFFFFFu);
+        floats place[2], depth, nearness;
+        std::memcpy(&place, &both, sizeof place);
+        convert(depth, z);
+        convert(nearness, inverse_w);
+        const floats rest[2] = {__builtin_shufflevector(depth, nearness, 0, 4, 1, 5),
+                                __builtin_shufflevector(depth, nearness, 2, 6, 3, 7)};
+        unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
+            auto* const two = reinterpret_cast<float*>(&vertices.kept[start + 2 * static_cast<std::size_t>(i)]);
+            store(two, floats(__builtin_shufflevector(place[i], rest[i], 0, 1, 4, 5)));
+            store(two + 4, floats(__builtin_shufflevector(place[i], rest[i], 2, 3, 6, 7)));
+        });
     }
 #endif
 };

@@ -13,11 +13,46 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
+/// N boxes of pixels.
+template <int N>
+struct box_lanes {
+    using ints = lanes<std::int32_t, N>;
+    ints x0, y0, x1, y1;
+
+    INSONIFY_INLINE void is_empty(ints& into) const { into = ints((x1 < x0) | (y1 < y0)); }
+    /// Which share no column or no row with another, each being a box.
+    INSONIFY_INLINE void is_beside(const box_lanes& other, ints& into) const {
+        into = ints((x0 > other.x1) | (x1 < other.x0) | (y0 > other.y1) | (y1 < other.y0));
+    }
+    INSONIFY_INLINE void cut_to(const box_lanes& other) {
+        x0 = x0 > other.x0 ? x0 : other.x0;
+        y0 = y0 > other.y0 ? y0 : other.y0;
+        x1 = x1 < other.x1 ? x1 : other.x1;
+        y1 = y1 < other.y1 ? y1 : other.y1;
+    }
+};
+
+/// Where triangles are looked for: what is the same for all of them, ready to be compared with.
+template <int N>
+struct pixel_area {
+    using ints = lanes<std::int32_t, N>;
+    box_lanes<N> box;
+    ints half;           ///< of a pixel, in sub-pixels
+    ints before, after;  ///< a sub-pixel less and more
+    int bits;            ///< of sub-pixels
+
+    INSONIFY_INLINE pixel_area(const pixel_grid& grid, const pixel_box& pixels)
+        : box{ints{} + pixels.x0, ints{} + pixels.y0, ints{} + pixels.x1, ints{} + pixels.y1},
+          half(ints{} + static_cast<std::int32_t>(grid.half())),
+          before(half - 1),
+          after(half + 1),
+          bits(grid.subpixel_bits) {}
+};
+
 /// Where the corners of N triangles lie, and how far they extend.
 template <int N>
 struct corner_lanes {
     using ints = lanes<std::int32_t, N>;
-    using uints = lanes<std::uint32_t, N>;
     ints ax, ay, bx, by, cx, cy;
     ints west, north, east, south;
 
@@ -32,34 +67,20 @@ struct corner_lanes {
     }
 
     INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_place::no_x)); }
-    /// Which lie outside of the picture, see is_outside; of those on the grid.
-    INSONIFY_INLINE void outside(const pixel_grid& grid, ints& into) const {
-        const auto half = static_cast<std::int32_t>(grid.half());
-        const std::int32_t right = (grid.width << grid.subpixel_bits) - half,
-                           bottom = (grid.height << grid.subpixel_bits) - half;
-        into = ints((west > right) | (east <= half) | (north > bottom) | (south <= half));
-    }
     /// Whether all of them are small; of those on the grid.
     INSONIFY_INLINE bool are_small() const {
-        const uints most = uints{} + (1u << 14);
-        return !any(ints((uints(east) - uints(west) >= most) | (uints(south) - uints(north) >= most)));
+        constexpr std::int32_t most = 1 << 14;
+        return !any(ints(((east - west) | (south - north)) >= most));
     }
     /// Twice the area, positive for clockwise on the screen; of small ones.
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }
 
-    /// The pixels of a box that the triangles' bounding boxes hold, see center_box.
-    INSONIFY_INLINE void centers(const pixel_grid& grid, const pixel_box& box, ints& x0, ints& y0, ints& x1,
-                                 ints& y1) const {
-        const auto half = static_cast<std::int32_t>(grid.half());
-        x0 = (west + (half - 1)) >> grid.subpixel_bits;
-        y0 = (north + (half - 1)) >> grid.subpixel_bits;
-        x1 = (east - (half + 1)) >> grid.subpixel_bits;
-        y1 = (south - (half + 1)) >> grid.subpixel_bits;
-        const ints left = ints{} + box.x0, top = ints{} + box.y0, right = ints{} + box.x1, bottom = ints{} + box.y1;
-        x0 = x0 > left ? x0 : left;
-        y0 = y0 > top ? y0 : top;
-        x1 = x1 < right ? x1 : right;
-        y1 = y1 < bottom ? y1 : bottom;
+    /// The pixels whose centres the triangles' bounding boxes hold, see pixel_grid::first_center.
+    INSONIFY_INLINE void centers(const pixel_area<N>& area, box_lanes<N>& into) const {
+        into.x0 = (west + area.before) >> area.bits;
+        into.y0 = (north + area.before) >> area.bits;
+        into.x1 = (east - area.after) >> area.bits;
+        into.y1 = (south - area.after) >> area.bits;
     }
 
   private:
@@ -84,20 +105,20 @@ struct small_setup {
     std::int32_t right[static_cast<unsigned>(N)], down[static_cast<unsigned>(N)];  ///< from a to the first pixel
 
     /// @param at  corners in clockwise order
-    INSONIFY_INLINE small_setup(const corner_lanes<N>& at, const pixel_grid& grid, const pixel_box& box) {
-        ints left, top, last_x, last_y;
-        at.centers(grid, box, left, top, last_x, last_y);
-        store(x0, left);
-        store(y0, top);
-        store(x1, last_x);
-        store(y1, last_y);
-        const auto half = static_cast<std::int32_t>(grid.half());
-        const ints x = (left << grid.subpixel_bits) + half, y = (top << grid.subpixel_bits) + half;
+    INSONIFY_INLINE small_setup(const corner_lanes<N>& at, const pixel_area<N>& area) {
+        box_lanes<N> box;
+        at.centers(area, box);
+        box.cut_to(area.box);
+        store(x0, box.x0);
+        store(y0, box.y0);
+        store(x1, box.x1);
+        store(y1, box.y1);
+        const ints x = (box.x0 << area.bits) + area.half, y = (box.y0 << area.bits) + area.half;
         store(right, ints(x - at.ax));
         store(down, ints(y - at.ay));
-        edge(bc, at.bx, at.by, at.cx, at.cy, x, y, grid.subpixel_bits);
-        edge(ca, at.cx, at.cy, at.ax, at.ay, x, y, grid.subpixel_bits);
-        edge(ab, at.ax, at.ay, at.bx, at.by, x, y, grid.subpixel_bits);
+        edge(bc, at.bx, at.by, at.cx, at.cy, x, y, area.bits);
+        edge(ca, at.cx, at.cy, at.ax, at.ay, x, y, area.bits);
+        edge(ab, at.ax, at.ay, at.bx, at.by, x, y, area.bits);
     }
 
   private:

@@ -139,9 +139,10 @@ struct tile_kernel {
         tile.restart(box.x0, box.y0);
         tile.template clear<Width>();
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
+        const pixel_area<N> area(triangles.grid(), box);
         run_reader left(triangles.runs());
         while (!left.empty()) {
-            draw_small_ones<N>(left);
+            draw_small_ones<N>(left, area);
             if (left.empty()) break;
             const triangle_run run = left.take_run();
             for (std::uint32_t i = 0; i < run.count; ++i) draw_one<N>(run.first + i);
@@ -184,7 +185,7 @@ struct tile_kernel {
     /// while a group of them is drawn, the next one's corners and the indices of the one after that are on their way.
     /// Neighbours share corners, and cache lines: every second triangle, and every fourth, stand for the others.
     template <int N>
-    INSONIFY_INLINE void draw_small_ones(run_reader& left) const {
+    INSONIFY_INLINE void draw_small_ones(run_reader& left, const pixel_area<N>& area) const {
         struct group {
             std::uint32_t names[static_cast<unsigned>(N)];
             int count;
@@ -205,12 +206,12 @@ struct tile_kernel {
         for (int i = 0; groups[i % 3].count > 0; ++i) {
             take(i + 2);
             approach(i + 1);
-            draw_small<N>(groups[i % 3].names, groups[i % 3].count);
+            draw_small<N>(groups[i % 3].names, groups[i % 3].count, area);
         }
     }
 
     template <int N>
-    INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count) const {
+    INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count, const pixel_area<N>& pixels) const {
         using reals = lanes<Real, N>;
         const auto name = [&](int k) { return names[k < count ? k : 0]; };
         reals z[3];
@@ -230,7 +231,7 @@ struct tile_kernel {
         lanes<std::conditional_t<exact, std::int64_t, std::int32_t>, N> real_front;
         convert(real_front, front);
         exchange(real_front, z[1], z[2]);
-        const small_setup<N> t(at, triangles.grid(), box);
+        const small_setup<N> t(at, pixels);
         const small_planes<N, Real> planes(at, area, z[0], z[1], z[2]);
         small_fill<N, Real, Winners>{t, planes, static_cast<int>(triangles.grid().unit()), tile, names, count}(
             [&](int k, int x, int y) { return triangles.nearest_depth(names[k], x, y); });
