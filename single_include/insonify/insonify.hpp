@@ -789,6 +789,19 @@ INSONIFY_INLINE void store(T* into, const Lanes& from) {
     std::memcpy(into, &from, sizeof from);
 }
 
+/// One value for every lane: where it is read as a whole vector, it takes no instruction to spread it.
+template <class T>
+struct spread {
+    alignas(64) T values[16];
+    spread(T value = {}) {
+        for (T& v : values) v = value;
+    }
+};
+template <class T, class Lanes>
+INSONIFY_INLINE void load(Lanes& into, const spread<T>& from) {
+    std::memcpy(&into, from.values, sizeof into);
+}
+
 /// Each lane as a cast would make it.
 template <class To, class From>
 INSONIFY_INLINE void convert(To& into, const From& from) {
@@ -2528,14 +2541,14 @@ struct box_lanes {
 
 /// Where triangles are looked for: what is the same for all of them, ready to be compared with.
 template <int N>
-struct pixel_area {
+struct drawn_area {
     using ints = lanes<std::int32_t, N>;
     box_lanes<N> box;
     ints half;           ///< of a pixel, in sub-pixels
     ints before, after;  ///< a sub-pixel less and more
     int bits;            ///< of sub-pixels
 
-    INSONIFY_INLINE pixel_area(const pixel_grid& grid, const pixel_box& pixels)
+    INSONIFY_INLINE drawn_area(const pixel_grid& grid, const pixel_box& pixels)
         : box{ints{} + pixels.x0, ints{} + pixels.y0, ints{} + pixels.x1, ints{} + pixels.y1},
           half(ints{} + static_cast<std::int32_t>(grid.half())),
           before(half - 1),
@@ -2570,7 +2583,7 @@ struct corner_lanes {
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }
 
     /// The pixels whose centres the triangles' bounding boxes hold, see pixel_grid::first_center.
-    INSONIFY_INLINE void centers(const pixel_area<N>& area, box_lanes<N>& into) const {
+    INSONIFY_INLINE void centers(const drawn_area<N>& area, box_lanes<N>& into) const {
         into.x0 = (west + area.before) >> area.bits;
         into.y0 = (north + area.before) >> area.bits;
         into.x1 = (east - area.after) >> area.bits;
@@ -2599,7 +2612,7 @@ struct small_setup {
     std::int32_t right[static_cast<unsigned>(N)], down[static_cast<unsigned>(N)];  ///< from a to the first pixel
 
     /// @param at  corners in clockwise order
-    INSONIFY_INLINE small_setup(const corner_lanes<N>& at, const pixel_area<N>& area) {
+    INSONIFY_INLINE small_setup(const corner_lanes<N>& at, const drawn_area<N>& area) {
         box_lanes<N> box;
         at.centers(area, box);
         box.cut_to(area.box);
@@ -3138,7 +3151,7 @@ struct assembly_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        const pixel_area<N> picture(screen.grid_, {0, 0, screen.grid_.width - 1, screen.grid_.height - 1});
+        const drawn_area<N> picture(screen.grid_, {0, 0, screen.grid_.width - 1, screen.grid_.height - 1});
         std::size_t i = first;
         for (; i + N <= last; i += N)
             if (!assemble_small<N>(i, picture))
@@ -3154,7 +3167,7 @@ struct assembly_kernel {
     /// Gives up if one of them isn't small, unless all lie outside of the picture: seen from close by, most of a
     /// surface's triangles do, and are large.
     template <int N>
-    INSONIFY_INLINE bool assemble_small(std::size_t triangle, const pixel_area<N>& picture) const {
+    INSONIFY_INLINE bool assemble_small(std::size_t triangle, const drawn_area<N>& picture) const {
         using ints = lanes<std::int32_t, N>;
         const corner_lanes<N> at([&](int corner, ints& x, ints& y) INSONIFY_INLINE_LAMBDA {
             gather_pairs<N>(
@@ -3712,7 +3725,7 @@ struct tile_kernel {
         tile.restart(box.x0, box.y0);
         tile.template clear<Width>();
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
-        const pixel_area<N> area(triangles.grid(), box);
+        const drawn_area<N> area(triangles.grid(), box);
         run_reader left(triangles.runs());
         while (!left.empty()) {
             draw_small_ones<N>(left, area);
@@ -3758,7 +3771,7 @@ struct tile_kernel {
     /// while a group of them is drawn, the next one's corners and the indices of the one after that are on their way.
     /// Neighbours share corners, and cache lines: every second triangle, and every fourth, stand for the others.
     template <int N>
-    INSONIFY_INLINE void draw_small_ones(run_reader& left, const pixel_area<N>& area) const {
+    INSONIFY_INLINE void draw_small_ones(run_reader& left, const drawn_area<N>& area) const {
         struct group {
             std::uint32_t names[static_cast<unsigned>(N)];
             int count;
@@ -3784,7 +3797,7 @@ struct tile_kernel {
     }
 
     template <int N>
-    INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count, const pixel_area<N>& pixels) const {
+    INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count, const drawn_area<N>& pixels) const {
         using reals = lanes<Real, N>;
         const auto name = [&](int k) { return names[k < count ? k : 0]; };
         reals z[3];
@@ -3833,6 +3846,22 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
+/// Where the centres of a row's pixels lie on the grid. Unsigned: what is off the grid has no place, and from there it
+/// may be farther than an integer holds.
+template <int N>
+struct row_centers {
+    using places = lanes<std::uint32_t, N>;
+    int y, subpixel_bits;
+    places first;  ///< along the row, of the picture's first N pixels
+    places down;
+
+    INSONIFY_INLINE row_centers(const pixel_grid& grid, int row) : y(row), subpixel_bits(grid.subpixel_bits) {
+        count_up<std::uint32_t, N>(first);
+        first = (first << subpixel_bits) + static_cast<std::uint32_t>(grid.half());
+        down = places{} + static_cast<std::uint32_t>(grid.center(row));
+    }
+};
+
 /// N neighbouring pixels of a row.
 template <int N, class Varyings>
 class fragment_lanes {
@@ -3852,10 +3881,10 @@ class fragment_lanes {
 
     /// @param names  of what each lane shows: somebody's where a lane isn't visible
     template <class Screen>
-    INSONIFY_INLINE void look_up(const Screen& screen, const record* records, int column, int row, const ints& shown,
-                                 bool all_shown, const std::uint32_t* names) {
+    INSONIFY_INLINE void look_up(const Screen& screen, const record* records, int column, const row_centers<N>& row,
+                                 const ints& shown, bool all_shown, const std::uint32_t* names) {
         x = column;
-        y = row;
+        y = row.y;
         visible = shown;
         all_visible = all_shown;
         lanes<std::uint32_t, N> name;
@@ -3866,7 +3895,7 @@ class fragment_lanes {
             for (std::uint32_t& triangle : triangles) triangle = screen.triangle(triangle);
         const glm::uvec3* corners[count];
         unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(triangles[k]); });
-        read_corners(screen, records, corners);
+        read_corners(screen, records, row, corners);
         weigh();
         wide = 0;
         if (any_wide) weigh_wide(screen, names);
@@ -3885,15 +3914,10 @@ class fragment_lanes {
     /// What the records know of the corners of the lanes' triangles and, of compact ones, the screen: both at once, so
     /// that a corner is looked for once.
     template <class Screen>
-    INSONIFY_INLINE void read_corners(const Screen& screen, const record* records,
+    INSONIFY_INLINE void read_corners(const Screen& screen, const record* records, const row_centers<N>& row,
                                       const glm::uvec3* const (&corners)[count]) {
-        const pixel_grid& grid = screen.grid();
-        ints column;
-        count_up<std::int32_t, N>(column);
-        // Unsigned: what is off the grid has no place, and from there it may be farther than an integer holds.
-        using places = lanes<std::uint32_t, N>;
-        const places px = places(((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half()));
-        const places py = places{} + static_cast<std::uint32_t>(grid.center(y));
+        using places = typename row_centers<N>::places;
+        const places px = row.first + (static_cast<std::uint32_t>(x) << row.subpixel_bits);
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             std::size_t vertex[count];
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { vertex[k] = (*corners[k])[i]; });
@@ -3901,7 +3925,7 @@ class fragment_lanes {
                 return screen.vertices()[vertex[k]];
             });
             convert(right[i], ints(places(corner.x) - px));
-            convert(down[i], ints(places(corner.y) - py));
+            convert(down[i], ints(places(corner.y) - row.down));
             inverse_w_[i] = corner.inverse_w;
             unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
                 transpose<N>(values_[i] + 4 * block,
@@ -3978,6 +4002,7 @@ struct shading_kernel {
     template <int N>
     INSONIFY_INLINE int find(fragment_lanes<N, Varyings>* found, int x0, int y) const {
         using ints = lanes<std::int32_t, N>;
+        const row_centers<N> row(screen.grid(), y);
         ints column;
         count_up<std::int32_t, N>(column);
         int count = 0;
@@ -3988,15 +4013,15 @@ struct shading_kernel {
             const ints visible = ints(shown != tile_buffer<true>::nobody) & ints(column <= box.x1 - x);
             if (!any(ints(visible == 0))) {
                 shaded += N;
-                found[count++].look_up(screen, records, x, y, visible, true, names);
+                found[count++].look_up(screen, records, x, row, visible, true, names);
             } else if (any(visible)) {
-                find_some<N>(found[count++], x, y, visible, names);
+                find_some<N>(found[count++], x, row, visible, names);
             }
         }
         return count;
     }
     template <int N>
-    INSONIFY_INLINE void find_some(fragment_lanes<N, Varyings>& found, int x, int y,
+    INSONIFY_INLINE void find_some(fragment_lanes<N, Varyings>& found, int x, const row_centers<N>& row,
                                    const lanes<std::int32_t, N>& visible, const std::uint32_t* names) const {
         std::uint32_t shown[static_cast<unsigned>(N)], somebody = 0;
         for (int k = 0; k < N; ++k)
@@ -4005,7 +4030,7 @@ struct shading_kernel {
                 ++shaded;
             }
         for (int k = 0; k < N; ++k) shown[k] = lane(visible, k) != 0 ? names[k] : somebody;
-        found.look_up(screen, records, x, y, visible, false, shown);
+        found.look_up(screen, records, x, row, visible, false, shown);
     }
 };
 
@@ -4161,8 +4186,9 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<
     return stats;
 }
 
-/// Draws quick depths and hands the pixels that this draw has won, several at a time, to `shader(fragment_lanes)`. A
-/// draw that clears depths hands it each tile before, `shader.clear(pixel_box)`, to clear what it draws into.
+/// Draws quick depths and hands the pixels that this draw has won, several at a time, to what shades their tile:
+/// `shader.on(pixel_box)`, called with fragment_lanes. A draw that clears depths hands `shader.clear` each tile before,
+/// to clear what it draws into.
 /// @param later  where draws that keep depths will come: elsewhere none are stored
 template <varying_shader VertexShader, class LaneShader, executor E>
 draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
@@ -4174,10 +4200,12 @@ draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneS
     };
     const auto shade_tile = [&](const auto& triangles, tile_buffer<true>& tile, float) {
         if (options.load == depth_load::clear) shader.clear(triangles.box);
+        const auto on_tile = shader.on(triangles.box);
         std::uint64_t shaded = 0;
-        dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.data(), tile,
-                                                                          triangles.box, shader, shaded},
-                 options.level);
+        dispatch(
+            shading_kernel<screen_mesh<float>, varyings, std::remove_const_t<decltype(on_tile)>>{
+                triangles.screen, records.data(), tile, triangles.box, on_tile, shaded},
+            options.level);
         return shaded;
     };
     return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept, shade_tile);
@@ -7562,10 +7590,17 @@ class horizon {
                             level);
                     });
 
-        to_x_ = x.narrowed();
-        to_line_ = linear_map{line.along / step, (line.start - first) / step + 1}.narrowed();
-        to_u_ = u.narrowed();
-        to_u_.w += static_cast<float>(0x1p-21 * (std::max)(-asked_u.x, asked_u.y));  // floats hold places no better
+        to_x_ = lane_map(x);
+        to_line_ = lane_map({line.along / step, (line.start - first) / step + 1});
+        const double slack = 0x1p-21 * (std::max)(-asked_u.x, asked_u.y);  // floats hold places no better
+        to_u_ = lane_map(u, static_cast<float>(slack));
+        last_line_ = static_cast<float>(window_.lines - 1);
+        first_ = static_cast<float>(window_.first_column);
+        last_ = static_cast<float>(window_.first_column + window_.columns - 1);
+        first_column_ = window_.first_column;
+        pitch_ = window_.pitch;
+        // Pictures are drawn row by row towards -y: what the next rows will ask is on its way.
+        ahead_ = (line.along.y > 0 ? -lines_ahead : lines_ahead) * window_.slots;
     }
 
     bool empty() const { return crests_.empty(); }
@@ -7581,18 +7616,15 @@ class horizon {
         using floats = lanes<float, N>;
         dark = ints{};
         if (empty()) return;
-        const auto at = [&](floats& into, const glm::vec4& map) INSONIFY_INLINE_LAMBDA {
-            into = position[0] * map.x + position[1] * map.y + position[2] * map.z + map.w;
-        };
-        floats x, line;
-        at(x, to_x_);
-        at(line, to_line_);
-        const ints on_map =
-            asked & ints(x >= 0.0f) & ints(line >= 0.0f) & ints(line < static_cast<float>(window_.lines - 1));
+        floats x, line, last_line;
+        to_x_(x, position);
+        to_line_(line, position);
+        load(last_line, last_line_);
+        const ints on_map = asked & ints(x >= 0.0f) & ints(line >= 0.0f) & ints(line < last_line);
         if (!any(on_map)) return;
         floats crest, u;
         find_crest<N>(crest, on_map, x, line);
-        at(u, to_u_);
+        to_u_(u, position);
         dark = on_map & ints(u < crest);
     }
 
@@ -7605,7 +7637,6 @@ class horizon {
         static linear_map row_of(const affine& map, int i) {
             return {{map.linear[0][i], map.linear[1][i], map.linear[2][i]}, map.offset[i]};
         }
-        glm::vec4 narrowed() const { return glm::vec4(glm::dvec4(along, start)); }
         /// The least and the largest in a box.
         glm::dvec2 range(const bounding_box& box) const {
             glm::dvec2 both(start);
@@ -7614,6 +7645,22 @@ class horizon {
                 both += glm::dvec2((std::min)(a, b), (std::max)(a, b));
             }
             return both;
+        }
+    };
+
+    /// The same in floats, for many points.
+    struct lane_map {
+        insonify::detail::spread<float> along[3], start;
+
+        lane_map() = default;
+        explicit lane_map(const linear_map& map, float more = 0)
+            : along{static_cast<float>(map.along.x), static_cast<float>(map.along.y), static_cast<float>(map.along.z)},
+              start(static_cast<float>(map.start) + more) {}
+        template <class Floats>
+        INSONIFY_INLINE void operator()(Floats& into, const Floats (&position)[3]) const {
+            Floats a, b, c, d;
+            load(a, along[0]), load(b, along[1]), load(c, along[2]), load(d, start);
+            into = position[0] * a + position[1] * b + position[2] * c + d;
         }
     };
 
@@ -7628,10 +7675,10 @@ class horizon {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         // Behind the last column, what it says goes on.
-        const auto first = static_cast<float>(window_.first_column),
-                   last = static_cast<float>(window_.first_column + window_.columns - 1);
-        floats x = point_x > first ? point_x : floats{} + first;
-        x = x < last ? x : floats{} + last;
+        floats first, last;
+        load(first, first_), load(last, last_);
+        floats x = point_x > first ? point_x : first;
+        x = x < last ? x : last;
         const floats line = on_map ? point_line : floats{};
         ints column, number;
         convert(column, x);
@@ -7641,9 +7688,11 @@ class horizon {
         convert(left_line, number);
         const floats share = line - left_line;
 
-        const ints start = on_map ? ((column - window_.first_column) * window_.pitch + number) * window_.slots : ints{};
-        // Pictures are drawn row by row towards -y: what the next rows will ask is on its way.
-        const std::int32_t ahead = (to_line_.y > 0 ? -lines_ahead : lines_ahead) * window_.slots;
+        ints first_column, pitch, ahead;
+        load(first_column, first_column_), load(pitch, pitch_), load(ahead, ahead_);
+        ints start = (column - first_column) * pitch + number;
+        if (window_.slots > 1) start = start + start;
+        start = on_map ? start : ints{};
         ints soon = start + ahead;
         soon = soon > 0 ? soon : ints{};
         for (int k = 0; k < N; k += 2) prefetch(crests_.data() + lane(soon, k));
@@ -7673,7 +7722,9 @@ class horizon {
     static constexpr int lines_ahead = 20;
 
     detail::sweep_window window_;
-    glm::vec4 to_x_{0}, to_line_{0}, to_u_{0};         ///< from positions, with one for a fourth
+    lane_map to_x_, to_line_, to_u_;
+    insonify::detail::spread<float> last_line_, first_, last_;  ///< lines, columns
+    insonify::detail::spread<std::int32_t> first_column_, pitch_, ahead_;
     insonify::detail::unfilled_vector<float> crests_;  ///< largest u of a crest so far, by column, slot and line
 };
 
@@ -11200,6 +11251,7 @@ struct surface_points {
 
 /// Nothing is ever dark.
 struct no_shadow_maps {
+    const no_shadow_maps& within(const pixel_box&) const { return *this; }
     template <int N>
     INSONIFY_INLINE void operator()(light_shares<N>&, const surface_points<N>&, const lanes<std::int32_t, N>&) const {}
 };
@@ -11218,22 +11270,40 @@ class shadow_maps {
     template <executor E>
     shadow_maps(const Policy& policy, const overhead_geometry& view, const placed_mesh* bottom,
                 std::span<const placed_mesh> targets, const bounding_box& receivers, double texel, E& ex)
-        : policy_(policy), light_(view.light()) {
+        : policy_(policy),
+          light_(view.light()),
+          cot_elevation_(static_cast<float>(light_.cot_elevation())),
+          travel_{static_cast<float>(light_.travel().x), static_cast<float>(light_.travel().y)} {
         if (bottom != nullptr) bottom_ = cast(*bottom, receivers, texel, ex);
         targets_.reserve(targets.size());
         for (const placed_mesh& t : targets)
             targets_.push_back({cast(t, receivers, texel, ex), shadowed_pixels(view, t, receivers.lower.z)});
     }
 
-    /// @param useful  where a shadow would change what is seen; the others' shares need not be right
-    template <int N>
-    INSONIFY_INLINE void operator()(light_shares<N>& shares, const surface_points<N>& at,
-                                    const lanes<std::int32_t, N>& useful) const {
-        if constexpr (refined)
-            ask_in_lanes(shares, at, useful);
-        else
-            ask_one_by_one(shares, at);
-    }
+    /// What of it may darken a part of the picture.
+    class part {
+      public:
+        part(const shadow_maps& all, const pixel_box& pixels) : all_(all) {
+            for (std::size_t i = 0; i < all.targets_.size(); ++i)
+                if (!intersect(all.targets_[i].shadowed, pixels).empty())
+                    instances_.push_back(static_cast<std::uint16_t>(i + 1));
+        }
+
+        /// @param useful  where a shadow would change what is seen; the others' shares need not be right
+        template <int N>
+        INSONIFY_INLINE void operator()(light_shares<N>& shares, const surface_points<N>& at,
+                                        const lanes<std::int32_t, N>& useful) const {
+            if constexpr (refined)
+                all_.ask_in_lanes(shares, at, useful, instances_);
+            else
+                all_.ask_one_by_one(shares, at);
+        }
+
+      private:
+        const shadow_maps& all_;
+        std::vector<std::uint16_t> instances_;  ///< of targets
+    };
+    part within(const pixel_box& pixels) const { return {*this, pixels}; }
 
   private:
     struct target_caster {
@@ -11243,23 +11313,22 @@ class shadow_maps {
 
     template <int N>
     INSONIFY_INLINE void ask_in_lanes(light_shares<N>& shares, const surface_points<N>& at,
-                                      const lanes<std::int32_t, N>& useful) const {
+                                      const lanes<std::int32_t, N>& useful,
+                                      std::span<const std::uint16_t> instances) const {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         // A target's shadow goes on over what would be dark without it.
         ints dark;
-        std::uint16_t instance = 0;
-        for (const target_caster& target : targets_) {
-            ++instance;
+        for (const std::uint16_t instance : instances) {
+            const target_caster& target = targets_[instance - 1u];
             const pixel_box& shadowed = target.shadowed;
             if (at.y < shadowed.y0 || at.y > shadowed.y1 || at.x > shadowed.x1 || at.x + N <= shadowed.x0) continue;
             target.form.template darken<N>(dark, useful, at.position);
             shares.darken(dark ? floats{} : floats{} + 1.0f, instance);
         }
-        const glm::dvec2& travel = light_.travel();
-        const floats facing =
-            at.facet[2] - static_cast<float>(light_.cot_elevation()) *
-                              (at.facet[0] * static_cast<float>(travel.x) + at.facet[1] * static_cast<float>(travel.y));
+        floats cot_elevation, travel_x, travel_y;
+        load(cot_elevation, cot_elevation_), load(travel_x, travel_[0]), load(travel_y, travel_[1]);
+        const floats facing = at.facet[2] - cot_elevation * (at.facet[0] * travel_x + at.facet[1] * travel_y);
         dark = ints(facing <= 0.0f);
         shares.darken(dark ? floats{} : floats{} + 1.0f, at.itself);
         bottom_.template darken<N>(dark, ints(useful & ints(shares.lit > 0.0f)), at.position);
@@ -11307,6 +11376,7 @@ class shadow_maps {
 
     Policy policy_;
     shadow::light_frame light_;
+    spread<float> cot_elevation_, travel_[2];  ///< the light's, again
     caster_form bottom_;
     std::vector<target_caster> targets_;
 };
@@ -11359,6 +11429,8 @@ class exact_shadows {
     }
 
     exact_shadows(const exact_shadows&) = delete;  // casters point to shapes
+
+    const exact_shadows& within(const pixel_box&) const { return *this; }
 
     /// Marks how much of the light reaches what the `useful` pixels show.
     /// @param f      their fragments
@@ -11572,26 +11644,48 @@ class surface_shader {
     surface_shader(const overhead_geometry& view, const surface_placement& placement, const mesh_view& shape,
                    int subpixel_bits, const Law& law, const Shadows& shadows, const Object& object,
                    image<float>& picture, Labels& marks)
-        : rig_(view.rig()),
-          ray_step_(static_cast<float>(view.ray_step())),
-          subpixel_(1 / static_cast<float>(1 << subpixel_bits)),
-          placement_(placement),
+        : placement_(placement),
           mesh_(shape),
           is_near_(view.has_near_light()),
-          to_light_(is_near_ ? view.light_position() : view.light().to_light()),
           law_(law),
           shadows_(shadows),
           object_(object),
           picture_(picture),
-          labels_(marks) {}
+          labels_(marks),
+          left_(0.5f * static_cast<float>(1 - view.rig().size.x)),
+          top_(0.5f * static_cast<float>(view.rig().size.y - 1)),
+          ray_step_(static_cast<float>(view.ray_step())),
+          corner_step_(ray_step_.values[0] * (1 / static_cast<float>(1 << subpixel_bits))),
+          altitude_(view.rig().altitude),
+          intensity_(view.rig().intensity),
+          sky_(view.rig().sky),
+          ambient_(view.rig().ambient) {
+        const glm::vec3 light(is_near_ ? view.light_position() : view.light().to_light());
+        for (int i = 0; i < 3; ++i) to_light_[i] = light[i];
+    }
 
     /// What shows nothing is black.
     void clear(const pixel_box& tile) const {
         for (int y = tile.y0; y <= tile.y1; ++y) std::fill_n(&picture_(tile.x0, y), tile.width(), 0.0f);
     }
 
-    template <int N>
-    INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
+    /// Shades the pixels of one tile.
+    struct tile_shader {
+        const surface_shader& whole;
+        decltype(std::declval<const Shadows&>().within(pixel_box{})) shadows;
+
+        template <int N>
+        INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
+            whole.shade(f, shadows);
+        }
+    };
+    tile_shader on(const pixel_box& tile) const { return {*this, shadows_.within(tile)}; }
+
+  private:
+    static constexpr bool labelled = std::is_same_v<Labels, labels>;
+
+    template <int N, class TileShadows>
+    INSONIFY_INLINE void shade(const fragment_lanes<N, surface_varyings>& f, const TileShadows& shadows) const {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
@@ -11611,17 +11705,17 @@ class surface_shader {
             // A label wants to know who stands in the light even of what faces away.
             const ints useful = labelled ? f.visible : ints(f.visible & ints(sine > 0.0f));
             if constexpr (std::is_same_v<Shadows, exact_shadows>) {
-                if (any(useful)) shadows_(shares, f, object_.instance, useful);
+                if (any(useful)) shadows(shares, f, object_.instance, useful);
             } else if (any(useful)) {
                 surface_points<N> at;
                 at.x = f.x;
                 at.y = f.y;
                 at.visible = f.visible;
                 at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
-                const pixel_rays<N> rays(rig_, ray_step_, f);
+                const pixel_rays<N> rays(*this, f);
                 rays.position(at.position, f);
                 facet_normal<N>(at.facet, rays, f, side);
-                shadows_(shares, at, useful);
+                shadows(shares, at, useful);
             }
         }
 
@@ -11630,7 +11724,9 @@ class surface_shader {
         floats direct;
         law<N>(direct, is_bright ? sine : floats{});
         direct = is_bright ? direct : floats{};
-        const floats light = rig_.intensity * direct * shares.lit + rig_.sky * open_sky + rig_.ambient;
+        floats intensity, sky, ambient;
+        load(intensity, intensity_), load(sky, sky_), load(ambient, ambient_);
+        const floats light = intensity * direct * shares.lit + sky * open_sky + ambient;
         std::uint8_t types[static_cast<unsigned>(N)];
         floats reflectivity;
         if constexpr (Object::uniform) {
@@ -11654,18 +11750,15 @@ class surface_shader {
             }
     }
 
-  private:
-    static constexpr bool labelled = std::is_same_v<Labels, labels>;
-
     /// The unit vector to the light.
     template <int N>
     INSONIFY_INLINE void point_to_light(lanes<float, N> (&into)[3],
                                         const fragment_lanes<N, surface_varyings>& f) const {
         using floats = lanes<float, N>;
-        for (int i = 0; i < 3; ++i) into[i] = floats{} + to_light_[i];
+        for (int i = 0; i < 3; ++i) load(into[i], to_light_[i]);
         if (!is_near_) return;
         floats position[3], square = floats{}, length;
-        pixel_rays<N>(rig_, ray_step_, f).position(position, f);
+        pixel_rays<N>(*this, f).position(position, f);
         for (int i = 0; i < 3; ++i) {
             into[i] = into[i] - position[i];
             square = square + into[i] * into[i];
@@ -11680,16 +11773,16 @@ class surface_shader {
     struct pixel_rays {
         using floats = lanes<float, N>;
         using fragments = fragment_lanes<N, surface_varyings>;
-        float altitude, step;
+        floats altitude, corner_step;
         floats x, y;
 
-        /// @param one  how far the ground is from pixel to pixel, seen from a height of one
-        INSONIFY_INLINE pixel_rays(const overhead& rig, float one, const fragments& f)
-            : altitude(rig.altitude), step(one) {
-            floats column;
+        INSONIFY_INLINE pixel_rays(const surface_shader& s, const fragments& f) {
+            load(altitude, s.altitude_), load(corner_step, s.corner_step_);
+            floats column, step;
             count_up<float, N>(column);
-            x = (column + (static_cast<float>(f.x) + 0.5f * static_cast<float>(1 - rig.size.x))) * step;
-            y = floats{} + (0.5f * static_cast<float>(rig.size.y - 1) - static_cast<float>(f.y)) * step;
+            load(step, s.ray_step_);
+            x = (column + (static_cast<float>(f.x) + s.left_)) * step;
+            y = (s.top_ - static_cast<float>(f.y)) * step;
         }
         /// Of what the pixels show.
         INSONIFY_INLINE void position(floats (&into)[3], const fragments& f) const {
@@ -11699,11 +11792,11 @@ class surface_shader {
             into[1] = y * down;
         }
         /// Of the corner of a compact triangle.
-        INSONIFY_INLINE void corner(floats (&into)[3], const fragments& f, int i, float subpixel) const {
+        INSONIFY_INLINE void corner(floats (&into)[3], const fragments& f, int i) const {
             into[2] = f.at_corner(i, 3);
             const floats down = altitude - into[2];
-            into[0] = (x + f.right[i] * (step * subpixel)) * down;
-            into[1] = (y - f.down[i] * (step * subpixel)) * down;
+            into[0] = (x + f.right[i] * corner_step) * down;
+            into[1] = (y - f.down[i] * corner_step) * down;
         }
     };
 
@@ -11713,7 +11806,7 @@ class surface_shader {
                                       const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& side) const {
         using floats = lanes<float, N>;
         floats corner[3][3], ab[3], ac[3];
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { rays.corner(corner[i], f, i, subpixel_); });
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { rays.corner(corner[i], f, i); });
         if (f.wide != 0) place_corners<N>(corner, f);
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             ab[i] = corner[1][i] - corner[0][i];
@@ -11754,17 +11847,19 @@ class surface_shader {
             gather<N>(into, [&](int k) { return law_(lane(sine, k)); });
     }
 
-    overhead rig_;
-    float ray_step_, subpixel_;
     const surface_placement& placement_;
     mesh_view mesh_;
     bool is_near_;
-    glm::vec3 to_light_;  ///< where it stands, if it is near
     Law law_;
     const Shadows& shadows_;
     Object object_;
     image<float>& picture_;
     Labels& labels_;
+    float left_, top_;                      ///< from the picture's middle to the first pixel's centre, in pixels
+    spread<float> ray_step_, corner_step_;  ///< how far the ground is from pixel to pixel, and from sub-pixel to
+                                            ///< sub-pixel, seen from a height of one
+    spread<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
+    spread<float> to_light_[3];                           ///< where it stands, if it is near
 };
 
 }  // namespace detail

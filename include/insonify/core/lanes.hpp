@@ -51,6 +51,19 @@ INSONIFY_INLINE void store(T* into, const Lanes& from) {
     std::memcpy(into, &from, sizeof from);
 }
 
+/// One value for every lane: where it is read as a whole vector, it takes no instruction to spread it.
+template <class T>
+struct spread {
+    alignas(64) T values[16];
+    spread(T value = {}) {
+        for (T& v : values) v = value;
+    }
+};
+template <class T, class Lanes>
+INSONIFY_INLINE void load(Lanes& into, const spread<T>& from) {
+    std::memcpy(&into, from.values, sizeof into);
+}
+
 /// Each lane as a cast would make it.
 template <class To, class From>
 INSONIFY_INLINE void convert(To& into, const From& from) {

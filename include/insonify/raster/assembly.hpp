@@ -325,7 +325,7 @@ struct assembly_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        const pixel_area<N> picture(screen.grid_, {0, 0, screen.grid_.width - 1, screen.grid_.height - 1});
+        const drawn_area<N> picture(screen.grid_, {0, 0, screen.grid_.width - 1, screen.grid_.height - 1});
         std::size_t i = first;
         for (; i + N <= last; i += N)
             if (!assemble_small<N>(i, picture))
@@ -341,7 +341,7 @@ struct assembly_kernel {
     /// Gives up if one of them isn't small, unless all lie outside of the picture: seen from close by, most of a
     /// surface's triangles do, and are large.
     template <int N>
-    INSONIFY_INLINE bool assemble_small(std::size_t triangle, const pixel_area<N>& picture) const {
+    INSONIFY_INLINE bool assemble_small(std::size_t triangle, const drawn_area<N>& picture) const {
         using ints = lanes<std::int32_t, N>;
         const corner_lanes<N> at([&](int corner, ints& x, ints& y) INSONIFY_INLINE_LAMBDA {
             gather_pairs<N>(

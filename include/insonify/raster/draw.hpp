@@ -153,8 +153,9 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<
     return stats;
 }
 
-/// Draws quick depths and hands the pixels that this draw has won, several at a time, to `shader(fragment_lanes)`. A
-/// draw that clears depths hands it each tile before, `shader.clear(pixel_box)`, to clear what it draws into.
+/// Draws quick depths and hands the pixels that this draw has won, several at a time, to what shades their tile:
+/// `shader.on(pixel_box)`, called with fragment_lanes. A draw that clears depths hands `shader.clear` each tile before,
+/// to clear what it draws into.
 /// @param later  where draws that keep depths will come: elsewhere none are stored
 template <varying_shader VertexShader, class LaneShader, executor E>
 draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
@@ -166,10 +167,12 @@ draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneS
     };
     const auto shade_tile = [&](const auto& triangles, tile_buffer<true>& tile, float) {
         if (options.load == depth_load::clear) shader.clear(triangles.box);
+        const auto on_tile = shader.on(triangles.box);
         std::uint64_t shaded = 0;
-        dispatch(shading_kernel<screen_mesh<float>, varyings, LaneShader>{triangles.screen, records.data(), tile,
-                                                                          triangles.box, shader, shaded},
-                 options.level);
+        dispatch(
+            shading_kernel<screen_mesh<float>, varyings, std::remove_const_t<decltype(on_tile)>>{
+                triangles.screen, records.data(), tile, triangles.box, on_tile, shaded},
+            options.level);
         return shaded;
     };
     return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept, shade_tile);

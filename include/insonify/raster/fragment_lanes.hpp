@@ -12,6 +12,22 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
+/// Where the centres of a row's pixels lie on the grid. Unsigned: what is off the grid has no place, and from there it
+/// may be farther than an integer holds.
+template <int N>
+struct row_centers {
+    using places = lanes<std::uint32_t, N>;
+    int y, subpixel_bits;
+    places first;  ///< along the row, of the picture's first N pixels
+    places down;
+
+    INSONIFY_INLINE row_centers(const pixel_grid& grid, int row) : y(row), subpixel_bits(grid.subpixel_bits) {
+        count_up<std::uint32_t, N>(first);
+        first = (first << subpixel_bits) + static_cast<std::uint32_t>(grid.half());
+        down = places{} + static_cast<std::uint32_t>(grid.center(row));
+    }
+};
+
 /// N neighbouring pixels of a row.
 template <int N, class Varyings>
 class fragment_lanes {
@@ -31,10 +47,10 @@ class fragment_lanes {
 
     /// @param names  of what each lane shows: somebody's where a lane isn't visible
     template <class Screen>
-    INSONIFY_INLINE void look_up(const Screen& screen, const record* records, int column, int row, const ints& shown,
-                                 bool all_shown, const std::uint32_t* names) {
+    INSONIFY_INLINE void look_up(const Screen& screen, const record* records, int column, const row_centers<N>& row,
+                                 const ints& shown, bool all_shown, const std::uint32_t* names) {
         x = column;
-        y = row;
+        y = row.y;
         visible = shown;
         all_visible = all_shown;
         lanes<std::uint32_t, N> name;
@@ -45,7 +61,7 @@ class fragment_lanes {
             for (std::uint32_t& triangle : triangles) triangle = screen.triangle(triangle);
         const glm::uvec3* corners[count];
         unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(triangles[k]); });
-        read_corners(screen, records, corners);
+        read_corners(screen, records, row, corners);
         weigh();
         wide = 0;
         if (any_wide) weigh_wide(screen, names);
@@ -64,15 +80,10 @@ class fragment_lanes {
     /// What the records know of the corners of the lanes' triangles and, of compact ones, the screen: both at once, so
     /// that a corner is looked for once.
     template <class Screen>
-    INSONIFY_INLINE void read_corners(const Screen& screen, const record* records,
+    INSONIFY_INLINE void read_corners(const Screen& screen, const record* records, const row_centers<N>& row,
                                       const glm::uvec3* const (&corners)[count]) {
-        const pixel_grid& grid = screen.grid();
-        ints column;
-        count_up<std::int32_t, N>(column);
-        // Unsigned: what is off the grid has no place, and from there it may be farther than an integer holds.
-        using places = lanes<std::uint32_t, N>;
-        const places px = places(((column + x) << grid.subpixel_bits) + static_cast<std::int32_t>(grid.half()));
-        const places py = places{} + static_cast<std::uint32_t>(grid.center(y));
+        using places = typename row_centers<N>::places;
+        const places px = row.first + (static_cast<std::uint32_t>(x) << row.subpixel_bits);
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             std::size_t vertex[count];
             unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { vertex[k] = (*corners[k])[i]; });
@@ -80,7 +91,7 @@ class fragment_lanes {
                 return screen.vertices()[vertex[k]];
             });
             convert(right[i], ints(places(corner.x) - px));
-            convert(down[i], ints(places(corner.y) - py));
+            convert(down[i], ints(places(corner.y) - row.down));
             inverse_w_[i] = corner.inverse_w;
             unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
                 transpose<N>(values_[i] + 4 * block,
@@ -157,6 +168,7 @@ struct shading_kernel {
     template <int N>
     INSONIFY_INLINE int find(fragment_lanes<N, Varyings>* found, int x0, int y) const {
         using ints = lanes<std::int32_t, N>;
+        const row_centers<N> row(screen.grid(), y);
         ints column;
         count_up<std::int32_t, N>(column);
         int count = 0;
@@ -167,15 +179,15 @@ struct shading_kernel {
             const ints visible = ints(shown != tile_buffer<true>::nobody) & ints(column <= box.x1 - x);
             if (!any(ints(visible == 0))) {
                 shaded += N;
-                found[count++].look_up(screen, records, x, y, visible, true, names);
+                found[count++].look_up(screen, records, x, row, visible, true, names);
             } else if (any(visible)) {
-                find_some<N>(found[count++], x, y, visible, names);
+                find_some<N>(found[count++], x, row, visible, names);
             }
         }
         return count;
     }
     template <int N>
-    INSONIFY_INLINE void find_some(fragment_lanes<N, Varyings>& found, int x, int y,
+    INSONIFY_INLINE void find_some(fragment_lanes<N, Varyings>& found, int x, const row_centers<N>& row,
                                    const lanes<std::int32_t, N>& visible, const std::uint32_t* names) const {
         std::uint32_t shown[static_cast<unsigned>(N)], somebody = 0;
         for (int k = 0; k < N; ++k)
@@ -184,7 +196,7 @@ struct shading_kernel {
                 ++shaded;
             }
         for (int k = 0; k < N; ++k) shown[k] = lane(visible, k) != 0 ? names[k] : somebody;
-        found.look_up(screen, records, x, y, visible, false, shown);
+        found.look_up(screen, records, x, row, visible, false, shown);
     }
 };
 

@@ -34,14 +34,14 @@ struct box_lanes {
 
 /// Where triangles are looked for: what is the same for all of them, ready to be compared with.
 template <int N>
-struct pixel_area {
+struct drawn_area {
     using ints = lanes<std::int32_t, N>;
     box_lanes<N> box;
     ints half;           ///< of a pixel, in sub-pixels
     ints before, after;  ///< a sub-pixel less and more
     int bits;            ///< of sub-pixels
 
-    INSONIFY_INLINE pixel_area(const pixel_grid& grid, const pixel_box& pixels)
+    INSONIFY_INLINE drawn_area(const pixel_grid& grid, const pixel_box& pixels)
         : box{ints{} + pixels.x0, ints{} + pixels.y0, ints{} + pixels.x1, ints{} + pixels.y1},
           half(ints{} + static_cast<std::int32_t>(grid.half())),
           before(half - 1),
@@ -76,7 +76,7 @@ struct corner_lanes {
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }
 
     /// The pixels whose centres the triangles' bounding boxes hold, see pixel_grid::first_center.
-    INSONIFY_INLINE void centers(const pixel_area<N>& area, box_lanes<N>& into) const {
+    INSONIFY_INLINE void centers(const drawn_area<N>& area, box_lanes<N>& into) const {
         into.x0 = (west + area.before) >> area.bits;
         into.y0 = (north + area.before) >> area.bits;
         into.x1 = (east - area.after) >> area.bits;
@@ -105,7 +105,7 @@ struct small_setup {
     std::int32_t right[static_cast<unsigned>(N)], down[static_cast<unsigned>(N)];  ///< from a to the first pixel
 
     /// @param at  corners in clockwise order
-    INSONIFY_INLINE small_setup(const corner_lanes<N>& at, const pixel_area<N>& area) {
+    INSONIFY_INLINE small_setup(const corner_lanes<N>& at, const drawn_area<N>& area) {
         box_lanes<N> box;
         at.centers(area, box);
         box.cut_to(area.box);

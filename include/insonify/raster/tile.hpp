@@ -139,7 +139,7 @@ struct tile_kernel {
         tile.restart(box.x0, box.y0);
         tile.template clear<Width>();
         if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
-        const pixel_area<N> area(triangles.grid(), box);
+        const drawn_area<N> area(triangles.grid(), box);
         run_reader left(triangles.runs());
         while (!left.empty()) {
             draw_small_ones<N>(left, area);
@@ -185,7 +185,7 @@ struct tile_kernel {
     /// while a group of them is drawn, the next one's corners and the indices of the one after that are on their way.
     /// Neighbours share corners, and cache lines: every second triangle, and every fourth, stand for the others.
     template <int N>
-    INSONIFY_INLINE void draw_small_ones(run_reader& left, const pixel_area<N>& area) const {
+    INSONIFY_INLINE void draw_small_ones(run_reader& left, const drawn_area<N>& area) const {
         struct group {
             std::uint32_t names[static_cast<unsigned>(N)];
             int count;
@@ -211,7 +211,7 @@ struct tile_kernel {
     }
 
     template <int N>
-    INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count, const pixel_area<N>& pixels) const {
+    INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count, const drawn_area<N>& pixels) const {
         using reals = lanes<Real, N>;
         const auto name = [&](int k) { return names[k < count ? k : 0]; };
         reals z[3];

@@ -14,8 +14,6 @@
 #include <insonify/shadow/light.hpp>
 #include <insonify/shadow/sweep.hpp>
 
-#include <glm/vec4.hpp>
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::shadow {
@@ -87,10 +85,17 @@ class horizon {
                             level);
                     });
 
-        to_x_ = x.narrowed();
-        to_line_ = linear_map{line.along / step, (line.start - first) / step + 1}.narrowed();
-        to_u_ = u.narrowed();
-        to_u_.w += static_cast<float>(0x1p-21 * (std::max)(-asked_u.x, asked_u.y));  // floats hold places no better
+        to_x_ = lane_map(x);
+        to_line_ = lane_map({line.along / step, (line.start - first) / step + 1});
+        const double slack = 0x1p-21 * (std::max)(-asked_u.x, asked_u.y);  // floats hold places no better
+        to_u_ = lane_map(u, static_cast<float>(slack));
+        last_line_ = static_cast<float>(window_.lines - 1);
+        first_ = static_cast<float>(window_.first_column);
+        last_ = static_cast<float>(window_.first_column + window_.columns - 1);
+        first_column_ = window_.first_column;
+        pitch_ = window_.pitch;
+        // Pictures are drawn row by row towards -y: what the next rows will ask is on its way.
+        ahead_ = (line.along.y > 0 ? -lines_ahead : lines_ahead) * window_.slots;
     }
 
     bool empty() const { return crests_.empty(); }
@@ -106,18 +111,15 @@ class horizon {
         using floats = lanes<float, N>;
         dark = ints{};
         if (empty()) return;
-        const auto at = [&](floats& into, const glm::vec4& map) INSONIFY_INLINE_LAMBDA {
-            into = position[0] * map.x + position[1] * map.y + position[2] * map.z + map.w;
-        };
-        floats x, line;
-        at(x, to_x_);
-        at(line, to_line_);
-        const ints on_map =
-            asked & ints(x >= 0.0f) & ints(line >= 0.0f) & ints(line < static_cast<float>(window_.lines - 1));
+        floats x, line, last_line;
+        to_x_(x, position);
+        to_line_(line, position);
+        load(last_line, last_line_);
+        const ints on_map = asked & ints(x >= 0.0f) & ints(line >= 0.0f) & ints(line < last_line);
         if (!any(on_map)) return;
         floats crest, u;
         find_crest<N>(crest, on_map, x, line);
-        at(u, to_u_);
+        to_u_(u, position);
         dark = on_map & ints(u < crest);
     }
 
@@ -130,7 +132,6 @@ class horizon {
         static linear_map row_of(const affine& map, int i) {
             return {{map.linear[0][i], map.linear[1][i], map.linear[2][i]}, map.offset[i]};
         }
-        glm::vec4 narrowed() const { return glm::vec4(glm::dvec4(along, start)); }
         /// The least and the largest in a box.
         glm::dvec2 range(const bounding_box& box) const {
             glm::dvec2 both(start);
@@ -139,6 +140,22 @@ class horizon {
                 both += glm::dvec2((std::min)(a, b), (std::max)(a, b));
             }
             return both;
+        }
+    };
+
+    /// The same in floats, for many points.
+    struct lane_map {
+        insonify::detail::spread<float> along[3], start;
+
+        lane_map() = default;
+        explicit lane_map(const linear_map& map, float more = 0)
+            : along{static_cast<float>(map.along.x), static_cast<float>(map.along.y), static_cast<float>(map.along.z)},
+              start(static_cast<float>(map.start) + more) {}
+        template <class Floats>
+        INSONIFY_INLINE void operator()(Floats& into, const Floats (&position)[3]) const {
+            Floats a, b, c, d;
+            load(a, along[0]), load(b, along[1]), load(c, along[2]), load(d, start);
+            into = position[0] * a + position[1] * b + position[2] * c + d;
         }
     };
 
@@ -153,10 +170,10 @@ class horizon {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         // Behind the last column, what it says goes on.
-        const auto first = static_cast<float>(window_.first_column),
-                   last = static_cast<float>(window_.first_column + window_.columns - 1);
-        floats x = point_x > first ? point_x : floats{} + first;
-        x = x < last ? x : floats{} + last;
+        floats first, last;
+        load(first, first_), load(last, last_);
+        floats x = point_x > first ? point_x : first;
+        x = x < last ? x : last;
         const floats line = on_map ? point_line : floats{};
         ints column, number;
         convert(column, x);
@@ -166,9 +183,11 @@ class horizon {
         convert(left_line, number);
         const floats share = line - left_line;
 
-        const ints start = on_map ? ((column - window_.first_column) * window_.pitch + number) * window_.slots : ints{};
-        // Pictures are drawn row by row towards -y: what the next rows will ask is on its way.
-        const std::int32_t ahead = (to_line_.y > 0 ? -lines_ahead : lines_ahead) * window_.slots;
+        ints first_column, pitch, ahead;
+        load(first_column, first_column_), load(pitch, pitch_), load(ahead, ahead_);
+        ints start = (column - first_column) * pitch + number;
+        if (window_.slots > 1) start = start + start;
+        start = on_map ? start : ints{};
         ints soon = start + ahead;
         soon = soon > 0 ? soon : ints{};
         for (int k = 0; k < N; k += 2) prefetch(crests_.data() + lane(soon, k));
@@ -198,7 +217,9 @@ class horizon {
     static constexpr int lines_ahead = 20;
 
     detail::sweep_window window_;
-    glm::vec4 to_x_{0}, to_line_{0}, to_u_{0};         ///< from positions, with one for a fourth
+    lane_map to_x_, to_line_, to_u_;
+    insonify::detail::spread<float> last_line_, first_, last_;  ///< lines, columns
+    insonify::detail::spread<std::int32_t> first_column_, pitch_, ahead_;
     insonify::detail::unfilled_vector<float> crests_;  ///< largest u of a crest so far, by column, slot and line
 };
 

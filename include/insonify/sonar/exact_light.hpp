@@ -49,6 +49,8 @@ class exact_shadows {
 
     exact_shadows(const exact_shadows&) = delete;  // casters point to shapes
 
+    const exact_shadows& within(const pixel_box&) const { return *this; }
+
     /// Marks how much of the light reaches what the `useful` pixels show.
     /// @param f      their fragments
     /// @param shape  what they show: 0 the seabed, else the instance

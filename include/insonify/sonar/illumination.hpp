@@ -40,6 +40,7 @@ struct surface_points {
 
 /// Nothing is ever dark.
 struct no_shadow_maps {
+    const no_shadow_maps& within(const pixel_box&) const { return *this; }
     template <int N>
     INSONIFY_INLINE void operator()(light_shares<N>&, const surface_points<N>&, const lanes<std::int32_t, N>&) const {}
 };
@@ -58,22 +59,40 @@ class shadow_maps {
     template <executor E>
     shadow_maps(const Policy& policy, const overhead_geometry& view, const placed_mesh* bottom,
                 std::span<const placed_mesh> targets, const bounding_box& receivers, double texel, E& ex)
-        : policy_(policy), light_(view.light()) {
+        : policy_(policy),
+          light_(view.light()),
+          cot_elevation_(static_cast<float>(light_.cot_elevation())),
+          travel_{static_cast<float>(light_.travel().x), static_cast<float>(light_.travel().y)} {
         if (bottom != nullptr) bottom_ = cast(*bottom, receivers, texel, ex);
         targets_.reserve(targets.size());
         for (const placed_mesh& t : targets)
             targets_.push_back({cast(t, receivers, texel, ex), shadowed_pixels(view, t, receivers.lower.z)});
     }
 
-    /// @param useful  where a shadow would change what is seen; the others' shares need not be right
-    template <int N>
-    INSONIFY_INLINE void operator()(light_shares<N>& shares, const surface_points<N>& at,
-                                    const lanes<std::int32_t, N>& useful) const {
-        if constexpr (refined)
-            ask_in_lanes(shares, at, useful);
-        else
-            ask_one_by_one(shares, at);
-    }
+    /// What of it may darken a part of the picture.
+    class part {
+      public:
+        part(const shadow_maps& all, const pixel_box& pixels) : all_(all) {
+            for (std::size_t i = 0; i < all.targets_.size(); ++i)
+                if (!intersect(all.targets_[i].shadowed, pixels).empty())
+                    instances_.push_back(static_cast<std::uint16_t>(i + 1));
+        }
+
+        /// @param useful  where a shadow would change what is seen; the others' shares need not be right
+        template <int N>
+        INSONIFY_INLINE void operator()(light_shares<N>& shares, const surface_points<N>& at,
+                                        const lanes<std::int32_t, N>& useful) const {
+            if constexpr (refined)
+                all_.ask_in_lanes(shares, at, useful, instances_);
+            else
+                all_.ask_one_by_one(shares, at);
+        }
+
+      private:
+        const shadow_maps& all_;
+        std::vector<std::uint16_t> instances_;  ///< of targets
+    };
+    part within(const pixel_box& pixels) const { return {*this, pixels}; }
 
   private:
     struct target_caster {
@@ -83,23 +102,22 @@ class shadow_maps {
 
     template <int N>
     INSONIFY_INLINE void ask_in_lanes(light_shares<N>& shares, const surface_points<N>& at,
-                                      const lanes<std::int32_t, N>& useful) const {
+                                      const lanes<std::int32_t, N>& useful,
+                                      std::span<const std::uint16_t> instances) const {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         // A target's shadow goes on over what would be dark without it.
         ints dark;
-        std::uint16_t instance = 0;
-        for (const target_caster& target : targets_) {
-            ++instance;
+        for (const std::uint16_t instance : instances) {
+            const target_caster& target = targets_[instance - 1u];
             const pixel_box& shadowed = target.shadowed;
             if (at.y < shadowed.y0 || at.y > shadowed.y1 || at.x > shadowed.x1 || at.x + N <= shadowed.x0) continue;
             target.form.template darken<N>(dark, useful, at.position);
             shares.darken(dark ? floats{} : floats{} + 1.0f, instance);
         }
-        const glm::dvec2& travel = light_.travel();
-        const floats facing =
-            at.facet[2] - static_cast<float>(light_.cot_elevation()) *
-                              (at.facet[0] * static_cast<float>(travel.x) + at.facet[1] * static_cast<float>(travel.y));
+        floats cot_elevation, travel_x, travel_y;
+        load(cot_elevation, cot_elevation_), load(travel_x, travel_[0]), load(travel_y, travel_[1]);
+        const floats facing = at.facet[2] - cot_elevation * (at.facet[0] * travel_x + at.facet[1] * travel_y);
         dark = ints(facing <= 0.0f);
         shares.darken(dark ? floats{} : floats{} + 1.0f, at.itself);
         bottom_.template darken<N>(dark, ints(useful & ints(shares.lit > 0.0f)), at.position);
@@ -147,6 +165,7 @@ class shadow_maps {
 
     Policy policy_;
     shadow::light_frame light_;
+    spread<float> cot_elevation_, travel_[2];  ///< the light's, again
     caster_form bottom_;
     std::vector<target_caster> targets_;
 };

@@ -84,26 +84,48 @@ class surface_shader {
     surface_shader(const overhead_geometry& view, const surface_placement& placement, const mesh_view& shape,
                    int subpixel_bits, const Law& law, const Shadows& shadows, const Object& object,
                    image<float>& picture, Labels& marks)
-        : rig_(view.rig()),
-          ray_step_(static_cast<float>(view.ray_step())),
-          subpixel_(1 / static_cast<float>(1 << subpixel_bits)),
-          placement_(placement),
+        : placement_(placement),
           mesh_(shape),
           is_near_(view.has_near_light()),
-          to_light_(is_near_ ? view.light_position() : view.light().to_light()),
           law_(law),
           shadows_(shadows),
           object_(object),
           picture_(picture),
-          labels_(marks) {}
+          labels_(marks),
+          left_(0.5f * static_cast<float>(1 - view.rig().size.x)),
+          top_(0.5f * static_cast<float>(view.rig().size.y - 1)),
+          ray_step_(static_cast<float>(view.ray_step())),
+          corner_step_(ray_step_.values[0] * (1 / static_cast<float>(1 << subpixel_bits))),
+          altitude_(view.rig().altitude),
+          intensity_(view.rig().intensity),
+          sky_(view.rig().sky),
+          ambient_(view.rig().ambient) {
+        const glm::vec3 light(is_near_ ? view.light_position() : view.light().to_light());
+        for (int i = 0; i < 3; ++i) to_light_[i] = light[i];
+    }
 
     /// What shows nothing is black.
     void clear(const pixel_box& tile) const {
         for (int y = tile.y0; y <= tile.y1; ++y) std::fill_n(&picture_(tile.x0, y), tile.width(), 0.0f);
     }
 
-    template <int N>
-    INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
+    /// Shades the pixels of one tile.
+    struct tile_shader {
+        const surface_shader& whole;
+        decltype(std::declval<const Shadows&>().within(pixel_box{})) shadows;
+
+        template <int N>
+        INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
+            whole.shade(f, shadows);
+        }
+    };
+    tile_shader on(const pixel_box& tile) const { return {*this, shadows_.within(tile)}; }
+
+  private:
+    static constexpr bool labelled = std::is_same_v<Labels, labels>;
+
+    template <int N, class TileShadows>
+    INSONIFY_INLINE void shade(const fragment_lanes<N, surface_varyings>& f, const TileShadows& shadows) const {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
@@ -123,17 +145,17 @@ class surface_shader {
             // A label wants to know who stands in the light even of what faces away.
             const ints useful = labelled ? f.visible : ints(f.visible & ints(sine > 0.0f));
             if constexpr (std::is_same_v<Shadows, exact_shadows>) {
-                if (any(useful)) shadows_(shares, f, object_.instance, useful);
+                if (any(useful)) shadows(shares, f, object_.instance, useful);
             } else if (any(useful)) {
                 surface_points<N> at;
                 at.x = f.x;
                 at.y = f.y;
                 at.visible = f.visible;
                 at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
-                const pixel_rays<N> rays(rig_, ray_step_, f);
+                const pixel_rays<N> rays(*this, f);
                 rays.position(at.position, f);
                 facet_normal<N>(at.facet, rays, f, side);
-                shadows_(shares, at, useful);
+                shadows(shares, at, useful);
             }
         }
 
@@ -142,7 +164,9 @@ class surface_shader {
         floats direct;
         law<N>(direct, is_bright ? sine : floats{});
         direct = is_bright ? direct : floats{};
-        const floats light = rig_.intensity * direct * shares.lit + rig_.sky * open_sky + rig_.ambient;
+        floats intensity, sky, ambient;
+        load(intensity, intensity_), load(sky, sky_), load(ambient, ambient_);
+        const floats light = intensity * direct * shares.lit + sky * open_sky + ambient;
         std::uint8_t types[static_cast<unsigned>(N)];
         floats reflectivity;
         if constexpr (Object::uniform) {
@@ -166,18 +190,15 @@ class surface_shader {
             }
     }
 
-  private:
-    static constexpr bool labelled = std::is_same_v<Labels, labels>;
-
     /// The unit vector to the light.
     template <int N>
     INSONIFY_INLINE void point_to_light(lanes<float, N> (&into)[3],
                                         const fragment_lanes<N, surface_varyings>& f) const {
         using floats = lanes<float, N>;
-        for (int i = 0; i < 3; ++i) into[i] = floats{} + to_light_[i];
+        for (int i = 0; i < 3; ++i) load(into[i], to_light_[i]);
         if (!is_near_) return;
         floats position[3], square = floats{}, length;
-        pixel_rays<N>(rig_, ray_step_, f).position(position, f);
+        pixel_rays<N>(*this, f).position(position, f);
         for (int i = 0; i < 3; ++i) {
             into[i] = into[i] - position[i];
             square = square + into[i] * into[i];
@@ -192,16 +213,16 @@ class surface_shader {
     struct pixel_rays {
         using floats = lanes<float, N>;
         using fragments = fragment_lanes<N, surface_varyings>;
-        float altitude, step;
+        floats altitude, corner_step;
         floats x, y;
 
-        /// @param one  how far the ground is from pixel to pixel, seen from a height of one
-        INSONIFY_INLINE pixel_rays(const overhead& rig, float one, const fragments& f)
-            : altitude(rig.altitude), step(one) {
-            floats column;
+        INSONIFY_INLINE pixel_rays(const surface_shader& s, const fragments& f) {
+            load(altitude, s.altitude_), load(corner_step, s.corner_step_);
+            floats column, step;
             count_up<float, N>(column);
-            x = (column + (static_cast<float>(f.x) + 0.5f * static_cast<float>(1 - rig.size.x))) * step;
-            y = floats{} + (0.5f * static_cast<float>(rig.size.y - 1) - static_cast<float>(f.y)) * step;
+            load(step, s.ray_step_);
+            x = (column + (static_cast<float>(f.x) + s.left_)) * step;
+            y = (s.top_ - static_cast<float>(f.y)) * step;
         }
         /// Of what the pixels show.
         INSONIFY_INLINE void position(floats (&into)[3], const fragments& f) const {
@@ -211,11 +232,11 @@ class surface_shader {
             into[1] = y * down;
         }
         /// Of the corner of a compact triangle.
-        INSONIFY_INLINE void corner(floats (&into)[3], const fragments& f, int i, float subpixel) const {
+        INSONIFY_INLINE void corner(floats (&into)[3], const fragments& f, int i) const {
             into[2] = f.at_corner(i, 3);
             const floats down = altitude - into[2];
-            into[0] = (x + f.right[i] * (step * subpixel)) * down;
-            into[1] = (y - f.down[i] * (step * subpixel)) * down;
+            into[0] = (x + f.right[i] * corner_step) * down;
+            into[1] = (y - f.down[i] * corner_step) * down;
         }
     };
 
@@ -225,7 +246,7 @@ class surface_shader {
                                       const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& side) const {
         using floats = lanes<float, N>;
         floats corner[3][3], ab[3], ac[3];
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { rays.corner(corner[i], f, i, subpixel_); });
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { rays.corner(corner[i], f, i); });
         if (f.wide != 0) place_corners<N>(corner, f);
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
             ab[i] = corner[1][i] - corner[0][i];
@@ -266,17 +287,19 @@ class surface_shader {
             gather<N>(into, [&](int k) { return law_(lane(sine, k)); });
     }
 
-    overhead rig_;
-    float ray_step_, subpixel_;
     const surface_placement& placement_;
     mesh_view mesh_;
     bool is_near_;
-    glm::vec3 to_light_;  ///< where it stands, if it is near
     Law law_;
     const Shadows& shadows_;
     Object object_;
     image<float>& picture_;
     Labels& labels_;
+    float left_, top_;                      ///< from the picture's middle to the first pixel's centre, in pixels
+    spread<float> ray_step_, corner_step_;  ///< how far the ground is from pixel to pixel, and from sub-pixel to
+                                            ///< sub-pixel, seen from a height of one
+    spread<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
+    spread<float> to_light_[3];                           ///< where it stands, if it is near
 };
 
 }  // namespace detail
