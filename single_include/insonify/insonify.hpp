@@ -1076,10 +1076,10 @@ struct memory_block {
     static constexpr std::size_t page = std::size_t{1} << 21;   ///< a large one, which the system clears in one go
     static constexpr std::size_t alignment = 64;                ///< at least
 
-    /// How much a block for so many bytes holds. Sizes that differ by less than a quarter get the same, as those of a
-    /// data set's pictures mostly do; what nobody touches of a page costs nothing.
+    /// How much a block for so many bytes, `least` of them, holds. Sizes that differ by less than a third mostly get
+    /// the same, as those of a data set's pictures do; what nobody touches of it costs nothing.
     static std::size_t rounded(std::size_t bytes) {
-        const std::size_t step = (std::max)(is_paged(bytes) ? page : least / 4, std::bit_floor(bytes) / 4);
+        const std::size_t step = std::bit_floor(bytes) / 2;
         return (bytes + step - 1) / step * step;
     }
 
@@ -1187,13 +1187,14 @@ class spare_memory {
     }
     void* drop(int i) noexcept {
         const block dropped = blocks_[i];
-        blocks_[i] = blocks_[--count_];
+        std::copy(blocks_ + i + 1, blocks_ + count_, blocks_ + i);
+        --count_;
         kept_ -= dropped.size;
         return dropped.memory;
     }
 
     static constexpr int most_blocks = 64;
-    block blocks_[most_blocks]{};
+    block blocks_[most_blocks]{};  ///< who waits longest first
     int count_ = 0;
     std::size_t kept_ = 0;    ///< bytes of all blocks
     std::size_t in_use_ = 0;  ///< taken by this thread and not given back to it
