@@ -1813,26 +1813,23 @@ class run_reader {
 
     bool empty() const { return runs_.empty(); }
 
-    /// Sets the names of the next small triangles, Most of them or as many as come before one that isn't small.
+    /// Sets the names of the next small triangles, Most of them or as many as come before one that isn't small; behind
+    /// those stands the first again, and the second half is scratch.
     /// @returns how many
     template <int Most>
-    INSONIFY_INLINE int take_small(std::uint32_t (&names)[static_cast<unsigned>(Most)]) {
+    INSONIFY_INLINE int take_small(std::uint32_t (&names)[static_cast<unsigned>(2 * Most)]) {
+        lanes<std::uint32_t, Most> number;
+        count_up<std::uint32_t, Most>(number);
         int count = 0;
         while (count < Most && !runs_.empty() && runs_.front().is_small) {
             const triangle_run& run = runs_.front();
-            const std::uint32_t next = run.first + taken_;
-            const int some = static_cast<int>((std::min)(run.count - taken_, static_cast<std::uint32_t>(Most - count)));
-            if (some == Most) {
-                lanes<std::uint32_t, Most> number;
-                count_up<std::uint32_t, Most>(number);
-                store(names, lanes<std::uint32_t, Most>(number + next));
-            } else {
-                for (int i = 0; i < some; ++i) names[count + i] = next + static_cast<std::uint32_t>(i);
-            }
-            count += some;
-            taken_ += static_cast<std::uint32_t>(some);
+            const std::uint32_t some = (std::min)(run.count - taken_, static_cast<std::uint32_t>(Most - count));
+            store(names + count, lanes<std::uint32_t, Most>(number + (run.first + taken_)));
+            count += static_cast<int>(some);
+            taken_ += some;
             if (taken_ == run.count) advance();
         }
+        for (int i = count; count > 0 && i < Most; ++i) names[i] = names[0];
         return count;
     }
     /// The next run.
@@ -3774,7 +3771,7 @@ struct tile_kernel {
     template <int N>
     INSONIFY_INLINE void draw_small_ones(run_reader& left, const drawn_area<N>& area) const {
         struct group {
-            std::uint32_t names[static_cast<unsigned>(N)];
+            std::uint32_t names[static_cast<unsigned>(2 * N)];  // see take_small
             int count;
         };
         group groups[3];
@@ -3800,10 +3797,9 @@ struct tile_kernel {
     template <int N>
     INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count, const drawn_area<N>& pixels) const {
         using reals = lanes<Real, N>;
-        const auto name = [&](int k) { return names[k < count ? k : 0]; };
         reals z[3];
         corner_lanes<N> at([&](int i, auto& x, auto& y) INSONIFY_INLINE_LAMBDA {
-            const kept_lanes<N, Real> corner([&](int k) -> const auto& { return triangles.corner(name(k), i); });
+            const kept_lanes<N, Real> corner([&](int k) -> const auto& { return triangles.corner(names[k], i); });
             x = corner.x;
             y = corner.y;
             z[i] = corner.depth;

@@ -187,7 +187,7 @@ struct tile_kernel {
     template <int N>
     INSONIFY_INLINE void draw_small_ones(run_reader& left, const drawn_area<N>& area) const {
         struct group {
-            std::uint32_t names[static_cast<unsigned>(N)];
+            std::uint32_t names[static_cast<unsigned>(2 * N)];  // see take_small
             int count;
         };
         group groups[3];
@@ -213,10 +213,9 @@ struct tile_kernel {
     template <int N>
     INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count, const drawn_area<N>& pixels) const {
         using reals = lanes<Real, N>;
-        const auto name = [&](int k) { return names[k < count ? k : 0]; };
         reals z[3];
         corner_lanes<N> at([&](int i, auto& x, auto& y) INSONIFY_INLINE_LAMBDA {
-            const kept_lanes<N, Real> corner([&](int k) -> const auto& { return triangles.corner(name(k), i); });
+            const kept_lanes<N, Real> corner([&](int k) -> const auto& { return triangles.corner(names[k], i); });
             x = corner.x;
             y = corner.y;
             z[i] = corner.depth;
