@@ -7877,9 +7877,12 @@ struct topology {
     std::size_t degenerate = 0;      ///< triangles with two corners in the same place, left out of everything else
     std::size_t boundary_edges = 0;  ///< edges with one triangle
     std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that run along it the same way
+    std::size_t inward_pieces = 0;   ///< connected ones whose triangles face inwards, as those of a cavity do
 
     /// Every edge joins two triangles of the same orientation.
     bool closed() const { return triangles > 0 && boundary_edges == 0 && tangled_edges == 0; }
+    /// All that one sees of it from outside is the front of its triangles.
+    bool solid() const { return closed() && inward_pieces == 0; }
     /// V - E + F: 2 for a closed surface of one piece without handles.
     std::int64_t euler_characteristic() const {
         return static_cast<std::int64_t>(vertices + triangles) - static_cast<std::int64_t>(edges);
@@ -7916,6 +7919,12 @@ inline topology inspect(const mesh& m) {
     // An edge is sorted under its lower vertex; the third element tells which way the triangle runs along it.
     std::vector<std::tuple<std::uint32_t, std::uint32_t, bool>> sides;
     std::vector<bool> used(m.positions.size());
+    std::vector<std::uint32_t> joined = first;  // to a vertex of the same piece; its last is the piece's name
+    const auto piece_of = [&](std::uint32_t vertex) {
+        while (joined[vertex] != vertex) vertex = joined[vertex] = joined[joined[vertex]];
+        return vertex;
+    };
+    std::vector<double> volume(m.positions.size());  // six times those that pieces enclose
     sides.reserve(3 * m.triangles.size());
     for (const glm::uvec3& t : m.triangles) {
         const std::uint32_t corners[3] = {first[t.x], first[t.y], first[t.z]};
@@ -7929,9 +7938,20 @@ inline topology inspect(const mesh& m) {
             sides.emplace_back((std::min)(a, b), (std::max)(a, b), a < b);
             out.vertices += used[a] ? 0u : 1u;
             used[a] = true;
+            joined[piece_of(a)] = piece_of(b);
         }
     }
     std::sort(sides.begin(), sides.end());
+
+    for (const glm::uvec3& t : m.triangles) {
+        const std::uint32_t piece = piece_of(t.x);
+        const glm::dvec3 from(m.positions[piece]);
+        volume[piece] +=
+            numeric::dot(glm::dvec3(m.positions[t.x]) - from,
+                         numeric::cross(glm::dvec3(m.positions[t.y]) - from, glm::dvec3(m.positions[t.z]) - from));
+    }
+    for (std::uint32_t v = 0; v < volume.size(); ++v)
+        if (used[v] && joined[v] == v && !(volume[v] > 0)) ++out.inward_pieces;
 
     for (std::size_t i = 0, end; i < sides.size(); i = end) {
         const auto [a, b, backwards] = sides[i];
@@ -10978,8 +10998,9 @@ struct target {
     pose placement;
     std::string class_name;
     material surface{.reflectivity = 0.9f};
-    /// Nothing that a picture shows lies inside or below it: a closed surface, or one that lies on everything, as a
-    /// heightfield does. Shadows are then cheaper; said of something open, shadows of its back side are missing.
+    /// Nothing that a picture shows lies inside or below it: a closed surface whose triangles face outwards, or one
+    /// that lies on everything, as a heightfield does. Pictures are then cheaper; said of something open, its back side
+    /// is missing, and so are shadows of it.
     bool is_solid = false;
 };
 
@@ -10999,7 +11020,7 @@ struct scene {
         mesh& added = targets.back().shape;
         validate(added);
         if (added.normals.empty()) added.normals = smooth_normals(added);
-        targets.back().is_solid = added.triangles.size() <= (std::size_t{1} << 16) && inspect(added).closed();
+        targets.back().is_solid = added.triangles.size() <= (std::size_t{1} << 16) && inspect(added).solid();
         return targets.back();
     }
 
@@ -11166,6 +11187,14 @@ struct placed_mesh {
 
     placed_mesh(const mesh_view& m, const bounding_box& around, const affine& map, bool solid)
         : shape(m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
+
+    /// Whether its triangles run the other way in the rig's frame.
+    bool is_mirrored() const { return numeric::determinant(to_rig.linear) < 0; }
+    /// The sides that nobody sees of it.
+    cull_mode hidden() const {
+        if (!is_solid) return cull_mode::none;
+        return is_mirrored() ? cull_mode::front : cull_mode::back;
+    }
 };
 
 /// Which pixels may show an object, or something in its shadow that lies no lower than `lowest`, in the rig's frame:
@@ -11522,8 +11551,8 @@ class exact_shadows {
                     l.casters.emplace_back();
                     continue;
                 }
-                const bool is_mirrored = numeric::determinant(s.placed->to_rig.linear) < 0;
-                l.casters.emplace_back(l.rays, s.placed->shape, s.corners, s.placed->is_solid, is_mirrored, ex);
+                l.casters.emplace_back(l.rays, s.placed->shape, s.corners, s.placed->is_solid, s.placed->is_mirrored(),
+                                       ex);
             }
     }
 
@@ -12087,7 +12116,8 @@ class overhead_painter {
                                                                   options_.law, shadows, object, out_.image,
                                                                   out_.labels);
         return draw_lanes(shape.shape, placement, shader, depth_, std::span(target_pixels_).subspan(later),
-                          {.keep = keep_depth::larger,
+                          {.cull = shape.hidden(),
+                           .keep = keep_depth::larger,
                            .load = load,
                            .subpixel_bits = options_.subpixel_bits,
                            .tile = options_.tile,

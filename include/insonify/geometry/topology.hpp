@@ -1,6 +1,7 @@
 // Is a mesh closed? The question to ask of an imported target before it casts a shadow.
 #pragma once
 
+#include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 
 #include <algorithm>
@@ -26,9 +27,12 @@ struct topology {
     std::size_t degenerate = 0;      ///< triangles with two corners in the same place, left out of everything else
     std::size_t boundary_edges = 0;  ///< edges with one triangle
     std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that run along it the same way
+    std::size_t inward_pieces = 0;   ///< connected ones whose triangles face inwards, as those of a cavity do
 
     /// Every edge joins two triangles of the same orientation.
     bool closed() const { return triangles > 0 && boundary_edges == 0 && tangled_edges == 0; }
+    /// All that one sees of it from outside is the front of its triangles.
+    bool solid() const { return closed() && inward_pieces == 0; }
     /// V - E + F: 2 for a closed surface of one piece without handles.
     std::int64_t euler_characteristic() const {
         return static_cast<std::int64_t>(vertices + triangles) - static_cast<std::int64_t>(edges);
@@ -65,6 +69,12 @@ inline topology inspect(const mesh& m) {
     // An edge is sorted under its lower vertex; the third element tells which way the triangle runs along it.
     std::vector<std::tuple<std::uint32_t, std::uint32_t, bool>> sides;
     std::vector<bool> used(m.positions.size());
+    std::vector<std::uint32_t> joined = first;  // to a vertex of the same piece; its last is the piece's name
+    const auto piece_of = [&](std::uint32_t vertex) {
+        while (joined[vertex] != vertex) vertex = joined[vertex] = joined[joined[vertex]];
+        return vertex;
+    };
+    std::vector<double> volume(m.positions.size());  // six times those that pieces enclose
     sides.reserve(3 * m.triangles.size());
     for (const glm::uvec3& t : m.triangles) {
         const std::uint32_t corners[3] = {first[t.x], first[t.y], first[t.z]};
@@ -78,9 +88,20 @@ inline topology inspect(const mesh& m) {
             sides.emplace_back((std::min)(a, b), (std::max)(a, b), a < b);
             out.vertices += used[a] ? 0u : 1u;
             used[a] = true;
+            joined[piece_of(a)] = piece_of(b);
         }
     }
     std::sort(sides.begin(), sides.end());
+
+    for (const glm::uvec3& t : m.triangles) {
+        const std::uint32_t piece = piece_of(t.x);
+        const glm::dvec3 from(m.positions[piece]);
+        volume[piece] +=
+            numeric::dot(glm::dvec3(m.positions[t.x]) - from,
+                         numeric::cross(glm::dvec3(m.positions[t.y]) - from, glm::dvec3(m.positions[t.z]) - from));
+    }
+    for (std::uint32_t v = 0; v < volume.size(); ++v)
+        if (used[v] && joined[v] == v && !(volume[v] > 0)) ++out.inward_pieces;
 
     for (std::size_t i = 0, end; i < sides.size(); i = end) {
         const auto [a, b, backwards] = sides[i];

@@ -144,8 +144,8 @@ class exact_shadows {
                     l.casters.emplace_back();
                     continue;
                 }
-                const bool is_mirrored = numeric::determinant(s.placed->to_rig.linear) < 0;
-                l.casters.emplace_back(l.rays, s.placed->shape, s.corners, s.placed->is_solid, is_mirrored, ex);
+                l.casters.emplace_back(l.rays, s.placed->shape, s.corners, s.placed->is_solid, s.placed->is_mirrored(),
+                                       ex);
             }
     }
 

@@ -230,7 +230,8 @@ class overhead_painter {
                                                                   options_.law, shadows, object, out_.image,
                                                                   out_.labels);
         return draw_lanes(shape.shape, placement, shader, depth_, std::span(target_pixels_).subspan(later),
-                          {.keep = keep_depth::larger,
+                          {.cull = shape.hidden(),
+                           .keep = keep_depth::larger,
                            .load = load,
                            .subpixel_bits = options_.subpixel_bits,
                            .tile = options_.tile,

@@ -23,8 +23,9 @@ struct target {
     pose placement;
     std::string class_name;
     material surface{.reflectivity = 0.9f};
-    /// Nothing that a picture shows lies inside or below it: a closed surface, or one that lies on everything, as a
-    /// heightfield does. Shadows are then cheaper; said of something open, shadows of its back side are missing.
+    /// Nothing that a picture shows lies inside or below it: a closed surface whose triangles face outwards, or one
+    /// that lies on everything, as a heightfield does. Pictures are then cheaper; said of something open, its back side
+    /// is missing, and so are shadows of it.
     bool is_solid = false;
 };
 
@@ -44,7 +45,7 @@ struct scene {
         mesh& added = targets.back().shape;
         validate(added);
         if (added.normals.empty()) added.normals = smooth_normals(added);
-        targets.back().is_solid = added.triangles.size() <= (std::size_t{1} << 16) && inspect(added).closed();
+        targets.back().is_solid = added.triangles.size() <= (std::size_t{1} << 16) && inspect(added).solid();
         return targets.back();
     }
 

@@ -40,6 +40,7 @@ measures measure(const in::mesh& m) {
 void check_closed_and_outward(const in::mesh& m) {
     const in::topology t = in::inspect(m);
     CHECK(t.closed());
+    CHECK(t.solid());
     CHECK(t.euler_characteristic() == 2);
     CHECK(t.degenerate == 0);
     CHECK(measure(m).volume > 0);
@@ -275,8 +276,30 @@ TEST_CASE("topology tells open, tangled and closed surfaces apart") {
         CHECK(in::weld({{nan_value, 0, 0}, {nan_value, 0, 0}, {-0.0f, 1, 2}, {0.0f, 1, 2}}) ==
               std::vector<std::uint32_t>{0, 1, 2, 2});
     }
+    SECTION("a piece that faces inwards is closed, and nothing solid, beside one that does not and inside of it") {
+        const auto with = [&](float size, float away, bool is_turned) {
+            in::mesh both = m;
+            const auto corners = static_cast<std::uint32_t>(m.positions.size());
+            for (const glm::vec3& p : m.positions) both.positions.push_back(size * p + glm::vec3(away));
+            for (glm::uvec3 t : m.triangles) {
+                if (is_turned) std::swap(t.x, t.y);
+                both.triangles.push_back(t + corners);
+            }
+            return in::inspect(both);
+        };
+        CHECK(in::inspect(m).solid());
+        for (const auto& [size, away] : {std::pair(1.0f, 9.0f), std::pair(0.1f, 0.1f)}) {
+            CHECK(with(size, away, false).solid());
+            CHECK(with(size, away, true).closed());
+            CHECK(with(size, away, true).inward_pieces == 1);
+            CHECK_FALSE(with(size, away, true).solid());
+        }
+        for (glm::vec3& p : m.positions) p.z = 0;  // flat, it has no inside
+        CHECK(in::inspect(m).inward_pieces == 1);
+    }
     SECTION("nothing is not closed") {
         CHECK_FALSE(in::inspect(in::mesh{}).closed());
+        CHECK_FALSE(in::inspect(in::mesh{}).solid());
     }
     SECTION("an index without a position is refused") {
         m.triangles.push_back({0, 1, 99});
