@@ -1,7 +1,7 @@
 // Is a mesh closed? The question to ask of an imported target before it casts a shadow.
 #pragma once
 
-#include <insonify/core/numeric.hpp>
+#include <insonify/core/linear.hpp>
 #include <insonify/geometry/mesh.hpp>
 
 #include <algorithm>
