@@ -5,8 +5,8 @@
 #if defined(EXAMPLES_LIBDEFLATE)
 #include <libdeflate.h>
 
-static unsigned char* packed(unsigned char* bytes, int count, int* packed_count, int) {
-    libdeflate_compressor* const compressor = libdeflate_alloc_compressor(6);
+static unsigned char* packed(unsigned char* bytes, int count, int* packed_count, int level) {
+    libdeflate_compressor* const compressor = libdeflate_alloc_compressor(level);
     if (compressor == nullptr) return nullptr;
     const std::size_t most = libdeflate_zlib_compress_bound(compressor, static_cast<std::size_t>(count));
     auto* const out = static_cast<unsigned char*>(std::malloc(most));  // stb frees it

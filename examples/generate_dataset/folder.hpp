@@ -47,20 +47,27 @@ class folder_lock {
     int handle_ = -1;
 };
 
-/// Run lengths of a mask in COCO's order: down the columns, beginning with zeros.
-inline std::vector<std::int64_t> run_lengths(const in::image<std::uint8_t>& mask) {
+/// Run lengths of a mask in COCO's order: down the columns, beginning with zeros. Nothing is set outside of the box.
+inline std::vector<std::int64_t> run_lengths(const in::image<std::uint8_t>& mask, const in::label_box& box) {
     std::vector<std::int64_t> runs;
     bool inside = false;
     std::int64_t run = 0;
-    for (int x = 0; x < mask.width(); ++x)
-        for (int y = 0; y < mask.height(); ++y) {
-            if ((mask(x, y) != 0) != inside) {
-                runs.push_back(run);
-                run = 0;
-                inside = !inside;
-            }
-            ++run;
+    const auto append = [&](bool is_set, std::int64_t pixels) {
+        if (is_set != inside && pixels > 0) {
+            runs.push_back(run);
+            run = 0;
+            inside = is_set;
         }
+        run += pixels;
+    };
+    const std::int64_t height = mask.height();
+    append(false, box.x * height);
+    for (int x = box.x; x < box.x + box.width; ++x) {
+        append(false, box.y);
+        for (int y = box.y; y < box.y + box.height; ++y) append(mask(x, y) != 0, 1);
+        append(false, height - box.y - box.height);
+    }
+    append(false, (mask.width() - box.x - box.width) * height);
     runs.push_back(run);
     return runs;
 }
@@ -109,7 +116,7 @@ class dataset_folder {
                         {"bbox", {box.x, box.y, box.width, box.height}},
                         {"bbox_m", {box.x * metres, box.y * metres, box.width * metres, box.height * metres}},
                         {"area", area},
-                        {"segmentation", {{"size", {o.size, o.size}}, {"counts", run_lengths(mask)}}}};
+                        {"segmentation", {{"size", {o.size, o.size}}, {"counts", run_lengths(mask, box)}}}};
         };
         const auto degrees = [](double radians) { return in::numeric::to_degrees(radians); };
         json record{{"id", p.index}, {"file", file}, {"size", o.size}};
