@@ -4,10 +4,9 @@
 // whatever interrupts a run, what they list is there.
 #pragma once
 
-#include <insonify/io/png.hpp>
-
 #include <set>
 
+#include "../common/png_bytes.hpp"
 #include "draw.hpp"
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -72,6 +71,11 @@ inline std::vector<std::int64_t> run_lengths(const in::image<std::uint8_t>& mask
     return runs;
 }
 
+/// A file that is yet to be written.
+struct file {
+    std::string path, bytes;
+};
+
 class dataset_folder {
   public:
     /// Opens or makes the folder.
@@ -95,19 +99,18 @@ class dataset_folder {
 
     bool has(const plan& p) const { return fs::exists(record_path(p.id())); }
 
-    /// Writes an image, its masks, and last its record.
-    void add(const options& o, const plan& p, const drawn& d) {
-        const std::string file = "images/" + p.class_name + "/" + p.id() + ".png";
+    /// An image's masks, the image, and last its record: to be written in this order.
+    std::vector<file> files_of(const options& o, const plan& p, const drawn& d) const {
+        const std::string picture = "images/" + p.class_name + "/" + p.id() + ".png";
         const in::target_label& label = d.labels.targets.front();
         const auto target = in::target_mask(d.labels, label.instance);
         const auto shadow = in::shadow_mask(d.labels, label.instance);
-        in::write_png((root_ / "masks" / (p.id() + "_target.png")).string(), target);
-        in::write_png((root_ / "masks" / (p.id() + "_shadow.png")).string(), shadow);
-        in::write_png((root_ / "masks" / (p.id() + "_seabed.png")).string(), d.labels.seabed);
-        if (d.gray.empty())
-            in::write_png((root_ / file).string(), d.color);
-        else
-            in::write_png((root_ / file).string(), d.gray);
+        const auto mask_path = [&](const char* of) { return (root_ / "masks" / (p.id() + of)).string(); };
+        std::vector<file> files{
+            {mask_path("_target.png"), examples::png_bytes(target)},
+            {mask_path("_shadow.png"), examples::png_bytes(shadow)},
+            {mask_path("_seabed.png"), examples::png_bytes(d.labels.seabed)},
+            {(root_ / picture).string(), d.gray.empty() ? examples::png_bytes(d.color) : examples::png_bytes(d.gray)}};
 
         const double metres = d.known.metres_per_pixel;
         const auto annotation = [&](const std::string& category, const in::label_box& box, std::int64_t area,
@@ -119,7 +122,7 @@ class dataset_folder {
                         {"segmentation", {{"size", {o.size, o.size}}, {"counts", run_lengths(mask, box)}}}};
         };
         const auto degrees = [](double radians) { return in::numeric::to_degrees(radians); };
-        json record{{"id", p.index}, {"file", file}, {"size", o.size}};
+        json record{{"id", p.index}, {"file", picture}, {"size", o.size}};
         record["annotations"] = {annotation(p.class_name, label.box, label.area, target),
                                  annotation("shadow", label.shadow_box, label.shadow_area, shadow)};
         record["parameters"] = {{"class", p.class_name},
@@ -154,7 +157,8 @@ class dataset_folder {
                                 {"noise_seed", p.noise_seed},
                                 {"target_area_px", label.area},
                                 {"shadow_area_px", label.shadow_area}};
-        in::write_file(record_path(p.id()).string(), record.dump() + "\n");
+        files.push_back({record_path(p.id()).string(), record.dump() + "\n"});
+        return files;
     }
 
     /// Makes annotations.json and manifest.csv of all records. @returns how many there are

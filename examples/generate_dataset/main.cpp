@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <future>
 
 #if __has_include(<malloc.h>)
 #include <malloc.h>
@@ -56,13 +57,30 @@ int main(int argc, char** argv) try {
     keep_freed_memory();
 
     // Whole images run side by side, each by itself on one thread: encoding a PNG is as long as drawing it, and serial.
+    // While the disk takes an image, its thread draws the next.
     insonify::thread_pool pool(o.threads);
     examples::progress bar(plans.size());
-    pool.bulk(plans.size(), [&](std::size_t i) {
-        if (stop_signal != 0) return;
+    std::atomic<std::size_t> next = 0;
+    const auto make_some = [&] {
         insonify::serial_executor alone;
-        folder.add(o, plans[i], generator::draw(o, plans[i], shared, alone));
-        bar.finished_one();
+        std::future<void> written;
+        for (std::size_t i = next++; i < plans.size() && stop_signal == 0; i = next++) {
+            auto files = folder.files_of(o, plans[i], generator::draw(o, plans[i], shared, alone));
+            if (written.valid()) written.get();
+            written = std::async(std::launch::async, [&bar, files = std::move(files)] {
+                for (const generator::file& f : files) insonify::write_file(f.path, f.bytes);
+                bar.finished_one();
+            });
+        }
+        if (written.valid()) written.get();
+    };
+    pool.bulk(static_cast<std::size_t>(pool.threads()), [&](std::size_t) {
+        try {
+            make_some();
+        } catch (...) {
+            next = plans.size();  // nobody begins another
+            throw;
+        }
     });
     const std::size_t listed = folder.write_tables();
 
