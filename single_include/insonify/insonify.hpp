@@ -3332,14 +3332,13 @@ class tile_buffer {
                                const lanes<std::int32_t, N>& y) const {
         into = (y - y_) * stride_ + (x - x_);
     }
+    std::ptrdiff_t index(int x, int y) const { return static_cast<std::ptrdiff_t>(y - y_) * stride_ + (x - x_); }
     float* depths() { return depth_.get(); }
     std::uint32_t* winners() { return winner_.get(); }
     float* depth(int x, int y) { return depth_.get() + index(x, y); }
     std::uint32_t* winner(int x, int y) { return Winners ? winner_.get() + index(x, y) : nullptr; }
 
   private:
-    std::ptrdiff_t index(int x, int y) const { return static_cast<std::ptrdiff_t>(y - y_) * stride_ + (x - x_); }
-
     int stride_;
     std::uint32_t block_[static_cast<unsigned>(block * block)];
     int x_ = 0, y_ = 0;
@@ -3541,48 +3540,58 @@ struct small_fill {
             }
     }
 
-    /// Triangle k, N pixels of a row at a time.
+    /// Triangle k, N columns at a time. Most have no more: what is the same for those that follow is left alone for the
+    /// first.
     template <class Nearest>
     INSONIFY_INLINE void fill_rows(int k, const Nearest& nearest) const {
-        ints column;
-        count_up<std::int32_t, N>(column);
-        const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + names[k];
-        const floats lowest = floats{} + planes.lowest[k], highest = floats{} + planes.highest[k];
-        reals error{};
+        if (t.x0[k] > t.x1[k]) return;
+        fill_columns(k, 0, nearest);
+        for (int right = N; right <= t.x1[k] - t.x0[k]; right += N) fill_columns(k, right, nearest);
+    }
+
+    /// N columns of triangle k, `first` columns into its box, row by row. What is read in the loop is copied before:
+    /// the compiler can't know that nothing of it is what the loop stores.
+    template <class Nearest>
+    INSONIFY_INLINE void fill_columns(int k, int first, const Nearest& nearest) const {
+        ints at;
+        count_up<std::int32_t, N>(at);
+        at = at + first;
+        ints bc = t.bc.origin[k] + at * t.bc.dx[k];
+        ints ca = t.ca.origin[k] + at * t.ca.dx[k];
+        ints ab = t.ab.origin[k] + at * t.ab.dx[k];
+        const ints bc_dy = ints{} + t.bc.dy[k], ca_dy = ints{} + t.ca.dy[k], ab_dy = ints{} + t.ab.dy[k];
+        reals rise, error{};
+        convert(rise, ints(at * unit + t.right[k]));
+        rise = rise * planes.dx[k];
         if constexpr (exact) error = error + planes.error[k];
-        for (int x = t.x0[k]; x <= t.x1[k]; x += N) {
-            const ints at = column + (x - t.x0[k]);
-            ints bc = t.bc.origin[k] + at * t.bc.dx[k];
-            ints ca = t.ca.origin[k] + at * t.ca.dx[k];
-            ints ab = t.ab.origin[k] + at * t.ab.dx[k];
-            reals right;
-            convert(right, ints(at * unit + t.right[k]));
-            const reals rise = right * planes.dx[k];
-            auto down = static_cast<Real>(t.down[k]);  // goes on exactly: whole numbers of few bits
-            float* depth = tile.depth(x, t.y0[k]);
-            std::uint32_t* winner = tile.winner(x, t.y0[k]);
-            const std::ptrdiff_t stride = tile.stride();
-            for (int y = t.y0[k]; y <= t.y1[k]; ++y, down += static_cast<Real>(unit)) {
-                const ints covered = ints((bc | ca | ab) >= 0);
-                const reals plane = rise + (planes.z[k] + planes.dy[k] * down);
-                floats z;
-                ints doubtful = ints{};
-                round(z, doubtful, plane, error);
-                if constexpr (exact) {
-                    doubtful &= covered;
-                    if (any(doubtful))
-                        for (int i = 0; i < N; ++i)
-                            if (lane(doubtful, i) != 0) set_lane(z, i, nearest(k, x + i, y));
-                }
-                z = z > lowest ? z : lowest;
-                z = z < highest ? z : highest;
-                keep_nearer<N, Winners>(depth, winner, covered, z, drawn);
-                depth += stride;
-                if constexpr (Winners) winner += stride;
-                bc += t.bc.dy[k];
-                ca += t.ca.dy[k];
-                ab += t.ab.dy[k];
+        const Real z_a = planes.z[k], dy = planes.dy[k], step = static_cast<Real>(unit);
+        const floats lowest = floats{} + planes.lowest[k], highest = floats{} + planes.highest[k];
+        const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + names[k];
+        const int x = t.x0[k] + first, last = t.y1[k];
+        const std::ptrdiff_t start = tile.index(x, t.y0[k]), stride = tile.stride();
+        float* depth = tile.depths() + start;
+        std::uint32_t* winner = Winners ? tile.winners() + start : nullptr;
+        auto down = static_cast<Real>(t.down[k]);  // goes on exactly: whole numbers of few bits
+        for (int y = t.y0[k]; y <= last; ++y) {
+            const ints covered = ints((bc | ca | ab) >= 0);
+            floats z;
+            ints doubtful = ints{};
+            round(z, doubtful, rise + (z_a + dy * down), error);
+            if constexpr (exact) {
+                doubtful &= covered;
+                if (any(doubtful))
+                    for (int i = 0; i < N; ++i)
+                        if (lane(doubtful, i) != 0) set_lane(z, i, nearest(k, x + i, y));
             }
+            z = z > lowest ? z : lowest;
+            z = z < highest ? z : highest;
+            keep_nearer<N, Winners>(depth, winner, covered, z, drawn);
+            depth += stride;
+            if constexpr (Winners) winner += stride;
+            down += step;
+            bc += bc_dy;
+            ca += ca_dy;
+            ab += ab_dy;
         }
     }
 };

@@ -54,14 +54,13 @@ class tile_buffer {
                                const lanes<std::int32_t, N>& y) const {
         into = (y - y_) * stride_ + (x - x_);
     }
+    std::ptrdiff_t index(int x, int y) const { return static_cast<std::ptrdiff_t>(y - y_) * stride_ + (x - x_); }
     float* depths() { return depth_.get(); }
     std::uint32_t* winners() { return winner_.get(); }
     float* depth(int x, int y) { return depth_.get() + index(x, y); }
     std::uint32_t* winner(int x, int y) { return Winners ? winner_.get() + index(x, y) : nullptr; }
 
   private:
-    std::ptrdiff_t index(int x, int y) const { return static_cast<std::ptrdiff_t>(y - y_) * stride_ + (x - x_); }
-
     int stride_;
     std::uint32_t block_[static_cast<unsigned>(block * block)];
     int x_ = 0, y_ = 0;
