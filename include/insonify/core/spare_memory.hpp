@@ -13,6 +13,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <new>
 
 #if defined(__linux__)
@@ -23,7 +24,7 @@ namespace insonify::inline INSONIFY_ABI {
 
 namespace detail {
 
-/// Blocks as they come from the system and go back to it.
+/// Blocks as they come from the system and go back to it. Before its first byte each knows how much it holds.
 struct memory_block {
     static constexpr std::size_t least = std::size_t{1} << 16;  ///< bytes that are worth a block
     static constexpr std::size_t page = std::size_t{1} << 21;   ///< a large one, which the system clears in one go
@@ -35,41 +36,65 @@ struct memory_block {
         const std::size_t step = std::bit_floor(bytes) / 2;
         return (bytes + step - 1) / step * step;
     }
-
-    /// @throws std::bad_alloc
-    static void* allocate(std::size_t bytes) {
-        const std::size_t size = rounded(bytes);
-        if (!is_paged(size)) return ::operator new (size, std::align_val_t{alignment});
-#if defined(__linux__)
-        void* const mapped = ::mmap(nullptr, size + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-        if (mapped == MAP_FAILED) raise(std::bad_alloc());
-        const std::size_t before = (page - std::bit_cast<std::uintptr_t>(mapped) % page) % page;
-        char* const memory = static_cast<char*>(mapped) + before;
-        if (before > 0) ::munmap(mapped, before);
-        ::munmap(memory + size, page - before);
-#if defined(MADV_HUGEPAGE)
-        ::madvise(memory, bytes / page * page, MADV_HUGEPAGE);  // refused, it is memory all the same
-#endif
-        return memory;
-#else
-        return ::operator new (size, std::align_val_t{page});
-#endif
+    /// How much a block holds.
+    static std::size_t size_of(const void* memory) {
+        std::size_t size;
+        std::memcpy(&size, static_cast<const char*>(memory) - sizeof size, sizeof size);
+        return size;
     }
 
-    static void free(void* memory, std::size_t bytes) noexcept {
+    // Not inlined: compilers that see through both doubt that what is freed is what was allocated.
+
+    /// @throws std::bad_alloc
+    INSONIFY_RARE static void* allocate(std::size_t bytes) {
         const std::size_t size = rounded(bytes);
-        if (!is_paged(size)) return ::operator delete (memory, std::align_val_t{alignment});
+        char* const memory = is_paged(size) ? map(size, bytes) : new_bytes(alignment, size, alignment);
+        std::memcpy(memory - sizeof size, &size, sizeof size);
+        return memory;
+    }
+
+    INSONIFY_RARE static void free(void* memory) noexcept {
+        const std::size_t size = size_of(memory);
+        char* const first = static_cast<char*>(memory);
+        if (!is_paged(size)) return ::operator delete (first - alignment, std::align_val_t{alignment});
 #if defined(__linux__)
-        ::munmap(memory, size);
+        ::munmap(first - margin, margin + size);
 #else
-        ::operator delete (memory, std::align_val_t{page});
+        ::operator delete (first - page, std::align_val_t{page});
 #endif
     }
 
   private:
+    static constexpr std::size_t margin = std::size_t{1} << 16;  ///< before mapped blocks; no system's pages are larger
+
     /// At least two large pages, of which the first and the last waste one at most.
     static bool is_paged(std::size_t bytes) {
         return bytes >= 2 * page;
+    }
+
+    static char* new_bytes(std::size_t before, std::size_t size, std::size_t aligned_to) {
+        return static_cast<char*>(::operator new (before + size, std::align_val_t{aligned_to})) + before;
+    }
+    /// @param used  of its bytes, from the first on
+    static char* map(std::size_t size, std::size_t used) {
+#if defined(__linux__)
+        const std::size_t all = margin + size + page;
+        void* const mapped = ::mmap(nullptr, all, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (mapped == MAP_FAILED) raise(std::bad_alloc());
+        char* const start = static_cast<char*>(mapped);
+        const std::size_t past = std::bit_cast<std::uintptr_t>(start + margin) % page;
+        const std::size_t before = past == 0 ? 0 : page - past, after = page - before;
+        if (before > 0) ::munmap(start, before);
+        if (after > 0) ::munmap(start + all - after, after);
+        char* const memory = start + before + margin;
+#if defined(MADV_HUGEPAGE)
+        ::madvise(memory, used / page * page, MADV_HUGEPAGE);  // refused, it is memory all the same
+#endif
+        return memory;
+#else
+        static_cast<void>(used);
+        return new_bytes(page, size, page);
+#endif
     }
 };
 
@@ -92,28 +117,29 @@ class spare_memory {
         return &kept.memory;
     }
 
-    /// Memory for so many bytes: of 4 MB and more, at the beginning of a large page.
+    /// Memory for so many bytes: of 4 MB and more, at the beginning of a large page. It may hold twice as many.
     /// @throws std::bad_alloc
     void* take(std::size_t bytes) {
-        const std::size_t size = memory_block::rounded(bytes);
+        const std::size_t least = memory_block::rounded(bytes);
+        const int spare = closest(least);
         void* memory = nullptr;
-        for (int i = 0; i < count_ && memory == nullptr; ++i)
-            if (blocks_[i].size == size) memory = drop(i);
-        if (memory == nullptr) {
-            const std::size_t most = (std::max)(most_, in_use_ + size);
-            while (count_ > 0 && kept_ + in_use_ + size > limit(most)) free(0);
+        if (spare < count_) {
+            memory = drop(spare);
+        } else {
+            const std::size_t most = (std::max)(most_, in_use_ + least);
+            while (count_ > 0 && kept_ + in_use_ + least > limit(most)) free(0);
             memory = memory_block::allocate(bytes);
-            most_ = most;
         }
-        in_use_ += size;
+        in_use_ += memory_block::size_of(memory);
+        most_ = (std::max)(most_, in_use_);
         return memory;
     }
 
-    /// Takes back what `take`, of any thread, gave for as many bytes.
-    void give(void* memory, std::size_t bytes) noexcept {
-        const std::size_t size = memory_block::rounded(bytes);
+    /// Takes back what `take`, of any thread, gave.
+    void give(void* memory) noexcept {
+        const std::size_t size = memory_block::size_of(memory);
         in_use_ -= (std::min)(in_use_, size);
-        if (count_ == most_blocks || kept_ + in_use_ + size > limit(most_)) return memory_block::free(memory, size);
+        if (count_ == most_blocks || kept_ + in_use_ + size > limit(most_)) return memory_block::free(memory);
         blocks_[count_++] = {memory, size};
         kept_ += size;
     }
@@ -134,10 +160,16 @@ class spare_memory {
 
     static std::size_t limit(std::size_t most) { return most + most / 2; }
 
-    void free(int i) noexcept {
-        const std::size_t size = blocks_[i].size;
-        memory_block::free(drop(i), size);
+    /// The smallest block of so many bytes to twice as many; `count_` if there is none.
+    int closest(std::size_t least) const {
+        int best = count_;
+        for (int i = 0; i < count_; ++i) {
+            const std::size_t size = blocks_[i].size;
+            if (size >= least && size <= 2 * least && (best == count_ || size < blocks_[best].size)) best = i;
+        }
+        return best;
     }
+    void free(int i) noexcept { memory_block::free(drop(i)); }
     void* drop(int i) noexcept {
         const block dropped = blocks_[i];
         std::copy(blocks_ + i + 1, blocks_ + count_, blocks_ + i);

@@ -36,9 +36,9 @@ class unfilled_allocator {
     void deallocate(T* memory, std::size_t count) {
         if (!is_block(count)) return std::allocator<T>().deallocate(memory, count);
         if (spare_memory* const spare = spare_memory::mine())
-            spare->give(memory, count * sizeof(T));
+            spare->give(memory);
         else
-            memory_block::free(memory, count * sizeof(T));
+            memory_block::free(memory);
     }
 
     template <class U>
