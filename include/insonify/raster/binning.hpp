@@ -8,6 +8,7 @@
 
 #include <insonify/core/executor.hpp>
 #include <insonify/core/lanes.hpp>
+#include <insonify/core/unfilled.hpp>
 #include <insonify/raster/setup.hpp>
 
 #include <algorithm>
@@ -182,7 +183,7 @@ class tile_bins {
 
   private:
     std::vector<std::uint32_t> first_;
-    std::vector<triangle_run> runs_;
+    unfilled_vector<triangle_run> runs_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail

@@ -17,8 +17,9 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::shadow::detail {
 
-using insonify::detail::convert, insonify::detail::count_up, insonify::detail::lanes, insonify::detail::store,
-    insonify::detail::store_pairs, insonify::detail::transpose, insonify::detail::unfilled_vector;
+using insonify::detail::convert, insonify::detail::count_up, insonify::detail::lanes, insonify::detail::prefetch,
+    insonify::detail::store, insonify::detail::store_pairs, insonify::detail::transpose,
+    insonify::detail::unfilled_vector;
 
 /// A grid as a sweep sees it: X counts its vertices along the axis that the light follows most, Y those across, both
 /// turned so that the light goes towards larger ones, by `slope` of Y for each of X. All points of a ray share
@@ -83,7 +84,8 @@ struct sweep_relief {
         : first_(window.entry), pitch_(grid.rows + below + above) {
         const int columns = (std::min)(window.last_column() + 2, grid.columns) - first_;
         u_.resize(static_cast<std::size_t>(columns * pitch_));
-        // In squares, so that both the mesh and what is made of it are read and written in runs.
+        // In squares, so that both the mesh and what is made of it are read and written in runs; the next one is on its
+        // way.
         constexpr int square = 32;
         const auto drop = static_cast<float>(grid.drop);
         bulk_ranges(ex, static_cast<std::size_t>(columns), square, [&](std::size_t from, std::size_t to) {
@@ -97,8 +99,10 @@ struct sweep_relief {
                     float* const heights = column(x) + below;
                     const auto start = static_cast<float>(x);
                     const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
-                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y)
+                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y) {
+                        prefetch(vertex + (std::min)(y + square, grid.rows - 1) * grid.across);
                         heights[y] = start + drop * vertex[y * grid.across].z;
+                    }
                 }
         });
     }
@@ -134,6 +138,7 @@ struct sweep_kernel {
         for (int i = 0; i < block / N; ++i) lines[i].enter(*this, first_line + i * N, first);
         keep<N>(lines, window.first_column, first);
         for (int column = first; column < last; ++column) {
+            approach<N>(lines, column + 4);
             float* const kept = kept_at(column);
             for (int i = 0; i < block / N; ++i) {
                 float* const to = kept == nullptr ? nullptr : kept + i * N * window.slots;
@@ -163,6 +168,20 @@ struct sweep_kernel {
         const int at = column - window.first_column;
         if (at < 0 || at >= window.columns) return nullptr;
         return crests + (std::ptrdiff_t{at} * window.pitch + first_line) * window.slots;
+    }
+    /// A column soon to be passed: columns lie so far apart that no processor sees the next one coming.
+    template <int N>
+    INSONIFY_INLINE void approach(const line_lanes<N>* lines, int column) const {
+        if (column > window.last_column()) return;
+        constexpr int cache_line = 64 / sizeof(float);
+        const float* const heights = relief.column(column);
+        const int lowest = insonify::detail::lane(lines[0].row, 0),
+                  highest = insonify::detail::lane(lines[block / N - 1].row, N - 1);
+        for (int row = lowest; row < highest; row += cache_line) prefetch(heights + row);
+        prefetch(heights + highest);
+        const float* const kept = kept_at(column);
+        if (kept == nullptr) return;
+        for (int i = 0; i < block * window.slots; i += cache_line) prefetch(kept + i);
     }
     /// The same crests in some columns.
     template <int N>
