@@ -10,7 +10,7 @@
 
 #include "workload.hpp"
 
-namespace peers {
+namespace peers::inline INSONIFY_ABI {
 
 namespace in = insonify;
 
@@ -49,4 +49,4 @@ class insonify_renderer {
     in::overhead rig_;
 };
 
-}  // namespace peers
+}  // namespace peers::inline INSONIFY_ABI

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 
+#include "insonify_builds.hpp"
 #include "insonify_renderer.hpp"
 #include "report.hpp"
 #include <CLI/CLI.hpp>
@@ -28,8 +29,8 @@ namespace in = insonify;
 using bytes = std::vector<std::uint8_t>;
 
 const std::vector<std::string> every_renderer{
-    "insonify",         "insonify_no_grid",    "insonify_exact",      "insonify_map",
-    "embree_mesh_kept", "embree_mesh_rebuilt", "embree_grid_rebuilt", "llvmpipe"};
+    "insonify",        "insonify_no_grid", "insonify_exact",      "insonify_map",        "insonify_native",
+    "insonify_scalar", "embree_mesh_kept", "embree_mesh_rebuilt", "embree_grid_rebuilt", "llvmpipe"};
 
 struct options {
     std::vector<std::string> workloads{"W"};
@@ -50,9 +51,10 @@ options parse(int argc, char** argv) {
     app.add_option("--sizes", o.sizes, "S,M,L: 256, 512, 1024 cells and 512, 1024, 2048 pixels a side (all)")
         ->delimiter(',')
         ->check(CLI::IsMember({"S", "M", "L"}));
-    app.add_option("--only", o.only,
-                   "Of insonify,insonify_no_grid,insonify_exact,insonify_map,embree_mesh_kept,embree_mesh_rebuilt,"
-                   "embree_grid_rebuilt,llvmpipe; embree is all of its three (all)")
+    app.add_option(
+           "--only", o.only,
+           "Of insonify,insonify_no_grid,insonify_exact,insonify_map,insonify_native,insonify_scalar,"
+           "embree_mesh_kept,embree_mesh_rebuilt,embree_grid_rebuilt,llvmpipe; embree is all of its three (all)")
         ->delimiter(',');
     app.add_option("--threads", o.threads, "Of each renderer (2)")->check(CLI::Range(1, 256));
     app.add_option("--frames", o.frames, "Measured, after two to warm up (9)")->check(CLI::Range(1, 10000));
@@ -107,6 +109,10 @@ std::vector<runner> make_runners(const workload::scene& scene, const options& o)
             std::fprintf(stderr, "%s is left out: %s\n", name.c_str(), reason.what());
         }
     };
+    [[maybe_unused]] const auto add_build = [&](const std::string& name, const auto& build) {
+        if (is_wanted(name))
+            runners.push_back({name, build(scene.size.name, scene.setting.name, o.threads), bytes(pixels * pixels)});
+    };
     const auto own = [&]<class Shadow>(const Shadow&, bool is_grid = true) {
         return [&, is_grid] {
             workload::scene given = scene;
@@ -119,6 +125,10 @@ std::vector<runner> make_runners(const workload::scene& scene, const options& o)
     add("insonify_no_grid", own(in::shadow::refined{}, false));
     add("insonify_exact", own(in::shadow::exact{}));
     add("insonify_map", own(in::shadow::map{}));
+#if defined(PEERS_BUILDS)
+    add_build("insonify_native", peers::insonify_native);
+    add_build("insonify_scalar", peers::insonify_scalar);
+#endif
 #if defined(PEERS_EMBREE)
     const auto embree = [&](peers::embree_tree tree) {
         return [&, tree] { return std::make_shared<peers::embree_renderer>(scene.task(), tree, o.threads); };

@@ -15,7 +15,7 @@
 
 #include "task.hpp"
 
-namespace workload {
+namespace workload::inline INSONIFY_ABI {
 
 namespace in = insonify;
 
@@ -151,4 +151,4 @@ struct scene {
     }
 };
 
-}  // namespace workload
+}  // namespace workload::inline INSONIFY_ABI
