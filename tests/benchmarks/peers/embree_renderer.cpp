@@ -40,7 +40,7 @@ class embree_renderer::tracer {
         // A tree for one frame is cheapest as a Morton build of each object, which only a dynamic scene gets.
         if (is_rebuilt()) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
         rtcSetSceneBuildQuality(scene_, is_rebuilt() ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH);
-        attach(tree == embree_tree::grid_rebuilt ? grid() : triangles(task.seabed));
+        attach(is_grid() ? grid() : triangles(task.seabed));
         attach(triangles(task.target));
         rtcCommitScene(scene_);
         if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) throw std::runtime_error("Embree refuses the scene");
@@ -63,6 +63,7 @@ class embree_renderer::tracer {
     }
 
   private:
+    bool is_grid() const { return tree_ == embree_tree::grid_kept || tree_ == embree_tree::grid_rebuilt; }
     bool is_rebuilt() const { return tree_ == embree_tree::mesh_rebuilt || tree_ == embree_tree::grid_rebuilt; }
 
     void attach(RTCGeometry geometry) {
@@ -125,9 +126,8 @@ class embree_renderer::tracer {
         const bool is_seabed = hit.geomID[lane] == 0;
         const workload::surface& s = is_seabed ? task_.seabed : task_.target;
         const float u = hit.u[lane], v = hit.v[lane];
-        const triangle_corners at = is_seabed && tree_ == embree_tree::grid_rebuilt
-                                        ? in_grid(u, v)
-                                        : triangle_corners{s.triangles[hit.primID[lane]], {1 - u - v, u, v}};
+        const triangle_corners at =
+            is_seabed && is_grid() ? in_grid(u, v) : triangle_corners{s.triangles[hit.primID[lane]], {1 - u - v, u, v}};
         return at.weights.x * s.normals[at.index.x] + at.weights.y * s.normals[at.index.y] +
                at.weights.z * s.normals[at.index.z];
     }

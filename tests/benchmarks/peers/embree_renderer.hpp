@@ -9,7 +9,7 @@
 namespace peers {
 
 /// How the seabed is given to Embree, and whether its tree lives longer than a frame.
-enum class embree_tree { mesh_kept, mesh_rebuilt, grid_rebuilt, exact };
+enum class embree_tree { mesh_kept, mesh_rebuilt, grid_kept, grid_rebuilt, exact };
 
 class embree_renderer {
   public:

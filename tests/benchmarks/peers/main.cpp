@@ -29,8 +29,9 @@ namespace in = insonify;
 using bytes = std::vector<std::uint8_t>;
 
 const std::vector<std::string> every_renderer{
-    "insonify",        "insonify_no_grid", "insonify_exact",      "insonify_map",        "insonify_native",
-    "insonify_scalar", "embree_mesh_kept", "embree_mesh_rebuilt", "embree_grid_rebuilt", "llvmpipe"};
+    "insonify",         "insonify_no_grid",    "insonify_exact",   "insonify_map",
+    "insonify_native",  "insonify_scalar",     "embree_mesh_kept", "embree_mesh_rebuilt",
+    "embree_grid_kept", "embree_grid_rebuilt", "llvmpipe"};
 
 struct options {
     std::vector<std::string> workloads{"W"};
@@ -54,7 +55,8 @@ options parse(int argc, char** argv) {
     app.add_option(
            "--only", o.only,
            "Of insonify,insonify_no_grid,insonify_exact,insonify_map,insonify_native,insonify_scalar,"
-           "embree_mesh_kept,embree_mesh_rebuilt,embree_grid_rebuilt,llvmpipe; embree is all of its three (all)")
+           "embree_mesh_kept,embree_mesh_rebuilt,embree_grid_kept,embree_grid_rebuilt,llvmpipe; embree is all of its "
+           "four (all)")
         ->delimiter(',');
     app.add_option("--threads", o.threads, "Of each renderer (2)")->check(CLI::Range(1, 256));
     app.add_option("--frames", o.frames, "Measured, after two to warm up (9)")->check(CLI::Range(1, 10000));
@@ -135,6 +137,7 @@ std::vector<runner> make_runners(const workload::scene& scene, const options& o)
     };
     add("embree_mesh_kept", embree(peers::embree_tree::mesh_kept));
     add("embree_mesh_rebuilt", embree(peers::embree_tree::mesh_rebuilt));
+    add("embree_grid_kept", embree(peers::embree_tree::grid_kept));
     add("embree_grid_rebuilt", embree(peers::embree_tree::grid_rebuilt));
 #endif
 #if defined(PEERS_LLVMPIPE)
