@@ -1,5 +1,4 @@
-// One build of the library, PEERS_BUILD; see insonify_builds.hpp. Nothing of its types goes in or out: they are its
-// own.
+// One build of the library, PEERS_BUILD (insonify_builds.hpp). Its types are its own: none goes in or out.
 #include <algorithm>
 #include <memory>
 #include <string_view>
