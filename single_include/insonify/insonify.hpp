@@ -11960,7 +11960,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify::inline INSONIFY_ABI {
 
 /// How to draw a picture; the types say what is in it.
-template <shadow::policy Shadow = shadow::refined, class Labels = labels, backscatter_law Law = lambert>
+template <shadow::policy Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert>
 struct render_options {
     Shadow shadow{};
     Law law{};
@@ -12210,7 +12210,7 @@ class overhead_painter {
 /// @param ex       who runs it; the result is the same bytes for any executor
 /// @returns a picture of rig.size pixels, linear in [0, 1], with labels of the same size and what was drawn
 /// @throws invalid_input for a rig, a seabed, a pose or an option that can't be right
-template <shadow::policy Shadow = shadow::refined, class Labels = labels, backscatter_law Law = lambert,
+template <shadow::policy Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert,
           executor_argument E = serial_executor>
 frame<Labels> render(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options = {},
                      E&& ex = {}) {

@@ -95,8 +95,7 @@ TEST_CASE("Pictures keep to a budget of intensity") {
     const trial t = random_trial(2, 96);
     in::scene scene;
     scene.seabed = t.bottom;
-    const auto truth =
-        in::render(scene, t.rig, in::render_options<>{.shadow = {.texels_per_pixel = 4}, .cells = 4 * 96});
+    const auto truth = in::render(scene, t.rig, in::render_options<>{.cells = 4 * 96});
     int cells = 1 << 30;
     for (const double tolerated : {0.04, 0.15}) {
         const acc::budget budget{.shadow_edge = 100, .height = 100, .intensity = tolerated};
