@@ -6,7 +6,7 @@
 
 #include <insonify/core/dispatch.hpp>
 #include <insonify/core/linear.hpp>
-#include <insonify/geometry/mesh.hpp>
+#include <insonify/geometry/indices.hpp>
 #include <insonify/raster/binning.hpp>
 #include <insonify/raster/depth.hpp>
 #include <insonify/raster/fold.hpp>
@@ -107,25 +107,6 @@ struct assembled_chunk {
     std::optional<std::uint32_t> bad_index;
 };
 
-/// The largest of some indices.
-struct largest_index_kernel {
-    const std::uint32_t* indices;
-    std::size_t count;
-    std::uint32_t& largest;
-
-    template <int N>
-    INSONIFY_INLINE void run() const {
-        lanes<std::uint32_t, N> most{}, some;
-        std::size_t i = 0;
-        for (; i + N <= count; i += N) {
-            load(some, indices + i);
-            most = some > most ? some : most;
-        }
-        for (int k = 0; k < N; ++k) largest = (std::max)(largest, lane(most, k));
-        for (; i < count; ++i) largest = (std::max)(largest, indices[i]);
-    }
-};
-
 template <class Screen, class Shader>
 struct assembly_kernel;
 
@@ -154,7 +135,7 @@ class screen_mesh {
         std::vector<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
         bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
             assembled_chunk& chunk = chunks[first / grain];
-            chunk.bad_index = bad_index(first, last, options.level);
+            chunk.bad_index = bad_index(m.triangles.subspan(first, last - first), m.positions.size(), options.level);
             if (chunk.bad_index) return;
             chunk.stats.triangles = last - first;
             dispatch(assembly_kernel<screen_mesh, Shader>{*this, shader, tiles, first, last, chunk}, options.level);
@@ -216,20 +197,6 @@ class screen_mesh {
     friend struct assembly_kernel;
 
     std::uint32_t whole() const { return whole_; }
-
-    /// The first index without a position among some triangles.
-    std::optional<std::uint32_t> bad_index(std::size_t first, std::size_t last, isa level) const {
-        const std::size_t vertices = mesh_.positions.size();
-        std::uint32_t largest = 0;
-        dispatch(largest_index_kernel{&indices_[first].x, 3 * (last - first), largest}, level);
-        if (largest < vertices) return std::nullopt;
-        for (std::size_t i = first; i < last; ++i) {
-            const glm::uvec3& t = mesh_.triangles[i];
-            largest = (std::max)({t.x, t.y, t.z});
-            if (largest >= vertices) return largest;
-        }
-        return std::nullopt;
-    }
 
     /// Counted in draw_stats under these names.
     enum class fate { drawn, culled, missed, degenerate, not_finite };

@@ -178,26 +178,6 @@ draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneS
     return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept, shade_tile);
 }
 
-/// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle; where nothing is, the
-/// name says nothing.
-template <vertex_shader VertexShader, executor E>
-draw_stats draw_names(const mesh_view& m, const VertexShader& place, image_view<float> depth,
-                      image_view<std::uint32_t> names, const draw_options& options, E& ex) {
-    const auto copy_names = [&](const auto& triangles, tile_buffer<true>& tile, float) {
-        const pixel_box& box = triangles.box;
-        for (int y = box.y0; y <= box.y1; ++y) {
-            const std::uint32_t* const winner = tile.winner(box.x0, y);
-            std::uint32_t* const to = names.data() + y * names.stride() + box.x0;
-            std::memcpy(to, winner, static_cast<std::size_t>(box.width()) * sizeof *to);
-            if (!triangles.screen.has_wide()) continue;
-            for (int x = 0; x < box.width(); ++x)
-                if (to[x] != tile_buffer<true>::nobody) to[x] = triangles.screen.triangle(to[x]);
-        }
-        return std::uint64_t{0};
-    };
-    return draw_tiles<true, float>(m, place, depth, options, ex, no_records, every_tile, copy_names);
-}
-
 }  // namespace detail
 
 /// Draws depth alone; no shading is compiled.

@@ -1,166 +1,284 @@
-// Hard shadows without a map: whether a triangle stands between a point and the light, asked in doubles of every
-// triangle that might.
+// Hard shadows without a map: every point is tested against every triangle that can block its light.
 //
-// The rule. A point is dark if its own facet faces away from the light or is grazed by it, or if its ray towards the
-// light passes through a triangle, edges included, that the point lies behind by more than rounding can have moved it
-// (2^-40 of the scene's size). It is lit otherwise. There is no bias: a point's own facet holds the point to 2^-49, and
-// neighbours in its plane meet the ray at their edges alone. Of solids only the sides that face away from the light
-// are asked: a ray that starts outside of one and runs through it leaves it through a lit side and so has entered it
-// through one of those.
+// Casters and points meet on a plane that the light's rays cross upright (detail/light_planes.hpp). The plane is cut
+// into tiles; casters' triangles are noted in the tiles that they touch when the structure is built, points are sorted
+// into the tiles' cells when they are tested, and each triangle walks over the points under it
+// (detail/occlusion_kernel.hpp). The cost is linear in both, and there is no resolution and no bias.
 //
-// Why none is missed. A triangle's box on the light's plane (light_rays) holds every ray through it, rounding included,
-// and a point is compared with every triangle in whose box it is. Why nothing leaks between neighbours: whether a ray
-// passes an edge on its left is the sign of toward . (a x b) over the edge's ends as seen from the point; for the
-// triangle on the other side the ends change places, which changes the sign of each rounded product and of the sum and
-// nothing else; and a zero counts for both.
-//
-// Based on: Sven Woop, Carsten Benthin, Ingo Wald. Watertight Ray/Triangle Intersection. JCGT 2, 2013.
+// Every answer is that of one rule in doubles (detail/blocking.hpp), whatever the mesh: open, closed, self-intersecting,
+// inside out. Nothing is culled.
 #pragma once
 
-#include <insonify/geometry/transform.hpp>
-#include <insonify/shadow/light_rays.hpp>
+#include <insonify/shadow/detail/blocking.hpp>
+#include <insonify/shadow/detail/occlusion_kernel.hpp>
+
+#include <array>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::shadow {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
 
-/// A mesh's corners in the frame in which the light is described, in doubles.
-template <executor_argument E = serial_executor>
-std::vector<glm::dvec3> placed_corners(const mesh_view& m, const affine& placement, E&& ex = {}) {
-    std::vector<glm::dvec3> corners(m.positions.size());
-    bulk_ranges(ex, corners.size(), 16384, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) corners[i] = transform_point(placement, m.positions[i]);
-    });
-    return corners;
-}
-
-/// How far from the origin the farthest finite corner lies, along an axis.
-inline double reach_of(std::span<const glm::dvec3> corners) {
-    double reach = 0;
-    for (const glm::dvec3& c : corners)
-        for (int i = 0; i < 3; ++i) {
-            const double size = numeric::magnitude(c[i]);
-            if (size > reach && numeric::is_finite(size)) reach = size;
-        }
-    return reach;
-}
-
-/// Whether light falls on the side of a triangle from which it is seen, more than grazing it: corners that were rounded
-/// to float are off by 2^-24, and what is parallel to the light but for that is dark.
-/// @param normal  of the triangle, of any length
-/// @param toward  to the light, and `back` to whoever sees it
-inline bool is_faced(const glm::dvec3& normal, const glm::dvec3& toward, const glm::dvec3& back) {
-    const double along = numeric::dot(normal, toward), grazed = 0x1p-22;
-    const bool seen_from_above = numeric::dot(normal, back) > 0;
-    const double facing = seen_from_above ? along : -along;
-    return facing > 0 &&
-           facing * facing > grazed * grazed * numeric::dot(normal, normal) * numeric::dot(toward, toward);
-}
-
-/// One mesh as what may stand in one light.
-class light_blockers {
+/// Casters that block one light, as `exact` builds them.
+class exact_occlusion {
   public:
-    /// Stands in nobody's light.
-    light_blockers() = default;
-
-    /// @param rays         of the light; corners lie within its reach, or aren't asked
-    /// @param corners      of the mesh, see placed_corners; both have to outlive this
-    /// @param is_solid     nothing that can be asked about lies inside or below it
-    /// @param is_mirrored  the placement turned its triangles round
-    /// @param ex           who makes the trees; they are the same for any executor
+    /// See casting_policy.
+    /// @throws invalid_input for an index without a position, or a light as light_frame refuses it
     template <executor E>
-    light_blockers(const light_rays& rays, const mesh_view& m, std::span<const glm::dvec3> corners, bool is_solid,
-                   bool is_mirrored, E& ex)
-        : triangles_(m.triangles), corners_(corners) {
-        constexpr std::size_t grain = 16384;
-        trees_.resize(rays.planes());
-        std::vector<std::vector<topped_box>> parts((triangles_.size() + grain - 1) / grain);
-        for (std::size_t plane = 0; plane < trees_.size(); ++plane) {
-            bulk_ranges(ex, triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
-                std::vector<topped_box>& part = parts[first / grain];
-                part.clear();
-                part.reserve(last - first);
-                for (std::size_t i = first; i < last; ++i) {
-                    const glm::uvec3& t = triangles_[i];
-                    const glm::dvec3 &a = corners_[t.x], &b = corners_[t.y], &c = corners_[t.z];
-                    if (!is_within(a, rays) || !is_within(b, rays) || !is_within(c, rays)) continue;
-                    if (is_solid) {
-                        const glm::dvec3 normal = numeric::cross(b - a, c - a);
-                        const double facing = numeric::dot(normal, rays.toward(a));
-                        if (is_mirrored ? facing < 0 : facing > 0) continue;
-                    }
-                    if (std::optional<topped_box> box = rays.over(plane, a, b, c)) {
-                        box->name = static_cast<std::uint32_t>(i);
-                        part.push_back(*box);
-                    }
+    exact_occlusion(std::span<const caster> casters, const any_light& light, const bounding_box& bounds, E& ex)
+        : casters_(casters.begin(), casters.end()), light_(light), rays_(light, reach_of(casters, bounds)) {
+        std::size_t triangles = 0;
+        for (const caster& c : casters_) {
+            insonify::detail::require_indices(c.mesh, ex);
+            triangles += c.mesh.triangles.size();
+        }
+        if (triangles == 0 || bounds.empty()) return;
+        int side = 4;
+        while (side < 64 && static_cast<std::size_t>(side * side) * 1024 < triangles) side *= 2;
+        const double reach = reach_of(casters, bounds);
+        if (const auto* parallel = std::get_if<directional_light>(&light)) {
+            const light_frame frame(*parallel);
+            const detail::light_plane plane(frame);
+            glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
+            for (int i = 0; i < 8; ++i) {
+                const glm::dvec3 at = plane(bounds.corner(i));
+                lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
+                upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
+            }
+            add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach * (1 + frame.cot_elevation()), 0, ex);
+        } else {
+            const auto& point = std::get<point_light>(light);
+            for (int i = 0; i < 6; ++i) {
+                const detail::light_plane plane(point, i);
+                if (!is_seen(plane, bounds)) {
+                    planes_.emplace_back();
+                    continue;
                 }
-            });
-            trees_[plane] = box_tree(joined(parts, ex), ex);
+                add_plane(plane, {glm::dvec2(-1), glm::dvec2(2), side, side}, 0x1p-30, 0x1p-20 * reach, ex);
+            }
         }
     }
 
-    /// Which of up to N points have something between them and the light.
-    /// @param from    where they are; they should be neighbours
-    /// @param points  bit k: ask about from[k]
-    template <int N>
-    INSONIFY_INLINE unsigned stop(const light_rays& rays, const glm::dvec3* from, unsigned points) const {
-        unsigned dark = 0;
-        for (std::size_t plane = 0; plane < trees_.size(); ++plane) {
-            point_range at[static_cast<unsigned>(N)];
-            unsigned over = 0;
-            for (unsigned rest = points; rest != 0; rest &= rest - 1) {
-                const int k = std::countr_zero(rest);
-                if (rays.plane_of(from[k]) != plane) continue;
-                at[k] = rays.range_of(plane, from[k]);
-                over |= 1u << k;
-            }
-            dark |= trees_[plane].template find<N>(
-                at, over, [&](std::uint32_t name, int k) { return blocks(triangles_[name], rays, from[k]); });
+    /// See occlusion.
+    void test(const points& at, const shares& into) const {
+        serial_executor serial;
+        std::vector<points> parts;
+        std::vector<shares> results;
+        for (std::size_t first = 0; first < at.size(); first += most_points) {
+            const std::size_t count = (std::min)(most_points, at.size() - first);
+            parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
+                             at.mesh.subspan(first, count), at.triangle.subspan(first, count), at.casters});
+            results.push_back({into.lit.subspan(first, count), into.caster.subspan(first, count)});
         }
-        return dark;
+        test(std::span<const points>(parts), std::span<const shares>(results), serial);
+    }
+
+    /// The same for many batches of at most 2^16 points each, all of them at once.
+    template <executor E>
+    void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
+        // A run of batches sorts its points by tile; then each tile collects its own from all runs.
+        const std::size_t grain = (std::max)(std::size_t{8}, (at.size() + 127) / 128);
+        std::vector<sorted_points> runs((at.size() + grain - 1) / grain);
+        bulk_ranges(ex, at.size(), grain, [&](std::size_t first, std::size_t last) {
+            sort(at, into, first, last, runs[first / grain]);
+        });
+        const std::size_t tiles = tile_count();
+        bulk_ranges(ex, tiles, 4, [&](std::size_t first, std::size_t last) {
+            detail::receiver_cells cells;
+            std::vector<detail::receiver> all;
+            for (std::size_t tile = first; tile < last; ++tile) {
+                all.clear();
+                for (const sorted_points& run : runs) {
+                    const auto some = run.in(tile);
+                    all.insert(all.end(), some.begin(), some.end());
+                }
+                if (!all.empty()) test_tile(tile, all, cells, at, into);
+            }
+        });
     }
 
   private:
-    static bool is_within(const glm::dvec3& p, const light_rays& rays) {
-        for (int i = 0; i < 3; ++i)
-            if (!(p[i] <= rays.reach() && p[i] >= -rays.reach())) return false;
-        return true;
+    static constexpr std::size_t most_points = 65536;
+
+    struct plane_state {
+        detail::light_plane plane;
+        detail::plane_tiles tiles;
+        float error = 0;  ///< of coordinates on it
+        std::vector<detail::plane_caster> casters;
+    };
+    /// Points of a run of batches by tile.
+    struct sorted_points {
+        std::vector<std::uint32_t> starts;
+        insonify::detail::unfilled_vector<detail::receiver> all;
+
+        std::span<const detail::receiver> in(std::size_t tile) const {
+            if (starts.empty()) return {};
+            return std::span(all).subspan(starts[tile], starts[tile + 1] - starts[tile]);
+        }
+    };
+
+    static double reach_of(std::span<const caster> casters, const bounding_box& bounds) {
+        double reach = 0;
+        const auto include = [&](const glm::dvec3& p) {
+            for (int i = 0; i < 3; ++i)
+                if (numeric::is_finite(p[i])) reach = (std::max)(reach, numeric::magnitude(p[i]));
+        };
+        for (int i = 0; i < 8; ++i) {
+            if (!bounds.empty()) include(bounds.corner(i));
+            for (const caster& c : casters)
+                if (!c.box.empty()) include(transform_point(c.placement, c.box.corner(i)));
+        }
+        return reach;
+    }
+    /// Whether anything within a box may lie over a plane of a near light.
+    static bool is_seen(const detail::light_plane& plane, const bounding_box& box) {
+        bool outside[4] = {true, true, true, true};
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 p = plane(box.corner(i));
+            for (int k = 0; k < 4; ++k)
+                outside[k] = outside[k] && (k % 2 == 0 ? 1 : -1) * p[k / 2] > p.z * (1 + 0x1p-30);
+        }
+        return !(outside[0] || outside[1] || outside[2] || outside[3]);
     }
 
     template <executor E>
-    static std::vector<topped_box> joined(const std::vector<std::vector<topped_box>>& parts, E& ex) {
-        std::vector<std::size_t> starts(parts.size() + 1, 0);
-        for (std::size_t i = 0; i < parts.size(); ++i) starts[i + 1] = starts[i] + parts[i].size();
-        std::vector<topped_box> all(starts.back());
-        ex.bulk(parts.size(), [&](std::size_t i) {
-            std::copy(parts[i].begin(), parts[i].end(), all.begin() + static_cast<std::ptrdiff_t>(starts[i]));
-        });
-        return all;
+    void add_plane(const detail::light_plane& plane, detail::plane_tiles tiles, double error, double least_depth,
+                   E& ex) {
+        const double margin = error + 0x1p-20 * (std::max)(tiles.size.x, tiles.size.y) + 1e-30;
+        tiles.lower -= margin;
+        tiles.size += 2 * margin;
+        plane_state state{plane, tiles, static_cast<float>(error), {}};
+        for (const caster& c : casters_) state.casters.emplace_back(c, plane, tiles, least_depth, ex);
+        planes_.push_back(std::move(state));
     }
 
-    bool blocks(const glm::uvec3& t, const light_rays& rays, const glm::dvec3& from) const {
-        const glm::dvec3 toward = rays.toward(from);
-        const glm::dvec3 a = corners_[t.x] - from, b = corners_[t.y] - from, c = corners_[t.z] - from;
-        const double bc = numeric::dot(toward, numeric::cross(b, c));
-        const double ca = numeric::dot(toward, numeric::cross(c, a));
-        const double ab = numeric::dot(toward, numeric::cross(a, b));
-        const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
-        if (!is_left && !is_right) return false;
-        const glm::dvec3 normal = numeric::cross(b - a, c - a);
-        const double along = numeric::dot(normal, toward), behind = numeric::dot(normal, a);
-        const double sign = is_left ? 1 : -1;
-        const double hair =
-            0x1p-40 * (numeric::magnitude(normal.x) + numeric::magnitude(normal.y) + numeric::magnitude(normal.z));
-        if (!(sign * along > 0 && sign * behind > hair * rays.reach())) return false;
-        // What the light itself touches doesn't stop it.
-        return !rays.end() || sign * (along - behind) > hair * rays.size();
+    std::size_t tile_count() const {
+        std::size_t count = 0;
+        for (const plane_state& p : planes_) count += p.casters.empty() ? 0 : p.tiles.count();
+        return count;
+    }
+    /// The plane of a tile, and its number there.
+    std::pair<const plane_state*, std::size_t> plane_of(std::size_t tile) const {
+        for (const plane_state& p : planes_) {
+            if (p.casters.empty()) continue;
+            if (tile < p.tiles.count()) return {&p, tile};
+            tile -= p.tiles.count();
+        }
+        return {nullptr, 0};
     }
 
-    std::span<const glm::uvec3> triangles_;
-    std::span<const glm::dvec3> corners_;
-    std::vector<box_tree> trees_;  ///< one for each plane of the light
+    void sort(std::span<const points> at, std::span<const shares> into, std::size_t first, std::size_t last,
+              sorted_points& out) const {
+        std::vector<std::size_t> plane_start;
+        std::size_t tiles = 0;
+        for (const plane_state& p : planes_) {
+            plane_start.push_back(tiles);
+            tiles += p.casters.empty() ? 0 : p.tiles.count();
+        }
+        std::size_t count = 0;
+        for (std::size_t part = first; part < last; ++part) {
+            std::fill(into[part].lit.begin(), into[part].lit.end(), 1.0f);
+            std::fill(into[part].caster.begin(), into[part].caster.end(), invalid_id);
+            count += at[part].size();
+        }
+        if (tiles == 0) return;
+        out.starts.assign(tiles + 1, 0);
+        insonify::detail::unfilled_vector<detail::receiver> all(count);
+        insonify::detail::unfilled_vector<std::uint32_t> keys(count);
+        std::size_t n = 0;
+        for (std::size_t part = first; part < last; ++part) {
+            const points& some = at[part];
+            for (std::size_t i = 0; i < some.size(); ++i) {
+                const glm::dvec3 p = some[i];
+                std::size_t which = 0;
+                if (const auto* point = std::get_if<point_light>(&light_))
+                    which = static_cast<std::size_t>(detail::light_plane::side_of(*point, p));
+                const plane_state& state = planes_[which];
+                if (state.casters.empty()) continue;
+                glm::dvec3 seen = state.plane(p);
+                if (state.plane.is_near()) seen = detail::light_plane::seen(seen);
+                const glm::dvec2 from = glm::dvec2(seen) - state.tiles.lower;
+                const int column = hold(from.x / state.tiles.size.x, state.tiles.columns),
+                          row = hold(from.y / state.tiles.size.y, state.tiles.rows);
+                const std::size_t tile = static_cast<std::size_t>(row) * static_cast<std::size_t>(state.tiles.columns) +
+                                         static_cast<std::size_t>(column);
+                if (!has_triangles(state, tile)) continue;
+                keys[n] = static_cast<std::uint32_t>(plane_start[which] + tile);
+                all[n] = {static_cast<float>(from.x),
+                          static_cast<float>(from.y),
+                          static_cast<float>(seen.z),
+                          static_cast<std::uint32_t>(part << 16 | i),
+                          some.mesh[i],
+                          some.triangle[i],
+                          some.casters};
+                ++out.starts[keys[n] + 1];
+                ++n;
+            }
+        }
+        for (std::size_t tile = 0; tile < tiles; ++tile) out.starts[tile + 1] += out.starts[tile];
+        std::vector<std::uint32_t> next(out.starts.begin(), out.starts.end() - 1);
+        out.all.resize(n);
+        for (std::size_t i = 0; i < n; ++i) out.all[next[keys[i]]++] = all[i];
+    }
+    static int hold(double share, int count) {
+        return static_cast<int>((std::min)((std::max)(share * count, 0.0), count - 1.0));
+    }
+    static bool has_triangles(const plane_state& state, std::size_t tile) {
+        for (const detail::plane_caster& c : state.casters)
+            if (!c.bin(tile).empty()) return true;
+        return false;
+    }
+
+    void test_tile(std::size_t number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
+                   std::span<const points> at, std::span<const shares> into) const {
+        const auto [state, tile] = plane_of(number);
+        const glm::dvec2 size = state->tiles.tile();
+        const auto columns = static_cast<std::size_t>(state->tiles.columns);
+        const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
+        cells.sort(all, glm::vec2(place * size), glm::vec2(size));
+        for (std::size_t i = 0; i < state->casters.size(); ++i) {
+            cells.close(static_cast<std::uint32_t>(i));
+            const detail::plane_caster& caster = state->casters[i];
+            if (caster.bin(tile).empty()) continue;
+            const shadow::caster& c = casters_[i];
+            const auto decide = [&](std::uint32_t triangle, std::size_t k) {
+                const glm::uvec3& t = c.mesh.triangles[triangle];
+                const auto corner = [&](int j) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]])); };
+                return rays_.are_blocked(corner(0), corner(1), corner(2),
+                                         at[cells.point[k] >> 16][cells.point[k] & 0xFFFFu]);
+            };
+            insonify::detail::dispatch(
+                detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{
+                    caster, caster.bin(tile), static_cast<std::uint32_t>(i), state->error, cells, decide},
+                best_isa());
+        }
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (cells.caster[i] < 0) continue;
+            const shares& to = into[cells.point[i] >> 16];
+            to.lit[cells.point[i] & 0xFFFFu] = 0;
+            to.caster[cells.point[i] & 0xFFFFu] = static_cast<std::uint32_t>(cells.caster[i]);
+        }
+    }
+
+    std::vector<caster> casters_;
+    any_light light_;
+    detail::light_rays rays_;
+    std::vector<plane_state> planes_;  ///< one, or six of which some are empty
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::shadow
+/// Hard shadows, exact for every point: the default.
+struct exact {
+    /// See casting_policy.
+    template <executor E>
+    exact_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
+                          E& ex) const {
+        return {casters, light, bounds.box, ex};
+    }
+};
+
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -1,83 +1,103 @@
-// Which shadows a picture has, as types: what is not asked for is not compiled.
+// What a shadow policy is: casters and a light go in, points are tested, and each comes back with its share of the
+// light and the caster that blocks it.
+//
+// A policy is a plain value that builds a structure for one light; the structure answers for any number of batches of
+// points. The built-in policies (map, pcf, exact, penumbra) are models of these concepts, and so are those of users.
 #pragma once
 
-#include <insonify/core/numeric.hpp>
+#include <insonify/core/executor.hpp>
+#include <insonify/geometry/bounds.hpp>
+#include <insonify/geometry/regular_grid.hpp>
+#include <insonify/geometry/transform.hpp>
+#include <insonify/shadow/light.hpp>
 
-#include <concepts>
+#include <cstdint>
+#include <span>
+#include <variant>
 
-namespace insonify::inline INSONIFY_ABI::shadow {
+INSONIFY_ARITHMETIC_BEGIN
 
-/// No shadows: no map, no look-up, no memory.
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
+
+/// Where there is no caster, no mesh or no triangle.
+inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
+
+/// A mesh that blocks light, in the frame in which the light is described. Both sides of its triangles block.
+/// Triangles with a corner that is not finite block nothing.
+struct caster {
+    mesh_view mesh;
+    affine placement;                    ///< from the mesh's frame to the light's
+    bounding_box box;                    ///< around the mesh, in its own frame
+    const regular_grid* grid = nullptr;  ///< how the vertices lie, if they are a regular grid
+};
+
+/// Points to test, as arrays of equal length.
+struct points {
+    std::span<const double> x, y, z;           ///< metres
+    std::span<const std::uint32_t> mesh;       ///< number of the caster that a point lies on, or invalid_id
+    std::span<const std::uint32_t> triangle;   ///< of that caster; it does not block its own points
+    std::uint32_t casters = invalid_id;        ///< casters numbered below this matter; others need not be tested
+
+    std::size_t size() const { return x.size(); }
+    glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+/// What becomes of points, as arrays of the same length as theirs.
+struct shares {
+    std::span<float> lit;             ///< fraction of the light that arrives, 0 to 1
+    std::span<std::uint32_t> caster;  ///< lowest number of a caster that blocks the light's centre, or invalid_id
+
+    std::size_t size() const { return lit.size(); }
+};
+
+/// Where points will be tested.
+struct point_bounds {
+    bounding_box box;    ///< around all of them
+    double spacing = 0;  ///< metres from one to the next on level ground; 0 if unknown
+};
+
+using any_light = std::variant<directional_light, point_light>;
+
+/// `structure.test(points, shares)` fills in all shares; it may be called for several batches at the same time.
+template <class S>
+concept occlusion = requires(const S& structure, const points& at, const shares& into) { structure.test(at, into); };
+
+/// `policy.build(casters, light, bounds, executor)` gives an occlusion. All points that it will be asked about lie
+/// within `bounds`; the casters' meshes outlive it. Surfaces that face away from the light are dark under every policy:
+/// that is decided before, from the facet, and such a point is only tested for the name of its caster.
+template <class P>
+concept casting_policy =
+    requires(const P& policy, std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
+             serial_executor& ex) {
+        { policy.build(casters, light, bounds, ex) } -> occlusion;
+    };
+
+/// No shadows: nothing is built, tested or compiled.
 struct none {};
 
-/// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
-struct map {
-    float texels_per_pixel = 1.5f;  ///< of the picture's ground sampling; a shadow edge is off by half a texel at most
-    int largest = 8192;             ///< texels a side; what would need more gets coarser texels
-};
-
-/// The same map, averaged over (2 radius + 1)^2 texels: edges are soft over as many.
-struct pcf {
-    float texels_per_pixel = 1.5f;
-    int largest = 8192;
-    int radius = 1;  ///< texels, 0 to 8
-};
-
-/// Hard edges where the casters' triangles have them. A heightfield over a regular grid, as seabeds mostly are, is
-/// swept along lines of the light, two thirds of a texel apart. Of anything else a map says who casts near a point, and
-/// where its texels disagree the triangles are asked. What lies between two lines or meets no texel's centre is missed,
-/// so texels should not be larger than pixels.
-struct refined {
-    float texels_per_pixel = 1;  ///< across the light; along it up to a third fewer
-    int largest = 8192;          ///< texels a side, or lines
-};
-
-/// The edges of the casters themselves in every pixel: each is asked about every triangle that may stand in its light.
-/// No map, no resolution, no bias; the only shadows that light from nearby can cast.
-struct exact {};
-
-/// Soft edges: the same for several points of a round light that isn't small, of which a pixel gets its share. Each
-/// point costs as much as `exact`. Labels are those of the light's middle.
-struct penumbra {
-    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< of the light, in radians as the ground sees it
-    int samples = 16;                                               ///< points of it, the first in the middle
-};
-
-/// Radius of the light over its distance; of all but `penumbra` 0.
-inline double radius_of(const auto&) {
-    return 0;
-}
-inline double radius_of(const penumbra& p) {
-    return numeric::tan(0.5 * static_cast<double>(p.diameter));
-}
-
-/// @throws invalid_input for a value out of its range
-inline void validate(const none&) {}
-inline void validate(const exact&) {}
-inline void validate(const penumbra& p) {
-    detail::require(p.diameter >= 0 && p.diameter <= 1, "diameter", p.diameter, "0 to 1 radian");
-    detail::require(p.samples >= 1 && p.samples <= 1024, "samples", p.samples, "1 to 1024");
-}
-inline void validate(const map& m) {
-    detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel), "texels_per_pixel",
-                    m.texels_per_pixel, "above 0");
-    detail::require(m.largest >= 1 && m.largest <= 32768, "largest", m.largest, "1 to 32768");
-}
-inline void validate(const pcf& p) {
-    validate(map{p.texels_per_pixel, p.largest});
-    detail::require(p.radius >= 0 && p.radius <= 8, "radius", p.radius, "0 to 8 texels");
-}
-
-inline void validate(const refined& r) {
-    validate(map{r.texels_per_pixel, r.largest});
-}
-
 template <class P>
-concept policy = std::same_as<P, none> || std::same_as<P, map> || std::same_as<P, pcf> || std::same_as<P, refined> ||
-    std::same_as<P, exact> || std::same_as<P, penumbra>;
+concept policy = std::same_as<P, none> || casting_policy<P>;
 
-/// Those that ask rays instead of a map.
-template <class P>
-concept ray_policy = std::same_as<P, exact> || std::same_as<P, penumbra>;
+/// Radius of the light over its distance: 0, unless a policy has a `light_radius()`.
+template <policy P>
+double radius_of(const P& p) {
+    if constexpr (requires { p.light_radius(); })
+        return p.light_radius();
+    else
+        return 0;
+}
 
-}  // namespace insonify::inline INSONIFY_ABI::shadow
+/// Occlusion that gains from seeing all points of a picture at once, batch by batch.
+template <class S>
+concept collective_occlusion = occlusion<S> && requires(const S& structure, std::span<const points> at,
+                                                        std::span<const shares> into, serial_executor& ex) {
+    structure.test(at, into, ex);
+};
+
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

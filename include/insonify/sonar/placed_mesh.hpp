@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/geometry/bounds.hpp>
+#include <insonify/geometry/regular_grid.hpp>
 #include <insonify/raster/assembly.hpp>
 #include <insonify/sonar/rig.hpp>
 
@@ -17,19 +18,7 @@ struct placed_mesh {
     mesh_view shape;
     bounding_box box;  ///< of the shape, in its own frame
     affine to_rig;
-    bool is_solid;      ///< see target
-    glm::mat3 normals;  ///< takes normals along
-
-    placed_mesh(const mesh_view& m, const bounding_box& around, const affine& map, bool solid)
-        : shape(m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
-
-    /// Whether its triangles run the other way in the rig's frame.
-    bool is_mirrored() const { return numeric::determinant(to_rig.linear) < 0; }
-    /// The sides that nobody sees of it.
-    cull_mode hidden() const {
-        if (!is_solid) return cull_mode::none;
-        return is_mirrored() ? cull_mode::front : cull_mode::back;
-    }
+    const regular_grid* grid = nullptr;  ///< of the shape's vertices, or null
 };
 
 /// Which pixels may show an object, or something in its shadow that lies no lower than `lowest`, in the rig's frame:

@@ -5,14 +5,19 @@
 #include <insonify/raster/draw.hpp>
 #include <insonify/seabed/adaptive.hpp>
 #include <insonify/seabed/sample.hpp>
+#include <insonify/shadow/exact.hpp>
+#include <insonify/sonar/backscatter.hpp>
+#include <insonify/sonar/light_pass.hpp>
 #include <insonify/sonar/seabed_reach.hpp>
-#include <insonify/sonar/shading.hpp>
 
 #include <algorithm>
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
+
+/// Asks for no labels: none are stored or computed.
+struct no_labels {};
 
 /// How to draw a picture; the types say what is in it.
 template <shadow::policy Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert>
@@ -28,7 +33,7 @@ struct render_options {
     float edge_error = 0;
     float slope_error = 0.02f;  ///< by how much its slopes may then be off, metres per metre
     /// See draw_options. Which triangle a pixel shows decides whether it faces the light, too.
-    int subpixel_bits = shadow::ray_policy<Shadow> ? 12 : 8;
+    int subpixel_bits = 8;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
 };
@@ -56,18 +61,14 @@ class overhead_painter {
   public:
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
-        : scene_(s), view_(rig), options_(options), depth_(rig.size.x, rig.size.y, unfilled{}) {
+        : scene_(s), view_(rig), options_(options) {
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y, unfilled{});  // the first draw fills it, and the depths
-        validate(options.shadow);
-        if constexpr (!shadow::ray_policy<Shadow> && !std::is_same_v<Shadow, shadow::none>)
-            require(!view_.has_near_light(), "overhead.light_distance", rig.light_distance,
-                    "infinite, or shadow::exact or penumbra");
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y, ex);
         for (const target& t : s.targets) {
-            targets_.emplace_back(t.shape, bounds(t.shape, ex), view_.rig_from(to_world(t.placement)), t.is_solid);
+            targets_.push_back({t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.grid()});
             target_pixels_.push_back(shown_pixels(view_, targets_.back()));
         }
         if (has_bottom()) sample_seabed(ex);
@@ -75,18 +76,26 @@ class overhead_painter {
 
     template <executor E>
     frame<Labels> paint(E& ex) {
-        if constexpr (std::is_same_v<Shadow, shadow::none>) {
-            draw_all(no_shadow_maps{}, ex);
-        } else {
-            const placed_mesh bottom = bottom_in_rig();
-            draw_all(cast_shadows(has_bottom() ? &bottom : nullptr, ex), ex);
+        place_objects();
+        draw_all(ex);
+        if constexpr (casts) {
+            std::vector<shadow::caster> casters;
+            for (const placed_mesh& t : targets_) casters.push_back(as_caster(t));
+            if (has_bottom()) casters.push_back(as_caster(bottom_in_rig_));
+            const shadow::point_bounds bounds{receivers(), view_.ground_sampling()};
+            cast_shadows(options_.shadow.build(std::span<const shadow::caster>(casters), light_of(view_), bounds, ex),
+                         ex);
         }
-        if constexpr (labelled) describe_targets(out_.labels, scene_.targets);
+        if constexpr (labelled) {
+            label_surfaces(ex);
+            describe_targets(out_.labels, scene_.targets);
+        }
         return std::move(out_);
     }
 
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
+    static constexpr bool casts = !std::is_same_v<Shadow, shadow::none>;
 
     bool has_bottom() const { return !std::holds_alternative<seabed::none>(scene_.seabed); }
 
@@ -104,7 +113,7 @@ class overhead_painter {
         seabed::height_range range = merge(seabed::prepare(scene_.seabed).range(), {0, 0});
         const double longest = static_cast<double>(options_.reach) * longer_side;
         ground_box ground = shown_ground(view_, range);
-        if constexpr (!std::is_same_v<Shadow, shadow::none>)
+        if constexpr (casts)
             ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
         field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
         out_.stats.seabed_samples = field_.heights.size();
@@ -130,7 +139,7 @@ class overhead_painter {
         }
         // What is off by h throws a shadow that is off by h cot(elevation), whatever the view.
         const double forgiven = static_cast<double>(options_.edge_error) * view_.ground_sampling();
-        const double cot = std::is_same_v<Shadow, shadow::none> ? 0 : view_.light().cot_elevation();
+        const double cot = casts ? view_.light().cot_elevation() : 0;
         auto [shape, vertices] = seabed::tessellate(field_,
                                                     {.height = forgiven / cot,
                                                      .slope = static_cast<double>(options_.slope_error),
@@ -167,17 +176,7 @@ class overhead_painter {
         return {bottom_,
                 {{field_.spacing * glm::dvec2(bottom_first_), lowest_}, {field_.spacing * glm::dvec2(last), highest_}},
                 under_rig,
-                true};
-    }
-
-    template <executor E>
-    auto cast_shadows(const placed_mesh* bottom, E& ex) const {
-        if constexpr (shadow::ray_policy<Shadow>) {
-            return exact_shadows(options_.shadow, view_, bottom, targets_, receivers(), ex);
-        } else {
-            const double texel = view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel);
-            return shadow_maps<Shadow>(options_.shadow, view_, bottom, targets_, receivers(), texel, ex);
-        }
+                nullptr};
     }
 
     /// All that the picture may show.
@@ -198,51 +197,208 @@ class overhead_painter {
         return {{-half, low}, {half, top}};
     }
 
-    template <class Shadows, executor E>
-    void draw_all(const Shadows& shadows, E& ex) {
-        depth_load load = depth_load::clear;
+    /// The bottom and the targets, in the order in which they are drawn and of their ids.
+    void place_objects() {
+        std::uint64_t ids = 0;
+        const auto add = [&](const placed_mesh& placed, std::uint32_t caster, std::uint16_t instance,
+                             std::uint8_t seabed, const material& m) {
+            surface& s = surfaces_.emplace_back();
+            s.mesh = placed.shape;
+            s.to_rig = placed.to_rig;
+            s.first_id = static_cast<std::uint32_t>(ids);
+            s.caster = caster;
+            s.instance = instance;
+            s.seabed = seabed;
+            s.whole = m;
+            ids += placed.shape.triangles.size();
+            require(ids < shadow::invalid_id, "triangles of the scene", ids, "below 2^32 - 1");
+        };
         if (has_bottom()) {
-            const placed_mesh bottom = bottom_in_rig();
-            if (field_.types.empty())
-                out_.stats.seabed = draw_one(bottom, load, 0, shadows,
-                                             whole_object{scene_.bottom_of(field_.fallback), labels::no_instance,
-                                                          static_cast<std::uint8_t>(field_.fallback)},
-                                             ex);
-            else
-                out_.stats.seabed =
-                    draw_one(bottom, load, 0, shadows, typed_bottom{bottom_, bottom_types_, scene_.bottom}, ex);
-            load = depth_load::keep;
+            bottom_in_rig_ = bottom_in_rig();
+            add(bottom_in_rig_, static_cast<std::uint32_t>(targets_.size()), labels::no_instance,
+                static_cast<std::uint8_t>(field_.fallback), scene_.bottom_of(field_.fallback));
+            if (!field_.types.empty()) {
+                surfaces_.back().types = bottom_types_.data();
+                surfaces_.back().materials = scene_.bottom.data();
+            }
         }
-        for (std::size_t i = 0; i < targets_.size(); ++i) {
-            const whole_object target{scene_.targets[i].surface, static_cast<std::uint16_t>(i + 1), labels::no_seabed};
-            out_.stats.targets += draw_one(targets_[i], load, i + 1, shadows, target, ex);
-            load = depth_load::keep;
-        }
-        if (load == depth_load::clear) std::fill(out_.image.pixels().begin(), out_.image.pixels().end(), 0.0f);
+        for (std::size_t i = 0; i < targets_.size(); ++i)
+            add(targets_[i], static_cast<std::uint32_t>(i), static_cast<std::uint16_t>(i + 1), labels::no_seabed,
+                scene_.targets[i].surface);
     }
 
-    /// @param later  the first of the targets that are drawn after it
-    template <class Shadows, class Object, executor E>
-    draw_stats draw_one(const placed_mesh& shape, depth_load load, std::size_t later, const Shadows& shadows,
-                        const Object& object, E& ex) {
-        const surface_placement placement(view_, shape);
-        const surface_shader<Shadows, Labels, Law, Object> shader(view_, placement, shape.shape, options_.subpixel_bits,
-                                                                  options_.law, shadows, object, out_.image,
-                                                                  out_.labels);
-        return draw_lanes(shape.shape, placement, shader, depth_, std::span(target_pixels_).subspan(later),
-                          {.cull = shape.hidden(),
-                           .keep = keep_depth::larger,
-                           .load = load,
-                           .subpixel_bits = options_.subpixel_bits,
-                           .tile = options_.tile,
-                           .level = options_.level},
-                          ex);
+    /// What the light makes of each pixel without shadows, and which triangle it shows.
+    template <executor E>
+    void draw_all(E& ex) {
+        const overhead& rig = view_.rig();
+        image<float> depth(rig.size.x, rig.size.y, unfilled{});
+        shaded_images into{out_.image};
+        if constexpr (casts) {
+            rest_ = image<float>(rig.size.x, rig.size.y, unfilled{});
+            into.rest = &rest_;
+        }
+        if constexpr (casts || labelled) {
+            ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, unfilled{});
+            into.ids = &ids_;
+        }
+        if constexpr (labelled) into.types = &out_.labels.seabed;
+        if (surfaces_.empty()) into.clear({0, 0, rig.size.x - 1, rig.size.y - 1});
+        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+            const bool is_bottom = has_bottom() && i == 0;
+            const std::size_t target = has_bottom() ? i - 1 : i;
+            const placed_mesh& placed = is_bottom ? bottom_in_rig_ : targets_[target];
+            const draw_stats stats = draw_lanes(
+                placed.shape, surface_placement(view_, placed),
+                surface_shader<Law>(view_, surfaces_[i], options_.law, into), depth,
+                std::span(target_pixels_).subspan(is_bottom ? 0 : target + 1),
+                {.keep = keep_depth::larger,
+                 .load = i == 0 ? depth_load::clear : depth_load::keep,
+                 .subpixel_bits = options_.subpixel_bits,
+                 .tile = options_.tile,
+                 .level = options_.level},
+                ex);
+            (is_bottom ? out_.stats.seabed : out_.stats.targets) += stats;
+        }
+    }
+
+    tile_grid tiles() const {
+        return {out_.image.width(), out_.image.height(), std::countr_zero(static_cast<unsigned>(options_.tile))};
+    }
+    pixel_box tile_box(std::size_t i) const {
+        const auto columns = static_cast<std::size_t>(tiles().columns);
+        const int x = static_cast<int>(i % columns) * options_.tile, y = static_cast<int>(i / columns) * options_.tile;
+        return intersect({x, y, x + options_.tile - 1, y + options_.tile - 1},
+                         {0, 0, out_.image.width() - 1, out_.image.height() - 1});
+    }
+
+    /// Tests the points of every tile and puts out the light of those that are in shadow. Occlusion that sees all
+    /// points at once gets those of all tiles before any is finished.
+    template <class Occlusion, executor E>
+    void cast_shadows(const Occlusion& occlusion, E& ex) {
+        const auto targets = static_cast<std::uint32_t>(targets_.size());
+        std::vector<point_finder> finders;
+        for (const surface& s : surfaces_) finders.emplace_back(view_, s);
+        if constexpr (shadow::collective_occlusion<Occlusion>) {
+            std::vector<point_tile> points(tiles().count());
+            std::vector<light_tile> light(tiles().count());
+            ex.bulk(points.size(), [&](std::size_t i) { find_points(finders, tile_box(i), points[i]); });
+            std::vector<shadow::points> at;
+            std::vector<shadow::shares> into;
+            for (std::size_t i = 0; i < points.size(); ++i)
+                tile_batches(points[i], light[i], targets)
+                    .for_each([&](const shadow::points& p, const shadow::shares& s) {
+                        at.push_back(p);
+                        into.push_back(s);
+                    });
+            occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), ex);
+            ex.bulk(points.size(), [&](std::size_t i) { finish(points[i], light[i]); });
+        } else {
+            constexpr std::size_t run = 4;  // tiles share their memory
+            bulk_ranges(ex, tiles().count(), run, [&](std::size_t first, std::size_t last) {
+                point_tile points;
+                light_tile light;
+                for (std::size_t i = first; i < last; ++i) {
+                    find_points(finders, tile_box(i), points);
+                    tile_batches(points, light, targets)
+                        .for_each([&](const shadow::points& p, const shadow::shares& s) { occlusion.test(p, s); });
+                    finish(points, light);
+                }
+            });
+        }
+    }
+
+    /// The points of a tile that matter: where there is light to lose, or all for the sake of labels.
+    void find_points(std::span<const point_finder> finders, const pixel_box& box, point_tile& into) const {
+        std::vector<shown_pixel> pixels;
+        const auto add = [&](const surface& s, const auto& visit) {
+            for (int y = box.y0; y <= box.y1; ++y)
+                for (int x = box.x0; x <= box.x1; ++x) {
+                    const std::uint32_t triangle = ids_(x, y) - s.first_id;
+                    if (ids_(x, y) == shadow::invalid_id || triangle >= s.mesh.triangles.size()) continue;
+                    if (labelled || out_.image(x, y) > 0) visit(x, y, triangle);
+                }
+        };
+        // Which objects there are; mostly one.
+        std::vector<std::size_t> shown;
+        std::size_t count = 0;
+        const surface* last = nullptr;
+        for (int y = box.y0; y <= box.y1; ++y)
+            for (int x = box.x0; x <= box.x1; ++x) {
+                const std::uint32_t id = ids_(x, y);
+                if (id == shadow::invalid_id || !(labelled || out_.image(x, y) > 0)) continue;
+                ++count;
+                if (last != nullptr && id - last->first_id < last->mesh.triangles.size()) continue;
+                last = &surface_of(id);
+                const auto number = static_cast<std::size_t>(last - surfaces_.data());
+                if (std::find(shown.begin(), shown.end(), number) == shown.end()) shown.push_back(number);
+            }
+        into.restart(box, count);
+        for (const std::size_t i : shown) {
+            pixels.clear();
+            add(surfaces_[i], [&](int x, int y, std::uint32_t triangle) {
+                pixels.push_back({static_cast<std::uint16_t>(x - box.x0), static_cast<std::uint16_t>(y - box.y0), triangle});
+            });
+            dispatch(point_kernel{finders[i], pixels, view_.has_near_light(), labelled, into}, options_.level);
+        }
+    }
+
+    /// Pixels of a tile from what the light makes of them and how much of it arrives.
+    void finish(const point_tile& points, const light_tile& light) {
+        const pixel_box& box = points.box;
+        const auto width = static_cast<std::size_t>(box.width());
+        std::vector<float> lit(width * static_cast<std::size_t>(box.height()), 0.0f);
+        for (std::size_t i = 0; i < points.facing; ++i) lit[points.pixel[i]] = light.lit[i];
+        for (int y = box.y0; y <= box.y1; ++y) {
+            const float* const share = lit.data() + static_cast<std::size_t>(y - box.y0) * width;
+            float* const value = &out_.image(box.x0, y);
+            const float* const rest = &rest_(box.x0, y);
+            for (std::size_t i = 0; i < width; ++i) value[i] = (std::min)(1.0f, rest[i] + share[i] * value[i]);
+        }
+        if constexpr (labelled) label_shadows(points, light);
+    }
+
+    /// Names the caster of each shadow, see light_pass.hpp.
+    void label_shadows(const point_tile& points, const light_tile& light) {
+        const auto width = static_cast<std::size_t>(points.box.width());
+        const auto targets = static_cast<std::uint32_t>(targets_.size());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const bool is_averted = i >= points.facing;
+            if (!is_averted && !(light.lit[i] < 0.5f)) continue;
+            const std::size_t at = points.at(i);
+            const std::uint32_t caster = is_averted && light.caster[i] >= targets ? points.mesh[at] : light.caster[i];
+            out_.labels.shadow(points.box.x0 + static_cast<int>(points.pixel[at] % width),
+                               points.box.y0 + static_cast<int>(points.pixel[at] / width)) =
+                caster < targets ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
+        }
+    }
+
+    /// Instances and seabed types from the visibility buffer.
+    template <executor E>
+    void label_surfaces(E& ex) {
+        if (surfaces_.empty()) return;
+        ex.bulk(static_cast<std::size_t>(ids_.height()), [&](std::size_t row) {
+            const int y = static_cast<int>(row);
+            const surface* last = surfaces_.data();
+            for (int x = 0; x < ids_.width(); ++x) {
+                const std::uint32_t id = ids_(x, y);
+                if (id == shadow::invalid_id) continue;
+                if (id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(id);
+                out_.labels.instance(x, y) = last->instance;
+                if (last->types == nullptr) out_.labels.seabed(x, y) = last->seabed;
+            }
+        });
+    }
+    const surface& surface_of(std::uint32_t id) const {
+        const auto after = std::upper_bound(surfaces_.begin(), surfaces_.end(), id,
+                                            [](std::uint32_t i, const surface& s) { return i < s.first_id; });
+        return *(after - 1);
     }
 
     const scene& scene_;
     overhead_geometry view_;
     render_options<Shadow, Labels, Law> options_;
-    image<float> depth_;
+    image<std::uint32_t> ids_;  ///< the visibility buffer: triangles in the order of surfaces_
+    image<float> rest_;         ///< what pixels show without the light
     frame<Labels> out_;
     seabed::heightfield field_;
     unfilled_mesh whole_bottom_;              ///< if every vertex is drawn
@@ -251,6 +407,8 @@ class overhead_painter {
     std::vector<seabed::type> bottom_types_;  ///< by vertex, or none where there is one type alone
     glm::ivec2 bottom_first_{0, 0};           ///< of the field's vertices, counted from the rig's position
     float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum
+    placed_mesh bottom_in_rig_;
+    std::vector<surface> surfaces_;
     std::vector<placed_mesh> targets_;
     std::vector<pixel_box> target_pixels_;  ///< which may show them
 };

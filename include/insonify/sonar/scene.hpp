@@ -1,8 +1,7 @@
 // What there is to see: a seabed, and targets on it.
 #pragma once
 
-#include <insonify/geometry/normals.hpp>
-#include <insonify/geometry/topology.hpp>
+#include <insonify/geometry/shared_mesh.hpp>
 #include <insonify/geometry/transform.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/sonar/sediment.hpp>
@@ -17,16 +16,12 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// An object with a class of its own.
+/// An object with a class of its own. Both sides of its triangles show and block light; it may be open or closed.
 struct target {
-    mesh shape;
+    shared_mesh shape;
     pose placement;
     std::string class_name;
     material surface{.reflectivity = 0.9f};
-    /// Nothing that a picture shows lies inside or below it: a closed surface whose triangles face outwards, or one
-    /// that lies on everything, as a heightfield does. Pictures are then cheaper; said of something open, its back side
-    /// is missing, and so are shadows of it.
-    bool is_solid = false;
 };
 
 /// The bottom and what lies on it. Heights are metres above the datum z = 0.
@@ -35,23 +30,19 @@ struct scene {
     std::array<material, insonify::seabed::type_count> bottom = default_bottom();  ///< by seabed::type
     std::vector<target> targets;
 
-    /// Adds a mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
+    /// Adds a mesh, a shared mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
     /// Targets are told apart by instance numbers, 1 for the first. A mesh without normals gets smooth ones.
-    /// Whether it is solid is found out for up to 2^16 triangles; of larger ones you may know.
+    /// Several targets of one shape share it: make a `shared_mesh` once and add it as often as needed.
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
     target& add(Shape&& shape, const pose& placement, std::string class_name, const material& surface = {0.9f}) {
         targets.push_back({mesh_of(std::forward<Shape>(shape)), placement, std::move(class_name), surface});
-        mesh& added = targets.back().shape;
-        validate(added);
-        if (added.normals.empty()) added.normals = smooth_normals(added);
-        targets.back().is_solid = added.triangles.size() <= (std::size_t{1} << 16) && inspect(added).solid();
         return targets.back();
     }
 
     template <class Shape>
-    static mesh mesh_of(Shape&& shape) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<Shape>, mesh>)
+    static shared_mesh mesh_of(Shape&& shape) {
+        if constexpr (std::is_convertible_v<Shape&&, shared_mesh>)
             return std::forward<Shape>(shape);
         else
             return to_mesh(shape);

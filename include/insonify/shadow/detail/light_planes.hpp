@@ -1,0 +1,66 @@
+// The planes over which a light's rays stand upright, and casters and points as seen there.
+//
+// Parallel light has one plane, the datum in the light's sheared frame (light.hpp). Light from a point has six, the
+// sides of a cube around it, each seen in perspective. On a plane every ray is one point (u, v), triangles stay
+// triangles, and of two points of a ray the one with the larger height is nearer to the light.
+#pragma once
+
+#include <insonify/core/linear.hpp>
+#include <insonify/shadow/light.hpp>
+
+#include <algorithm>
+#include <limits>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// One plane of a light.
+class light_plane {
+  public:
+    light_plane() = default;
+    explicit light_plane(const light_frame& frame)
+        : rows_{{frame.travel().x, frame.travel().y, frame.cot_elevation()}, {-frame.travel().y, frame.travel().x, 0}, {0, 0, 1}} {}
+    /// @param side  0 to 5: along +x, -x, +y, -y, +z, -z of the light
+    light_plane(const point_light& light, int side) : origin_(light.position), is_near_(true) {
+        const int axis = side / 2;
+        rows_[0][(axis + 1) % 3] = rows_[1][(axis + 2) % 3] = 1;
+        rows_[2][axis] = side % 2 == 0 ? 1 : -1;
+    }
+
+    bool is_near() const { return is_near_; }
+
+    /// (u, v, height) of a point; of a near light before the division, (u d, v d, d) with the depth d.
+    glm::dvec3 operator()(const glm::dvec3& p) const {
+        return direction(p - origin_);
+    }
+    /// The same of a difference of points.
+    glm::dvec3 direction(const glm::dvec3& d) const {
+        return {numeric::dot(rows_[0], d), numeric::dot(rows_[1], d), numeric::dot(rows_[2], d)};
+    }
+    /// After the division. Heights are 1 / depth.
+    static glm::dvec3 seen(const glm::dvec3& before) {
+        return {before.x / before.z, before.y / before.z, 1 / before.z};
+    }
+
+    /// Number of the plane of a point light over which a point lies.
+    static int side_of(const point_light& light, const glm::dvec3& p) {
+        const glm::dvec3 d = p - light.position;
+        const glm::dvec3 size{numeric::magnitude(d.x), numeric::magnitude(d.y), numeric::magnitude(d.z)};
+        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+        return 2 * axis + (d[axis] < 0 ? 1 : 0);
+    }
+
+  private:
+    glm::dvec3 rows_[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    glm::dvec3 origin_{0};
+    bool is_near_ = false;
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

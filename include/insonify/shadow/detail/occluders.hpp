@@ -1,0 +1,231 @@
+// Casters as one plane of a light sees them: vertices in (u, v, height), and for each tile of the plane the triangles
+// that touch it.
+#pragma once
+
+#include <insonify/core/dispatch.hpp>
+#include <insonify/core/lanes.hpp>
+#include <insonify/geometry/indices.hpp>
+#include <insonify/raster/binning.hpp>
+#include <insonify/shadow/detail/light_planes.hpp>
+#include <insonify/shadow/policy.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// A rectangle of a light's plane, cut into tiles.
+struct plane_tiles {
+    glm::dvec2 lower{0}, size{0};  ///< of the whole
+    int columns = 1, rows = 1;
+
+    glm::dvec2 tile() const { return {size.x / columns, size.y / rows}; }
+    std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+};
+
+/// A vertex on the plane, from the lower corner of the tiles.
+struct alignas(16) plane_vertex {
+    float u, v, height;
+    float state;  ///< 0, or one of the following
+
+    static constexpr float behind = 1;        ///< not in front of a near light
+    static constexpr float not_finite = 2;
+};
+
+/// The vertices of one caster on a plane.
+struct plane_vertices_kernel {
+    const glm::vec3* positions;
+    plane_vertex* vertices;
+    std::size_t count;
+    const light_plane& plane;
+    affine to_plane;  ///< from the mesh to the plane, before the division
+    glm::dvec2 lower;
+    double least_depth;
+
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        std::size_t i = 0;
+#if INSONIFY_SIMD
+        if constexpr (Width > 1)
+            if (!plane.is_near())
+                for (; i + 4 < count; i += 4) four(i);
+#endif
+        for (; i < count; ++i) one(i);
+    }
+
+  private:
+    void one(std::size_t i) const {
+        const glm::dvec3 p = transform_point(to_plane, glm::dvec3(positions[i]));
+        if (!(numeric::is_finite(p.x) && numeric::is_finite(p.y) && numeric::is_finite(p.z))) {
+            vertices[i] = {0, 0, 0, plane_vertex::not_finite};
+            return;
+        }
+        if (plane.is_near() && !(p.z >= least_depth)) {
+            vertices[i] = {0, 0, 0, plane_vertex::behind};
+            return;
+        }
+        const glm::dvec3 seen = plane.is_near() ? light_plane::seen(p) : p;
+        vertices[i] = {static_cast<float>(seen.x - lower.x), static_cast<float>(seen.y - lower.y),
+                       static_cast<float>(seen.z), 0};
+    }
+#if INSONIFY_SIMD
+    INSONIFY_INLINE void four(std::size_t i) const {
+        using namespace insonify::detail;
+        using reals = lanes<double, 4>;
+        lanes<float, 4> position[3], seen[4], rows[4];
+        transpose_threes(position, &positions[i].x);
+        reals p[3], bad{};
+        for (int axis = 0; axis < 3; ++axis) convert(p[axis], position[axis]);
+        unroll<3>([&](int row) INSONIFY_INLINE_LAMBDA {
+            const double offset = to_plane.offset[row] - (row < 2 ? lower[row] : 0.0);
+            const reals sum = to_plane.linear[0][row] * p[0] + to_plane.linear[1][row] * p[1] +
+                              to_plane.linear[2][row] * p[2] + offset;
+            bad = bad + (sum - sum);
+            convert(seen[row], sum);
+        });
+        const reals state = bad == 0.0 ? reals{} : reals{} + static_cast<double>(plane_vertex::not_finite);
+        convert(seen[3], state);
+        transpose_fours<4>(rows, seen);
+        for (int k = 0; k < 4; ++k) store(&vertices[i + static_cast<std::size_t>(k)].u, rows[k]);
+    }
+#endif
+};
+
+/// N triangles on the plane, one per lane.
+template <int N>
+struct plane_triangles {
+    using floats = insonify::detail::lanes<float, N>;
+    using ints = insonify::detail::lanes<std::int32_t, N>;
+    floats a[3], b[3], c[3];  ///< u, v, height
+    floats state;             ///< the worst of the corners'
+
+    /// @param corner  corner(k, i): vertex i of triangle k
+    template <class Corner>
+    INSONIFY_INLINE explicit plane_triangles(const Corner& corner) {
+        using namespace insonify::detail;
+        floats columns[3][4];
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            transpose<N>(columns[i], [&](int k) { return &corner(k, i).u; });
+        });
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            a[axis] = columns[0][axis];
+            b[axis] = columns[1][axis];
+            c[axis] = columns[2][axis];
+        });
+        state = columns[0][3] > columns[1][3] ? columns[0][3] : columns[1][3];
+        state = state > columns[2][3] ? state : columns[2][3];
+    }
+    INSONIFY_INLINE void range(floats& low, floats& high, int axis) const {
+        low = a[axis] < b[axis] ? a[axis] : b[axis];
+        low = low < c[axis] ? low : c[axis];
+        high = a[axis] > b[axis] ? a[axis] : b[axis];
+        high = high > c[axis] ? high : c[axis];
+    }
+};
+
+/// Notes which tiles the triangles of a chunk touch, in order.
+struct tile_assembly_kernel {
+    const plane_vertex* vertices;
+    const glm::uvec3* triangles;
+    std::size_t first, last;
+    const plane_tiles& tiles;
+    insonify::detail::tile_runs& runs;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        for (std::size_t i = first; i < last; i += N) some<N>(i, (std::min)(last - i, std::size_t{N}));
+    }
+
+  private:
+    template <int N>
+    INSONIFY_INLINE void some(std::size_t start, std::size_t count) const {
+        using namespace insonify::detail;
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        const plane_triangles<N> t([&](int k, int i) -> const plane_vertex& {
+            return vertices[triangles[start + (std::min)(static_cast<std::size_t>(k), count - 1)][i]];
+        });
+        const glm::dvec2 tile = tiles.tile();
+        ints from[2], to[2], outside{};
+        unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            floats low, high;
+            t.range(low, high, axis);
+            // A tile more than rounding can tell. NaN goes into all tiles.
+            const auto scale = static_cast<float>(1 / tile[axis]);
+            const auto most = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
+            const floats margin = 0x1p-20f * ((high < 0.0f ? floats{} - low : high) + static_cast<float>(tiles.size[axis]));
+            floats f = (low - margin) * scale, l = (high + margin) * scale;
+            outside |= ints(f > most + 1.0f) | ints(l < 0.0f);
+            f = f > 0.0f ? f : floats{};
+            f = f < most ? f : floats{} + most;
+            l = l < most ? l : floats{} + most;
+            l = l > 0.0f ? l : floats{};
+            f = t.state == plane_vertex::behind ? floats{} : f;
+            l = t.state == plane_vertex::behind ? floats{} + most : l;
+            convert(from[axis], f);
+            convert(to[axis], l);
+        });
+        outside = (outside & ints(t.state != plane_vertex::behind)) | ints(t.state == plane_vertex::not_finite);
+        const unsigned drawn = ~set_lanes<N>(outside) & ((2u << (count - 1)) - 1);
+        if (drawn == 0) return;
+        const ints first_tile = from[0] | from[1] << 16, last_tile = to[0] | to[1] << 16;
+        const auto id = static_cast<std::uint32_t>(start);
+        const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
+        if (drawn == (2u << (N - 1)) - 1 && !any(ints(((first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
+            runs.add(id, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
+            return;
+        }
+        for (unsigned left = drawn; left != 0; left &= left - 1) {
+            const int k = std::countr_zero(left);
+            runs.add(id + static_cast<unsigned>(k), 1,
+                     {static_cast<std::uint32_t>(lane(first_tile, k)), static_cast<std::uint32_t>(lane(last_tile, k))},
+                     true);
+        }
+    }
+};
+
+/// One caster over a plane.
+class plane_caster {
+  public:
+    plane_caster() = default;
+
+    /// @param c            its mesh's indices all have positions
+    /// @param least_depth  nearer to a point light than this, directions are not told apart
+    template <executor E>
+    plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double least_depth, E& ex)
+        : triangles_(c.mesh.triangles) {
+        vertices_.resize(c.mesh.positions.size());
+        affine to_plane{{}, plane(c.placement.offset)};
+        for (int i = 0; i < 3; ++i) to_plane.linear[i] = plane.direction(c.placement.linear[i]);
+        bulk_ranges(ex, vertices_.size(), 16384, [&](std::size_t first, std::size_t last) {
+            insonify::detail::dispatch(
+                plane_vertices_kernel{&c.mesh.positions[first], &vertices_[first], last - first, plane, to_plane,
+                                      tiles.lower, least_depth},
+                best_isa());
+        });
+        const std::size_t grain = (std::max)(std::size_t{4096}, (triangles_.size() / 64 + 16) / 16 * 16);
+        std::vector<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
+        bulk_ranges(ex, triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
+            insonify::detail::dispatch(tile_assembly_kernel{vertices_.data(), triangles_.data(), first, last, tiles,
+                                                            chunks[first / grain]},
+                                       best_isa());
+        });
+        bins_ = insonify::detail::tile_bins(chunks, insonify::detail::tile_grid(tiles.columns, tiles.rows, 0), ex);
+    }
+
+    std::span<const insonify::detail::triangle_run> bin(std::size_t tile) const { return bins_[tile]; }
+    const glm::uvec3& indices(std::uint32_t triangle) const { return triangles_[triangle]; }
+    const plane_vertex& corner(std::uint32_t triangle, int i) const { return vertices_[triangles_[triangle][i]]; }
+
+  private:
+    std::span<const glm::uvec3> triangles_;
+    insonify::detail::unfilled_vector<plane_vertex> vertices_;
+    insonify::detail::tile_bins bins_;
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,173 @@
+// One caster's triangles over the receivers of a tile: an irregular shadow map, whose samples are the points themselves.
+//
+// A triangle walks over the cells that it touches and is compared with their receivers, several at a time, in floats.
+// What floats cannot tell within their error is decided in doubles (blocking.hpp), so the answer is that of the doubles
+// for every pair of a triangle and a receiver. A receiver's own triangle is left out by its number; there is no bias.
+//
+// Based on: Timo Aila, Samuli Laine. Alias-Free Shadow Maps. EGSR 2004. Gregory S. Johnson, Juhyun Lee, Christopher A.
+// Burns, William R. Mark. The Irregular Z-Buffer: Hardware Acceleration for Irregular Data Structures. ACM TOG 24, 2005.
+#pragma once
+
+#include <insonify/shadow/detail/occluders.hpp>
+#include <insonify/shadow/detail/receivers.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// Marks the receivers of a tile that a caster blocks and that no caster before it does.
+/// @param Decide  decide(triangle, i): whether the triangle blocks receiver i, in doubles
+template <class Decide>
+struct occlusion_kernel {
+    const plane_caster& caster;
+    std::span<const insonify::detail::triangle_run> runs;
+    std::uint32_t number;  ///< of the caster
+    float error;           ///< of coordinates on the plane, beside what rounding to float adds
+    receiver_cells& receivers;
+    const Decide& decide;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        insonify::detail::run_reader reader(runs);
+        std::uint32_t ids[static_cast<unsigned>(2 * N)];
+        while (!reader.empty()) {
+            const int count = reader.take_small<N>(ids);
+            triangles<N>(ids, count);
+        }
+    }
+
+  private:
+    template <int N>
+    INSONIFY_INLINE void triangles(const std::uint32_t* ids, int count) const {
+        using namespace insonify::detail;
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        const plane_triangles<N> t([&](int k, int i) -> const plane_vertex& { return caster.corner(ids[k], i); });
+
+        // Cells, a little more than rounding can tell, and how large the numbers are that go into a comparison.
+        ints first[2], last[2], missed{};
+        floats extent[2], size{};
+        unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            floats low, high;
+            t.range(low, high, axis);
+            const float lower = receivers.lower()[axis], scale = receivers.scale()[axis];
+            const float most = static_cast<float>(axis == 0 ? receivers.columns() - 1 : receivers.rows() - 1);
+            const floats far_off = high < 0.0f - low ? 0.0f - low : high;
+            size = far_off > size ? far_off : size;
+            const floats margin = 0x1p-20f * (far_off + receivers.largest()) + error;
+            floats f = (low - margin - lower) * scale, l = (high + margin - lower) * scale;
+            missed |= ints(f >= most + 1.0f) | ints(l < 0.0f);
+            f = f > 0.0f ? f : floats{};
+            f = f < most ? f : floats{} + most;
+            l = l < most ? l : floats{} + most;
+            l = l > 0.0f ? l : floats{};
+            const ints behind = ints(t.state == plane_vertex::behind);
+            f = behind ? floats{} : f;
+            l = behind ? floats{} + most : l;
+            missed = missed & ~behind;
+            convert(first[axis], f);
+            convert(last[axis], l);
+            extent[axis] = (high - low) + 2.0f * receivers.cell()[axis];
+        });
+        floats low, high;
+        t.range(low, high, 2);
+        missed |= ints(high < receivers.lowest()) & ints(t.state == 0.0f);  // below all receivers
+        const unsigned open = ~set_lanes<N>(missed) & ((2u << (count - 1)) - 1);
+        if (open == 0) return;
+
+        low = low < receivers.lowest() ? low : floats{} + receivers.lowest();
+        high = high > receivers.highest() ? high : floats{} + receivers.highest();
+        const floats relief = high - low;
+        const floats greatest_height = high > 0.0f - low ? high : 0.0f - low;
+        floats ab[3], ac[3];
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            ab[axis] = t.b[axis] - t.a[axis];
+            ac[axis] = t.c[axis] - t.a[axis];
+        });
+        floats area = ab[0] * ac[1] - ab[1] * ac[0];
+        // Counter-clockwise on the plane.
+        const ints turned = ints(area < 0.0f);
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            const floats other = ab[axis];
+            ab[axis] = turned ? ac[axis] : ab[axis];
+            ac[axis] = turned ? other : ac[axis];
+        });
+        area = turned ? 0.0f - area : area;
+        // Coordinates are off by 2^-24 of their size, differences by twice as much; then rounding of two products.
+        const floats off = 0x1p-23f * (size + receivers.largest()) + error;
+        const floats box = extent[0] * extent[1];
+        floats edge_error = 4.5f * off * (extent[0] + extent[1]) + 0x1p-21f * box;
+        const floats height_off = 0x1p-22f * greatest_height + error;
+        floats height_error = 9.0f * edge_error * relief + 8.0f * box * height_off + 0x1p-20f * box * relief;
+        edge_error = t.state == 0.0f ? edge_error : floats{} + std::numeric_limits<float>::infinity();
+        height_error = t.state == 0.0f ? height_error : floats{} + std::numeric_limits<float>::infinity();
+
+        float values[11][static_cast<unsigned>(N)];
+        std::int32_t cells[4][static_cast<unsigned>(N)];
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            store(values[axis], t.a[axis]);
+            store(values[3 + axis], ab[axis]);
+            store(values[6 + axis], ac[axis]);
+        });
+        store(values[9], edge_error);
+        store(values[10], height_error);
+        unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            store(cells[axis], first[axis]);
+            store(cells[2 + axis], last[axis]);
+        });
+        for (unsigned left = open; left != 0; left &= left - 1) {
+            const auto k = static_cast<std::size_t>(std::countr_zero(left));
+            const float one[11] = {values[0][k], values[1][k], values[2][k], values[3][k], values[4][k], values[5][k],
+                                   values[6][k], values[7][k], values[8][k], values[9][k], values[10][k]};
+            for (int row = cells[1][k]; row <= cells[3][k]; ++row)
+                compare<N>(one, ids[k], receivers.start(row, cells[0][k]), receivers.start(row, cells[2][k] + 1));
+        }
+    }
+
+    /// One triangle with the receivers [first, last).
+    template <int N>
+    INSONIFY_INLINE void compare(const float (&t)[11], std::uint32_t id, std::uint32_t first, std::uint32_t last) const {
+        using namespace insonify::detail;
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        ints column;
+        count_up<std::int32_t, N>(column);
+        const float area = t[3] * t[7] - t[4] * t[6];
+        for (std::uint32_t i = first; i < last; i += N) {
+            floats u, v, height;
+            ints mesh, triangle, blocked;
+            load(u, receivers.u.data() + i);
+            load(v, receivers.v.data() + i);
+            load(height, receivers.height.data() + i);
+            load(blocked, receivers.caster.data() + i);
+            u = u - t[0];
+            v = v - t[1];
+            height = height - t[2];
+            const floats to_c = t[3] * v - t[4] * u, to_b = t[7] * u - t[6] * v;  // weights of c and b, times the area
+            const floats to_a = area - to_b - to_c;
+            const floats above = area * height - (to_b * t[5] + to_c * t[8]);
+            const ints out = ints(to_b < -t[9]) | ints(to_c < -t[9]) | ints(to_a < -3 * t[9]) | ints(above > t[10]);
+            const ints open = ints(out == 0) & ints(blocked == receiver_cells::open) & ints(column < static_cast<std::int32_t>(last - i));
+            if (!any(open)) continue;
+            load(mesh, receivers.mesh.data() + i);
+            load(triangle, receivers.triangle.data() + i);
+            const ints own = ints(mesh == static_cast<std::int32_t>(number)) & ints(triangle == static_cast<std::int32_t>(id));
+            const ints asked = open & ~own;
+            const ints certain = asked & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) &
+                                 ints(above < -t[10]);
+            store(receivers.caster.data() + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
+            for (unsigned left = set_lanes<N>(ints(asked & ~certain)); left != 0; left &= left - 1) {
+                const std::size_t at = i + static_cast<std::size_t>(std::countr_zero(left));
+                if (decide(id, at)) receivers.caster[at] = static_cast<std::int32_t>(number);
+            }
+        }
+    }
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
