@@ -80,20 +80,25 @@ class exact_occlusion {
         // A run of batches sorts its points by tile; then each tile collects its own from all runs.
         const std::size_t grain = (std::max)(std::size_t{8}, (at.size() + 127) / 128);
         std::vector<sorted_points> runs((at.size() + grain - 1) / grain);
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            if (i % grain == 0) runs[i / grain].first = count;
+            count += at[i].size();
+        }
+        receivers_of all(count);
         bulk_ranges(ex, at.size(), grain, [&](std::size_t first, std::size_t last) {
-            sort(at, into, first, last, runs[first / grain]);
+            sort(at, into, first, last, all, runs[first / grain]);
         });
-        const std::size_t tiles = tile_count();
-        bulk_ranges(ex, tiles, 4, [&](std::size_t first, std::size_t last) {
+        bulk_ranges(ex, tile_count(), 4, [&](std::size_t first, std::size_t last) {
             detail::receiver_cells cells;
-            std::vector<detail::receiver> all;
+            std::vector<detail::receiver> own;
             for (std::size_t tile = first; tile < last; ++tile) {
-                all.clear();
+                own.clear();
                 for (const sorted_points& run : runs) {
-                    const auto some = run.in(tile);
-                    all.insert(all.end(), some.begin(), some.end());
+                    const auto some = run.in(all, tile);
+                    own.insert(own.end(), some.begin(), some.end());
                 }
-                if (!all.empty()) test_tile(tile, all, cells, at, into);
+                if (!own.empty()) test_tile(tile, own, cells, at, into);
             }
         });
     }
@@ -106,15 +111,18 @@ class exact_occlusion {
         detail::plane_tiles tiles;
         float error = 0;  ///< of coordinates on it
         std::vector<detail::plane_caster> casters;
+        glm::dvec2 scale{};                      ///< tiles a unit
+        std::vector<std::uint8_t> is_occupied{};  ///< whether triangles touch a tile
     };
+    using receivers_of = insonify::detail::unfilled_vector<detail::receiver>;
     /// Points of a run of batches by tile.
     struct sorted_points {
-        std::vector<std::uint32_t> starts;
-        insonify::detail::unfilled_vector<detail::receiver> all;
+        std::size_t first = 0;              ///< among all
+        std::vector<std::uint32_t> starts;  ///< of tiles, from there
 
-        std::span<const detail::receiver> in(std::size_t tile) const {
+        std::span<const detail::receiver> in(const receivers_of& all, std::size_t tile) const {
             if (starts.empty()) return {};
-            return std::span(all).subspan(starts[tile], starts[tile + 1] - starts[tile]);
+            return std::span(all).subspan(first + starts[tile], starts[tile + 1] - starts[tile]);
         }
     };
 
@@ -148,8 +156,11 @@ class exact_occlusion {
         const double margin = error + 0x1p-20 * (std::max)(tiles.size.x, tiles.size.y) + 1e-30;
         tiles.lower -= margin;
         tiles.size += 2 * margin;
-        plane_state state{plane, tiles, static_cast<float>(error), {}};
+        plane_state state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
         for (const caster& c : casters_) state.casters.emplace_back(c, plane, tiles, least_depth, ex);
+        for (std::size_t tile = 0; tile < tiles.count(); ++tile)
+            state.is_occupied.push_back(std::any_of(state.casters.begin(), state.casters.end(),
+                                                    [&](const auto& c) { return !c.bin(tile).empty(); }));
         planes_.push_back(std::move(state));
     }
 
@@ -168,66 +179,56 @@ class exact_occlusion {
         return {nullptr, 0};
     }
 
+    /// Puts the points of some batches where they belong among all, by tile; those that nothing lies above are lit.
     void sort(std::span<const points> at, std::span<const shares> into, std::size_t first, std::size_t last,
-              sorted_points& out) const {
-        std::vector<std::size_t> plane_start;
+              receivers_of& all, sorted_points& out) const {
+        std::array<std::size_t, 6> plane_start{};
         std::size_t tiles = 0;
-        for (const plane_state& p : planes_) {
-            plane_start.push_back(tiles);
-            tiles += p.casters.empty() ? 0 : p.tiles.count();
+        for (std::size_t i = 0; i < planes_.size(); ++i) {
+            plane_start[i] = tiles;
+            tiles += planes_[i].casters.empty() ? 0 : planes_[i].tiles.count();
         }
-        std::size_t count = 0;
+        std::vector<detail::receiver> found;
+        std::vector<std::uint32_t> keys;
+        std::size_t most = 0;
         for (std::size_t part = first; part < last; ++part) {
             std::fill(into[part].lit.begin(), into[part].lit.end(), 1.0f);
             std::fill(into[part].caster.begin(), into[part].caster.end(), invalid_id);
-            count += at[part].size();
+            most += at[part].size();
         }
         if (tiles == 0) return;
+        found.reserve(most);
+        keys.reserve(most);
         out.starts.assign(tiles + 1, 0);
-        insonify::detail::unfilled_vector<detail::receiver> all(count);
-        insonify::detail::unfilled_vector<std::uint32_t> keys(count);
-        std::size_t n = 0;
+        const auto* const near_light = std::get_if<point_light>(&light_);
         for (std::size_t part = first; part < last; ++part) {
             const points& some = at[part];
             for (std::size_t i = 0; i < some.size(); ++i) {
                 const glm::dvec3 p = some[i];
-                std::size_t which = 0;
-                if (const auto* point = std::get_if<point_light>(&light_))
-                    which = static_cast<std::size_t>(detail::light_plane::side_of(*point, p));
+                const auto which =
+                    near_light == nullptr ? 0 : static_cast<std::size_t>(detail::light_plane::side_of(*near_light, p));
                 const plane_state& state = planes_[which];
                 if (state.casters.empty()) continue;
                 glm::dvec3 seen = state.plane(p);
-                if (state.plane.is_near()) seen = detail::light_plane::seen(seen);
+                if (near_light != nullptr) seen = detail::light_plane::seen(seen);
                 const glm::dvec2 from = glm::dvec2(seen) - state.tiles.lower;
-                const int column = hold(from.x / state.tiles.size.x, state.tiles.columns),
-                          row = hold(from.y / state.tiles.size.y, state.tiles.rows);
-                const std::size_t tile = static_cast<std::size_t>(row) * static_cast<std::size_t>(state.tiles.columns) +
-                                         static_cast<std::size_t>(column);
-                if (!has_triangles(state, tile)) continue;
-                keys[n] = static_cast<std::uint32_t>(plane_start[which] + tile);
-                all[n] = {static_cast<float>(from.x),
-                          static_cast<float>(from.y),
-                          static_cast<float>(seen.z),
-                          static_cast<std::uint32_t>(part << 16 | i),
-                          some.mesh[i],
-                          some.triangle[i],
-                          some.casters};
-                ++out.starts[keys[n] + 1];
-                ++n;
+                const int column = hold(from.x * state.scale.x, state.tiles.columns),
+                          row = hold(from.y * state.scale.y, state.tiles.rows);
+                const auto tile = static_cast<std::size_t>(row * state.tiles.columns + column);
+                if (!state.is_occupied[tile]) continue;
+                found.push_back({static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(seen.z),
+                                 static_cast<std::uint32_t>(part << 16 | i), some.mesh[i], some.triangle[i],
+                                 some.casters});
+                keys.push_back(static_cast<std::uint32_t>(plane_start[which] + tile));
+                ++out.starts[keys.back() + 1];
             }
         }
         for (std::size_t tile = 0; tile < tiles; ++tile) out.starts[tile + 1] += out.starts[tile];
         std::vector<std::uint32_t> next(out.starts.begin(), out.starts.end() - 1);
-        out.all.resize(n);
-        for (std::size_t i = 0; i < n; ++i) out.all[next[keys[i]]++] = all[i];
+        for (std::size_t i = 0; i < found.size(); ++i) all[out.first + next[keys[i]]++] = found[i];
     }
-    static int hold(double share, int count) {
-        return static_cast<int>((std::min)((std::max)(share * count, 0.0), count - 1.0));
-    }
-    static bool has_triangles(const plane_state& state, std::size_t tile) {
-        for (const detail::plane_caster& c : state.casters)
-            if (!c.bin(tile).empty()) return true;
-        return false;
+    static int hold(double at, int count) {
+        return static_cast<int>((std::min)((std::max)(at, 0.0), count - 1.0));
     }
 
     void test_tile(std::size_t number, std::span<const detail::receiver> all, detail::receiver_cells& cells,

@@ -24,17 +24,14 @@ inline shadow::caster as_caster(const placed_mesh& m) {
     return {m.shape, m.to_rig, m.box, m.grid};
 }
 
-/// How much light the points of a tile get, and which caster blocks it.
-struct light_tile {
+/// Room for what becomes of points.
+struct light_arrays {
     unfilled_vector<float> lit;
     unfilled_vector<std::uint32_t> caster;
 
-    void restart(std::size_t points) {
-        lit.resize(points);
-        caster.resize(points);
-    }
-    shadow::shares part(std::size_t first, std::size_t last) {
-        return {std::span(lit).subspan(first, last - first), std::span(caster).subspan(first, last - first)};
+    explicit light_arrays(std::size_t points) : lit(points), caster(points) {}
+    shadow::shares part(std::size_t first, std::size_t count) {
+        return {std::span(lit).subspan(first, count), std::span(caster).subspan(first, count)};
     }
 };
 
@@ -45,12 +42,11 @@ struct tile_batches {
     shadow::shares into[2];
 
     /// @param targets  casters numbered below this are targets
-    tile_batches(const point_tile& points, light_tile& light, std::uint32_t targets)
-        : at{points.facing_points(), points.averted_points()} {
+    tile_batches(const point_tile& points, const shadow::shares& all, std::uint32_t targets)
+        : at{points.facing_points(), points.averted_points()},
+          into{{all.lit.first(points.facing), all.caster.first(points.facing)},
+               {all.lit.subspan(points.facing), all.caster.subspan(points.facing)}} {
         at[1].casters = targets;
-        light.restart(points.size());
-        into[0] = light.part(0, points.facing);
-        into[1] = light.part(points.facing, points.size());
     }
     template <class Visit>
     void for_each(const Visit& visit) const {

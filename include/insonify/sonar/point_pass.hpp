@@ -19,34 +19,60 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail {
 
-/// The points of a tile that are tested for shadows, and their pixels, counted from the tile's first.
-struct point_tile {
-    pixel_box box{0, 0, -1, -1};
+/// Room for the points of all pixels of a picture.
+struct point_arrays {
     unfilled_vector<double> x, y, z;
     unfilled_vector<std::uint32_t> mesh, triangle;
-    unfilled_vector<std::uint16_t> pixel;
-    std::size_t facing = 0;   ///< points that face the light: the first ones
-    std::size_t averted = 0;  ///< points that face away: the last ones, backwards
+    unfilled_vector<std::uint16_t> pixel;  ///< counted from the tile's first
 
-    /// @param points  at most so many
-    void restart(const pixel_box& tile, std::size_t points) {
-        box = tile;
-        for (auto* reals : {&x, &y, &z}) reals->resize(points);
-        for (auto* ids : {&mesh, &triangle}) ids->resize(points);
-        pixel.resize(points);
-        facing = averted = 0;
-    }
+    explicit point_arrays(std::size_t count)
+        : x(count), y(count), z(count), mesh(count), triangle(count), pixel(count) {}
+};
+
+/// The points of a tile that are tested for shadows: those that face the light from the front of its room, those that
+/// face away from the back.
+class point_tile {
+  public:
+    pixel_box box{0, 0, -1, -1};
+    std::size_t facing = 0, averted = 0;
+
+    point_tile() = default;
+    /// @param first  of the arrays; there is room for as many points as the tile has pixels
+    point_tile(point_arrays& arrays, std::size_t first, const pixel_box& tile)
+        : box(tile),
+          arrays_(&arrays),
+          first_(first),
+          room_(static_cast<std::size_t>(tile.width()) * static_cast<std::size_t>(tile.height())) {}
+
     std::size_t size() const { return facing + averted; }
-    shadow::points facing_points() const { return part(0, facing); }
-    shadow::points averted_points() const { return part(x.size() - averted, averted); }
-    /// The number in the arrays of a point among all, facing ones first.
-    std::size_t at(std::size_t point) const { return point < facing ? point : x.size() - averted + (point - facing); }
+    shadow::points facing_points() const { return part(first_, facing); }
+    shadow::points averted_points() const { return part(first_ + room_ - averted, averted); }
+    /// The pixel and the caster of a point; facing ones are counted first.
+    std::size_t pixel(std::size_t point) const { return arrays_->pixel[at(point)]; }
+    std::uint32_t caster(std::size_t point) const { return arrays_->mesh[at(point)]; }
+
+    INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
+                             std::uint16_t pixel) {
+        const std::size_t to = first_ + (is_facing ? facing++ : room_ - ++averted);
+        arrays_->x[to] = x;
+        arrays_->y[to] = y;
+        arrays_->z[to] = z;
+        arrays_->mesh[to] = mesh;
+        arrays_->triangle[to] = triangle;
+        arrays_->pixel[to] = pixel;
+    }
 
   private:
-    shadow::points part(std::size_t first, std::size_t n) const {
-        return {std::span(x).subspan(first, n), std::span(y).subspan(first, n), std::span(z).subspan(first, n),
-                std::span(mesh).subspan(first, n), std::span(triangle).subspan(first, n)};
+    std::size_t at(std::size_t point) const {
+        return first_ + (point < facing ? point : room_ - averted + (point - facing));
     }
+    shadow::points part(std::size_t first, std::size_t n) const {
+        const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
+        return {some(arrays_->x), some(arrays_->y), some(arrays_->z), some(arrays_->mesh), some(arrays_->triangle)};
+    }
+
+    point_arrays* arrays_ = nullptr;
+    std::size_t first_ = 0, room_ = 0;
 };
 
 /// An object, the camera and the light from the object's own frame.
@@ -191,14 +217,9 @@ struct point_kernel {
         store(facing, faces);
         for (std::size_t k = 0; k < count; ++k) {
             if (facing[k] == 0 && !wants_averted) continue;
-            const std::size_t to = facing[k] != 0 ? tile.facing++ : tile.x.size() - ++tile.averted;
             const shown_pixel& shown = pixels[start + k];
-            tile.x[to] = places[0][k];
-            tile.y[to] = places[1][k];
-            tile.z[to] = places[2][k];
-            tile.mesh[to] = s.caster;
-            tile.triangle[to] = shown.triangle;
-            tile.pixel[to] = static_cast<std::uint16_t>(shown.row * tile.box.width() + shown.column);
+            tile.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
+                     static_cast<std::uint16_t>(shown.row * tile.box.width() + shown.column));
         }
     }
 

@@ -278,76 +278,74 @@ class overhead_painter {
         const auto targets = static_cast<std::uint32_t>(targets_.size());
         std::vector<point_finder> finders;
         for (const surface& s : surfaces_) finders.emplace_back(view_, s);
+        const std::size_t room = static_cast<std::size_t>(options_.tile) * static_cast<std::size_t>(options_.tile);
         if constexpr (shadow::collective_occlusion<Occlusion>) {
-            std::vector<point_tile> points(tiles().count());
-            std::vector<light_tile> light(tiles().count());
-            ex.bulk(points.size(), [&](std::size_t i) { find_points(finders, tile_box(i), points[i]); });
+            const std::size_t count = tiles().count();
+            point_arrays arrays(count * room);
+            light_arrays light(count * room);
+            std::vector<point_tile> points(count);
+            ex.bulk(count, [&](std::size_t i) {
+                points[i] = point_tile(arrays, i * room, tile_box(i));
+                find_points(finders, points[i]);
+            });
             std::vector<shadow::points> at;
             std::vector<shadow::shares> into;
-            for (std::size_t i = 0; i < points.size(); ++i)
-                tile_batches(points[i], light[i], targets)
+            for (std::size_t i = 0; i < count; ++i)
+                tile_batches(points[i], light.part(i * room, points[i].size()), targets)
                     .for_each([&](const shadow::points& p, const shadow::shares& s) {
                         at.push_back(p);
                         into.push_back(s);
                     });
             occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), ex);
-            ex.bulk(points.size(), [&](std::size_t i) { finish(points[i], light[i]); });
+            ex.bulk(count, [&](std::size_t i) { finish(points[i], light.part(i * room, points[i].size())); });
         } else {
             constexpr std::size_t run = 4;  // tiles share their memory
             bulk_ranges(ex, tiles().count(), run, [&](std::size_t first, std::size_t last) {
-                point_tile points;
-                light_tile light;
+                point_arrays arrays(room);
+                light_arrays light(room);
                 for (std::size_t i = first; i < last; ++i) {
-                    find_points(finders, tile_box(i), points);
-                    tile_batches(points, light, targets)
+                    point_tile points(arrays, 0, tile_box(i));
+                    find_points(finders, points);
+                    const shadow::shares shares = light.part(0, points.size());
+                    tile_batches(points, shares, targets)
                         .for_each([&](const shadow::points& p, const shadow::shares& s) { occlusion.test(p, s); });
-                    finish(points, light);
+                    finish(points, shares);
                 }
             });
         }
     }
 
     /// The points of a tile that matter: where there is light to lose, or all for the sake of labels.
-    void find_points(std::span<const point_finder> finders, const pixel_box& box, point_tile& into) const {
-        std::vector<shown_pixel> pixels;
-        const auto add = [&](const surface& s, const auto& visit) {
-            for (int y = box.y0; y <= box.y1; ++y)
-                for (int x = box.x0; x <= box.x1; ++x) {
-                    const std::uint32_t triangle = ids_(x, y) - s.first_id;
-                    if (ids_(x, y) == shadow::invalid_id || triangle >= s.mesh.triangles.size()) continue;
-                    if (labelled || out_.image(x, y) > 0) visit(x, y, triangle);
-                }
-        };
-        // Which objects there are; mostly one.
-        std::vector<std::size_t> shown;
-        std::size_t count = 0;
+    void find_points(std::span<const point_finder> finders, point_tile& into) const {
+        const pixel_box& box = into.box;
+        std::vector<std::vector<shown_pixel>> pixels(surfaces_.size());
         const surface* last = nullptr;
-        for (int y = box.y0; y <= box.y1; ++y)
-            for (int x = box.x0; x <= box.x1; ++x) {
-                const std::uint32_t id = ids_(x, y);
-                if (id == shadow::invalid_id || !(labelled || out_.image(x, y) > 0)) continue;
-                ++count;
-                if (last != nullptr && id - last->first_id < last->mesh.triangles.size()) continue;
-                last = &surface_of(id);
-                const auto number = static_cast<std::size_t>(last - surfaces_.data());
-                if (std::find(shown.begin(), shown.end(), number) == shown.end()) shown.push_back(number);
+        std::vector<shown_pixel>* to = nullptr;
+        for (int y = box.y0; y <= box.y1; ++y) {
+            const std::uint32_t* const ids = &ids_(box.x0, y);
+            const float* const direct = &out_.image(box.x0, y);
+            for (int x = 0; x < box.width(); ++x) {
+                const std::uint32_t id = ids[x];
+                if (id == shadow::invalid_id || !(labelled || direct[x] > 0)) continue;
+                if (last == nullptr || id - last->first_id >= last->mesh.triangles.size()) {
+                    last = &surface_of(id);
+                    to = &pixels[static_cast<std::size_t>(last - surfaces_.data())];
+                    if (to->empty()) to->reserve(static_cast<std::size_t>(box.width() * box.height()));
+                }
+                to->push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y - box.y0), id - last->first_id});
             }
-        into.restart(box, count);
-        for (const std::size_t i : shown) {
-            pixels.clear();
-            add(surfaces_[i], [&](int x, int y, std::uint32_t triangle) {
-                pixels.push_back({static_cast<std::uint16_t>(x - box.x0), static_cast<std::uint16_t>(y - box.y0), triangle});
-            });
-            dispatch(point_kernel{finders[i], pixels, view_.has_near_light(), labelled, into}, options_.level);
         }
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            if (!pixels[i].empty())
+                dispatch(point_kernel{finders[i], pixels[i], view_.has_near_light(), labelled, into}, options_.level);
     }
 
     /// Pixels of a tile from what the light makes of them and how much of it arrives.
-    void finish(const point_tile& points, const light_tile& light) {
+    void finish(const point_tile& points, const shadow::shares& light) {
         const pixel_box& box = points.box;
         const auto width = static_cast<std::size_t>(box.width());
         std::vector<float> lit(width * static_cast<std::size_t>(box.height()), 0.0f);
-        for (std::size_t i = 0; i < points.facing; ++i) lit[points.pixel[i]] = light.lit[i];
+        for (std::size_t i = 0; i < points.facing; ++i) lit[points.pixel(i)] = light.lit[i];
         for (int y = box.y0; y <= box.y1; ++y) {
             const float* const share = lit.data() + static_cast<std::size_t>(y - box.y0) * width;
             float* const value = &out_.image(box.x0, y);
@@ -358,16 +356,15 @@ class overhead_painter {
     }
 
     /// Names the caster of each shadow, see light_pass.hpp.
-    void label_shadows(const point_tile& points, const light_tile& light) {
+    void label_shadows(const point_tile& points, const shadow::shares& light) {
         const auto width = static_cast<std::size_t>(points.box.width());
         const auto targets = static_cast<std::uint32_t>(targets_.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
             const bool is_averted = i >= points.facing;
             if (!is_averted && !(light.lit[i] < 0.5f)) continue;
-            const std::size_t at = points.at(i);
-            const std::uint32_t caster = is_averted && light.caster[i] >= targets ? points.mesh[at] : light.caster[i];
-            out_.labels.shadow(points.box.x0 + static_cast<int>(points.pixel[at] % width),
-                               points.box.y0 + static_cast<int>(points.pixel[at] / width)) =
+            const std::uint32_t caster = is_averted && light.caster[i] >= targets ? points.caster(i) : light.caster[i];
+            out_.labels.shadow(points.box.x0 + static_cast<int>(points.pixel(i) % width),
+                               points.box.y0 + static_cast<int>(points.pixel(i) / width)) =
                 caster < targets ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
         }
     }

@@ -215,7 +215,11 @@ class plane_caster {
     }
 
     std::span<const insonify::detail::triangle_run> bin(std::size_t tile) const { return bins_[tile]; }
-    const glm::uvec3& indices(std::uint32_t triangle) const { return triangles_[triangle]; }
+    /// A triangle that may come soon.
+    INSONIFY_INLINE void prefetch(std::uint32_t triangle) const {
+        if (triangle >= triangles_.size()) return;
+        for (int i = 0; i < 3; ++i) insonify::detail::prefetch(&corner(triangle, i));
+    }
     const plane_vertex& corner(std::uint32_t triangle, int i) const { return vertices_[triangles_[triangle][i]]; }
 
   private:

@@ -39,11 +39,16 @@ struct occlusion_kernel {
     }
 
   private:
+    float height_error_of_receivers() const {
+        return 0x1.2p-24f * (std::max)(receivers.highest(), -receivers.lowest()) + error;
+    }
+
     template <int N>
     INSONIFY_INLINE void triangles(const std::uint32_t* ids, int count) const {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
+        for (int k = 0; k < count; k += N / 2 > 0 ? N / 2 : 1) caster.prefetch(ids[k] + 2 * N);
         const plane_triangles<N> t([&](int k, int i) -> const plane_vertex& { return caster.corner(ids[k], i); });
 
         // Cells, a little more than rounding can tell, and how large the numbers are that go into a comparison.
@@ -73,14 +78,11 @@ struct occlusion_kernel {
         });
         floats low, high;
         t.range(low, high, 2);
-        missed |= ints(high < receivers.lowest()) & ints(t.state == 0.0f);  // below all receivers
+        const floats height_off = 0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + height_error_of_receivers();
+        missed |= ints(high + 2.0f * height_off < receivers.lowest()) & ints(t.state == 0.0f);  // below all receivers
         const unsigned open = ~set_lanes<N>(missed) & ((2u << (count - 1)) - 1);
         if (open == 0) return;
 
-        low = low < receivers.lowest() ? low : floats{} + receivers.lowest();
-        high = high > receivers.highest() ? high : floats{} + receivers.highest();
-        const floats relief = high - low;
-        const floats greatest_height = high > 0.0f - low ? high : 0.0f - low;
         floats ab[3], ac[3];
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
             ab[axis] = t.b[axis] - t.a[axis];
@@ -95,16 +97,17 @@ struct occlusion_kernel {
             ac[axis] = turned ? other : ac[axis];
         });
         area = turned ? 0.0f - area : area;
-        // Coordinates are off by 2^-24 of their size, differences by twice as much; then rounding of two products.
-        const floats off = 0x1p-23f * (size + receivers.largest()) + error;
+        // A coordinate is off by half a unit in the last place, a difference by twice as much; two products round.
+        const floats off = 0x1.2p-24f * (size > receivers.largest() ? size : floats{} + receivers.largest()) + error;
         const floats box = extent[0] * extent[1];
         floats edge_error = 4.5f * off * (extent[0] + extent[1]) + 0x1p-21f * box;
-        const floats height_off = 0x1p-22f * greatest_height + error;
-        floats height_error = 9.0f * edge_error * relief + 8.0f * box * height_off + 0x1p-20f * box * relief;
+        const floats slopes = (ab[2] < 0.0f ? 0.0f - ab[2] : ab[2]) + (ac[2] < 0.0f ? 0.0f - ac[2] : ac[2]);
+        floats height_error = (edge_error + 0x1p-20f * box) * slopes + 10.0f * box * height_off;
+        const floats height_share = 3.0f * edge_error + 0x1p-21f * box;  // for each unit between a and the receiver
         edge_error = t.state == 0.0f ? edge_error : floats{} + std::numeric_limits<float>::infinity();
         height_error = t.state == 0.0f ? height_error : floats{} + std::numeric_limits<float>::infinity();
 
-        float values[11][static_cast<unsigned>(N)];
+        float values[12][static_cast<unsigned>(N)];
         std::int32_t cells[4][static_cast<unsigned>(N)];
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
             store(values[axis], t.a[axis]);
@@ -113,14 +116,15 @@ struct occlusion_kernel {
         });
         store(values[9], edge_error);
         store(values[10], height_error);
+        store(values[11], height_share);
         unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
             store(cells[axis], first[axis]);
             store(cells[2 + axis], last[axis]);
         });
         for (unsigned left = open; left != 0; left &= left - 1) {
             const auto k = static_cast<std::size_t>(std::countr_zero(left));
-            const float one[11] = {values[0][k], values[1][k], values[2][k], values[3][k], values[4][k], values[5][k],
-                                   values[6][k], values[7][k], values[8][k], values[9][k], values[10][k]};
+            const float one[12] = {values[0][k], values[1][k], values[2][k], values[3][k], values[4][k],  values[5][k],
+                                   values[6][k], values[7][k], values[8][k], values[9][k], values[10][k], values[11][k]};
             for (int row = cells[1][k]; row <= cells[3][k]; ++row)
                 compare<N>(one, ids[k], receivers.start(row, cells[0][k]), receivers.start(row, cells[2][k] + 1));
         }
@@ -128,27 +132,30 @@ struct occlusion_kernel {
 
     /// One triangle with the receivers [first, last).
     template <int N>
-    INSONIFY_INLINE void compare(const float (&t)[11], std::uint32_t id, std::uint32_t first, std::uint32_t last) const {
+    INSONIFY_INLINE void compare(const float (&t)[12], std::uint32_t id, std::uint32_t first, std::uint32_t last) const {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
         ints column;
         count_up<std::int32_t, N>(column);
+        const float *const us = receivers.u.data(), *const vs = receivers.v.data(), *const heights = receivers.height.data();
+        std::int32_t* const casters = receivers.caster.data();
         const float area = t[3] * t[7] - t[4] * t[6];
         for (std::uint32_t i = first; i < last; i += N) {
             floats u, v, height;
             ints mesh, triangle, blocked;
-            load(u, receivers.u.data() + i);
-            load(v, receivers.v.data() + i);
-            load(height, receivers.height.data() + i);
-            load(blocked, receivers.caster.data() + i);
+            load(u, us + i);
+            load(v, vs + i);
+            load(height, heights + i);
+            load(blocked, casters + i);
             u = u - t[0];
             v = v - t[1];
             height = height - t[2];
             const floats to_c = t[3] * v - t[4] * u, to_b = t[7] * u - t[6] * v;  // weights of c and b, times the area
             const floats to_a = area - to_b - to_c;
             const floats above = area * height - (to_b * t[5] + to_c * t[8]);
-            const ints out = ints(to_b < -t[9]) | ints(to_c < -t[9]) | ints(to_a < -3 * t[9]) | ints(above > t[10]);
+            const floats doubt = t[10] + t[11] * (height < 0.0f ? 0.0f - height : height);
+            const ints out = ints(to_b < -t[9]) | ints(to_c < -t[9]) | ints(to_a < -3 * t[9]) | ints(above > doubt);
             const ints open = ints(out == 0) & ints(blocked == receiver_cells::open) & ints(column < static_cast<std::int32_t>(last - i));
             if (!any(open)) continue;
             load(mesh, receivers.mesh.data() + i);
@@ -156,11 +163,11 @@ struct occlusion_kernel {
             const ints own = ints(mesh == static_cast<std::int32_t>(number)) & ints(triangle == static_cast<std::int32_t>(id));
             const ints asked = open & ~own;
             const ints certain = asked & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) &
-                                 ints(above < -t[10]);
-            store(receivers.caster.data() + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
+                                 ints(above < 0.0f - doubt);
+            store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
             for (unsigned left = set_lanes<N>(ints(asked & ~certain)); left != 0; left &= left - 1) {
                 const std::size_t at = i + static_cast<std::size_t>(std::countr_zero(left));
-                if (decide(id, at)) receivers.caster[at] = static_cast<std::int32_t>(number);
+                if (decide(id, at)) casters[at] = static_cast<std::int32_t>(number);
             }
         }
     }

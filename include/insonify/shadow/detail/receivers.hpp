@@ -31,10 +31,10 @@ class receiver_cells {
         const std::size_t count = from.size();
         int side = 1;
         while (side < widest && static_cast<std::size_t>(side * side) * per_cell < count) side *= 2;
-        columns_ = side;
+        columns_ = 2 * side;
         rows_ = side;
         lower_ = lower;
-        largest_ = lower.x + size.x + lower.y + size.y;
+        largest_ = (std::max)(lower.x + size.x, lower.y + size.y);
         scale_ = {static_cast<float>(columns_) / size.x, static_cast<float>(rows_) / size.y};
         cell_ = {size.x / static_cast<float>(columns_), size.y / static_cast<float>(rows_)};
 
@@ -97,7 +97,7 @@ class receiver_cells {
     std::vector<std::int32_t> caster;  ///< that blocks it, or open, or closed
 
   private:
-    static constexpr int widest = 128;
+    static constexpr int widest = 128;  // rows
     static constexpr std::size_t per_cell = 2;  ///< receivers, or more; fewer take longer to sort
     static constexpr std::size_t padding = 16;
 
