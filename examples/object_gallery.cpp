@@ -1,0 +1,196 @@
+// Every built-in object as a side-scan sonar records it: object_gallery [out.png]
+//
+// Slant range, starboard channel: the sonar is on the left, shadows fall to the right, metres across are in the
+// caption.
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/insonify.hpp>
+#include <insonify/io/png.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "common/text.hpp"
+
+namespace in = insonify;
+namespace sb = insonify::seabed;
+using namespace in::literals;
+
+namespace {
+
+constexpr int tile = 256, gap = 4, caption = 14, columns = 5;
+
+struct entry {
+    const char* name;
+    in::mesh shape;
+    float degrees;  // of the object's x axis, from the direction of sound
+    float across;   // metres that a tile shows
+    in::pose placement{};
+    float grazing = 14;  // degrees, in the middle of a tile
+    std::vector<sb::edit> edits{};
+};
+
+in::image<float> tile_of(const entry& e, in::thread_pool& pool) {
+    const double across = static_cast<double>(e.across), distance = 1.1 * across;
+    in::scene scene;
+    const auto sand = sb::flat{.surface = sb::roughness_of(in::sediment::fine_sand), .kind = sb::type::sand};
+    scene.seabed = sand;
+    if (!e.edits.empty()) scene.seabed = sb::sculpted{.ground = sand, .edits = e.edits};
+    in::pose placement = e.placement;
+    placement.yaw += e.degrees * 1_deg;
+    placement.position.x -= 0.15 * across;
+    const float buried = placement.burial;
+    placement = in::rest_on(sand, e.shape, placement);
+    placement.burial = buried;
+    scene.add(e.shape, placement, e.name, {.reflectivity = 1.4f});
+
+    const double altitude = distance * std::tan(static_cast<double>(e.grazing) * in::numeric::pi / 180);
+    const auto slant = [&](double ground) { return static_cast<float>(std::hypot(ground, altitude)); };
+    const in::side_scan rig{.position = {-distance, -0.5 * across},
+                            .altitude = static_cast<float>(altitude),
+                            .ping_spacing = e.across / tile,
+                            .pings = tile,
+                            .first_range = slant(distance - 0.5 * across),
+                            .range = slant(distance + 0.5 * across),
+                            .bins = tile};
+    const auto recorded = in::render(scene, rig, in::record_options<in::labels, in::lambert_backscatter>{}, pool);
+    in::seabed_speckle look{.seed = 5};
+    for (in::speckle_law& law : look.bottom) law = {.looks = 4};
+    look.elsewhere = {.looks = 3};
+    return in::with_speckle(recorded, rig, look, pool).image;
+}
+
+/// Gray values in decibels over 30 dB, with the bottom's median at a third.
+in::image<float> shown(in::image<float> intensity) {
+    std::vector<float> sorted(intensity.pixels().begin(), intensity.pixels().end());
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+    const float median = std::max(sorted[sorted.size() / 2], 1e-12f);
+    for (float& i : intensity.pixels())
+        i = std::clamp(0.36f + std::log10(std::max(i / median, 1e-6f) + 0.01f) / 3.0f, 0.0f, 1.0f);
+    return intensity;
+}
+
+std::vector<entry> entries();
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const std::string out = argc > 1 ? argv[1] : "objects.png";
+    in::thread_pool pool;
+    const std::vector<entry> all = entries();
+    const int rows = (static_cast<int>(all.size()) + columns - 1) / columns;
+    in::image<in::rgb<std::uint8_t>> sheet(columns * (tile + gap) + gap, rows * (tile + gap + caption) + gap,
+                                           in::rgb<std::uint8_t>{15, 15, 15});
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const int left = gap + static_cast<int>(i % columns) * (tile + gap);
+        const int top = gap + static_cast<int>(i / columns) * (tile + gap + caption);
+        const auto colored = shown(tile_of(all[i], pool)) | in::colormap::copper;
+        for (int y = 0; y < tile; ++y) std::copy_n(colored.row(y).begin(), tile, sheet.row(top + y).begin() + left);
+        char text[96];
+        std::snprintf(text, sizeof text, "%s, %.0f deg, %.3g m", all[i].name, static_cast<double>(all[i].degrees),
+                      static_cast<double>(all[i].across));
+        examples::write_text(sheet, left + 2, top + tile + 3, text, in::rgb<std::uint8_t>{230, 230, 230});
+    }
+    in::write_png(out, sheet);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "object_gallery: %s\n", error.what());
+    return 1;
+}
+
+namespace {
+
+std::vector<entry> entries() {
+    using namespace insonify;
+    const hull coaster;
+    const hull trawler{.length = 25,
+                       .beam = 6.8f,
+                       .depth = 3.4f,
+                       .stern = stern_type::transom,
+                       .house_length = 0.26f,
+                       .house_position = 0.12f,
+                       .hatches = 2,
+                       .masts = 1,
+                       .mast_height = 7};
+    const hull steamer{.length = 100,
+                       .beam = 14.5f,
+                       .depth = 7.5f,
+                       .bulwark = 1.2f,
+                       .sheer = 1.3f,
+                       .plating = 0.2f,
+                       .house_length = 0.16f,
+                       .house_position = -0.02f,
+                       .house_tiers = 3,
+                       .hatches = 4,
+                       .mast_height = 18};
+    const auto with = [](auto object, auto change) {
+        change(object);
+        return to_mesh(object);
+    };
+    const aeroplane bomber;
+    const aeroplane fighter{.length = 9.1f,
+                            .span = 11.2f,
+                            .fuselage_diameter = 1.15f,
+                            .root_chord = 2.5f,
+                            .tip_chord = 1.1f,
+                            .wing_position = 0.16f,
+                            .tail_span = 3.3f,
+                            .fin_height = 1.2f,
+                            .engines = 1,
+                            .propeller_diameter = 3.2f};
+    const aeroplane transport{.length = 28.6f,
+                              .span = 35.8f,
+                              .fuselage_diameter = 3.0f,
+                              .root_chord = 5.2f,
+                              .tip_chord = 1.9f,
+                              .tail_span = 13.5f,
+                              .fin_height = 4.2f,
+                              .engines = 4,
+                              .propeller_diameter = 4};
+    return {
+        {"coaster", to_mesh(coaster), 90, 75},
+        {"coaster", to_mesh(coaster), 35, 75},
+        {"coaster", to_mesh(coaster), 0, 75},
+        {"trawler", to_mesh(trawler), 120, 45},
+        {"cargo steamer", to_mesh(steamer), 70, 150},
+
+        {"ship in two", with(coaster, [](hull& h) { h.break_gap = 5; }), 75, 75},
+        {"decayed ship", with(coaster, [](hull& h) { h.collapse = 0.35f; }), 80, 75},
+        {"collapsed ship", with(coaster, [](hull& h) { h.collapse = 0.75f; }), 60, 75},
+        {"remains of a ship", with(coaster, [](hull& h) { h.collapse = 1; }), 80, 75},
+        {"on her side", to_mesh(coaster), 100, 75, in::pose{.roll = 75_deg}},
+
+        {"bomber", to_mesh(bomber), 60, 32},
+        {"bomber", to_mesh(bomber), 150, 32},
+        {"bomber", to_mesh(bomber), 90, 32},
+        {"fighter", to_mesh(fighter), 40, 18},
+        {"four engines", to_mesh(transport), 45, 56},
+
+        {"wing missing", with(bomber, [](aeroplane& a) { a.port_wing = 0.15f; }), 70, 32},
+        {"wings torn off",
+         with(bomber, [](aeroplane& a) { a.port_wing = 0.45f, a.starboard_wing = 0.35f, a.torn_off = 3; }), 30, 36},
+        {"tail broken off", with(bomber, [](aeroplane& a) { a.tail_gap = 2.5f; }), 60, 32},
+        {"on its back", with(bomber, [](aeroplane& a) { a.is_inverted = true; }), 45, 32},
+        {"fighter, no wings", with(fighter, [](aeroplane& a) { a.port_wing = a.starboard_wing = 0; }), 70, 18},
+
+        {"truncated cone", to_mesh(truncated_cone{}), 0, 4},
+        {"wedge", to_mesh(wedge{}), 0, 4},
+        {"wedge", to_mesh(wedge{}), 110, 4},
+        {"tyre", to_mesh(tyre{}), 0, 2.5f},
+        {"lorry tyre, filled",
+         to_mesh(tyre{.diameter = 1.076f, .width = 0.315f, .rim_diameter = 0.572f, .wall = 0.02f, .fill = 0.6f}), 0, 4},
+
+        {"pipe", to_mesh(open_pipe{}), 75, 20},
+        {"culvert, broken", to_mesh(open_pipe{.diameter = 1, .length = 2.5f, .wall = 0.1f, .broken = 0.8f}), 30, 6},
+        {"flanged pipe", to_mesh(open_pipe{.diameter = 0.5f, .length = 4, .wall = 0.03f, .flange = 0.12f}), 50, 7},
+        {"rounded boulder", to_mesh(boulder{.angularity = 0.1f, .seed = 3}), 0, 5},
+        {"angular boulder", to_mesh(boulder{.size = {2.2f, 1.7f, 1.3f}, .angularity = 1, .seed = 4}), 20, 8},
+
+        {"crate", to_mesh(crate{}), 30, 4},
+        {"open crate, damaged", to_mesh(crate{.is_open = true, .damage = 0.35f, .seed = 2}), 60, 4},
+        {"lobster pot", to_mesh(lobster_pot{}), 80, 3},
+        {"lobster pot", to_mesh(lobster_pot{.mesh_size = 0}), 30, 3},
+        {"crushed pot", to_mesh(lobster_pot{.crushed = 0.6f}), 60, 3},
+    };
+}
+
+}  // namespace
