@@ -23,26 +23,32 @@ constexpr int tile = 256, gap = 4, caption = 14, columns = 5;
 struct entry {
     const char* name;
     in::mesh shape;
-    float degrees;  // of the object's x axis, from the direction of sound
-    float across;   // metres that a tile shows
-    in::pose placement{};
+    float degrees;       // of the object's x axis, from the direction of sound
+    float across;        // metres that a tile shows
     float grazing = 14;  // degrees, in the middle of a tile
-    std::vector<sb::edit> edits{};
+    in::pose placement{};
+    float scour = 0;  // metres deep
 };
 
 in::image<float> tile_of(const entry& e, in::thread_pool& pool) {
     const double across = static_cast<double>(e.across), distance = 1.1 * across;
-    in::scene scene;
-    const auto sand = sb::flat{.surface = sb::roughness_of(in::sediment::fine_sand), .kind = sb::type::sand};
-    scene.seabed = sand;
-    if (!e.edits.empty()) scene.seabed = sb::sculpted{.ground = sand, .edits = e.edits};
     in::pose placement = e.placement;
     placement.yaw += e.degrees * 1_deg;
     placement.position.x -= 0.15 * across;
-    const float buried = placement.burial;
-    placement = in::rest_on(sand, e.shape, placement);
-    placement.burial = buried;
-    scene.add(e.shape, placement, e.name, {.reflectivity = 1.4f});
+    const sb::flat sand{.surface = sb::roughness_of(in::sediment::fine_sand), .kind = sb::type::sand};
+    in::scene scene;
+    scene.seabed = sand;
+    if (e.scour > 0) {
+        const float high = 0.8f * e.scour;
+        scene.seabed = sb::sculpted{.ground = sand,
+                                    .edits = {sb::moat{.outline = in::footprint(e.shape, placement, high),
+                                                       .depth = e.scour,
+                                                       .width = 5 * e.scour,
+                                                       .current = 250_deg,
+                                                       .mound = 0.7f * e.scour,
+                                                       .tail = 0.35f * e.across}}};
+    }
+    scene.add(e.shape, in::rest_on(scene.seabed, e.shape, placement), e.name, {.reflectivity = 1.8f});
 
     const double altitude = distance * std::tan(static_cast<double>(e.grazing) * in::numeric::pi / 180);
     const auto slant = [&](double ground) { return static_cast<float>(std::hypot(ground, altitude)); };
@@ -60,13 +66,12 @@ in::image<float> tile_of(const entry& e, in::thread_pool& pool) {
     return in::with_speckle(recorded, rig, look, pool).image;
 }
 
-/// Gray values in decibels over 30 dB, with the bottom's median at a third.
+/// Gray values in decibels over 36 dB, with the bottom's median at a third.
 in::image<float> shown(in::image<float> intensity) {
     std::vector<float> sorted(intensity.pixels().begin(), intensity.pixels().end());
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
     const float median = std::max(sorted[sorted.size() / 2], 1e-12f);
-    for (float& i : intensity.pixels())
-        i = std::clamp(0.36f + std::log10(std::max(i / median, 1e-6f) + 0.01f) / 3.0f, 0.0f, 1.0f);
+    for (float& i : intensity.pixels()) i = std::clamp(0.36f + std::log10(i / median + 0.02f) / 3.6f, 0.0f, 1.0f);
     return intensity;
 }
 
@@ -146,50 +151,65 @@ std::vector<entry> entries() {
                               .fin_height = 4.2f,
                               .engines = 4,
                               .propeller_diameter = 4};
+    // A compound: an anchor block of concrete with a chain of rings beside it.
+    compound mooring;
+    mooring.add(cube{.size = {1.4f, 1.4f, 0.6f}}, {.position = {0, 0, 0.3}}, 0.6f);
+    for (int i = 0; i < 9; ++i)
+        mooring.add(tyre{.diameter = 0.42f, .width = 0.1f, .rim_diameter = 0.2f, .wall = 0.03f},
+                    {.position = {0.95 + 0.36 * i, 0.1 * i * i * 0.5, 0.05 + (i % 2 == 0 ? 0 : 0.16)},
+                     .roll = i % 2 == 0 ? 0.0f : 80_deg});
+
     return {
         {"coaster", to_mesh(coaster), 90, 75},
-        {"coaster", to_mesh(coaster), 35, 75},
-        {"coaster", to_mesh(coaster), 0, 75},
-        {"trawler", to_mesh(trawler), 120, 45},
+        {"coaster", to_mesh(coaster), 35, 75, 20},
+        {"coaster", to_mesh(coaster), 0, 75, 20},
+        {"trawler", to_mesh(trawler), 120, 45, 20},
         {"cargo steamer", to_mesh(steamer), 70, 150},
 
-        {"ship in two", with(coaster, [](hull& h) { h.break_gap = 5; }), 75, 75},
-        {"decayed ship", with(coaster, [](hull& h) { h.collapse = 0.35f; }), 80, 75},
-        {"collapsed ship", with(coaster, [](hull& h) { h.collapse = 0.75f; }), 60, 75},
-        {"remains of a ship", with(coaster, [](hull& h) { h.collapse = 1; }), 80, 75},
-        {"on her side", to_mesh(coaster), 100, 75, in::pose{.roll = 75_deg}},
+        {"ship in two", with(coaster, [](hull& h) { h.break_gap = 8; }), 75, 75, 18, {}, 0.8f},
+        {"decayed ship", with(coaster, [](hull& h) { h.collapse = 0.35f; }), 105, 75, 14, {}, 1},
+        {"collapsed ship", with(coaster, [](hull& h) { h.collapse = 0.75f; }), 60, 75, 18},
+        {"remains of a ship", with(coaster, [](hull& h) { h.collapse = 1; }), 80, 75, 14, {}, 0.6f},
+        {"heeled over", with(coaster, [](hull& h) { h.masts = 0; }), 80, 75, 14, {.roll = -38_deg}},
 
-        {"bomber", to_mesh(bomber), 60, 32},
-        {"bomber", to_mesh(bomber), 150, 32},
-        {"bomber", to_mesh(bomber), 90, 32},
-        {"fighter", to_mesh(fighter), 40, 18},
-        {"four engines", to_mesh(transport), 45, 56},
+        {"bomber", to_mesh(bomber), 60, 32, 24},
+        {"bomber", to_mesh(bomber), 150, 32, 24},
+        {"bomber", to_mesh(bomber), 90, 32, 24},
+        {"fighter", to_mesh(fighter), 40, 18, 24},
+        {"four engines", to_mesh(transport), 45, 56, 24},
 
-        {"wing missing", with(bomber, [](aeroplane& a) { a.port_wing = 0.15f; }), 70, 32},
+        {"wing missing", with(bomber, [](aeroplane& a) { a.port_wing = 0.15f; }), 230, 32, 24},
         {"wings torn off",
-         with(bomber, [](aeroplane& a) { a.port_wing = 0.45f, a.starboard_wing = 0.35f, a.torn_off = 3; }), 30, 36},
-        {"tail broken off", with(bomber, [](aeroplane& a) { a.tail_gap = 2.5f; }), 60, 32},
-        {"on its back", with(bomber, [](aeroplane& a) { a.is_inverted = true; }), 45, 32},
-        {"fighter, no wings", with(fighter, [](aeroplane& a) { a.port_wing = a.starboard_wing = 0; }), 70, 18},
+         with(bomber, [](aeroplane& a) { a.port_wing = 0.45f, a.starboard_wing = 0.35f, a.torn_off = 3; }), 30, 36, 24},
+        {"tail broken off", with(bomber, [](aeroplane& a) { a.tail_gap = 2.5f; }), 60, 32, 24},
+        {"on its back", with(bomber, [](aeroplane& a) { a.is_inverted = true; }), 45, 32, 24},
+        {"fighter, no wings", with(fighter, [](aeroplane& a) { a.port_wing = a.starboard_wing = 0; }), 70, 18, 20},
 
         {"truncated cone", to_mesh(truncated_cone{}), 0, 4},
+        {"truncated cone, scour", to_mesh(truncated_cone{}), 0, 5, 14, {.burial = 0.1f}, 0.15f},
         {"wedge", to_mesh(wedge{}), 0, 4},
         {"wedge", to_mesh(wedge{}), 110, 4},
-        {"tyre", to_mesh(tyre{}), 0, 2.5f},
+        {"mooring compound", to_mesh(mooring), 20, 8, 20},
+
+        {"tyre", to_mesh(tyre{}), 0, 2.5f, 20},
         {"lorry tyre, filled",
-         to_mesh(tyre{.diameter = 1.076f, .width = 0.315f, .rim_diameter = 0.572f, .wall = 0.02f, .fill = 0.6f}), 0, 4},
-
+         to_mesh(tyre{.diameter = 1.076f, .width = 0.315f, .rim_diameter = 0.572f, .wall = 0.02f, .fill = 0.7f}), 0, 4,
+         20},
         {"pipe", to_mesh(open_pipe{}), 75, 20},
-        {"culvert, broken", to_mesh(open_pipe{.diameter = 1, .length = 2.5f, .wall = 0.1f, .broken = 0.8f}), 30, 6},
+        {"culvert, broken", to_mesh(open_pipe{.diameter = 1, .length = 2.5f, .wall = 0.1f, .broken = 0.8f}), 210, 6},
         {"flanged pipe", to_mesh(open_pipe{.diameter = 0.5f, .length = 4, .wall = 0.03f, .flange = 0.12f}), 50, 7},
-        {"rounded boulder", to_mesh(boulder{.angularity = 0.1f, .seed = 3}), 0, 5},
-        {"angular boulder", to_mesh(boulder{.size = {2.2f, 1.7f, 1.3f}, .angularity = 1, .seed = 4}), 20, 8},
 
-        {"crate", to_mesh(crate{}), 30, 4},
-        {"open crate, damaged", to_mesh(crate{.is_open = true, .damage = 0.35f, .seed = 2}), 60, 4},
-        {"lobster pot", to_mesh(lobster_pot{}), 80, 3},
-        {"lobster pot", to_mesh(lobster_pot{.mesh_size = 0}), 30, 3},
-        {"crushed pot", to_mesh(lobster_pot{.crushed = 0.6f}), 60, 3},
+        {"rounded boulder", to_mesh(boulder{.angularity = 0.1f, .seed = 3}), 0, 5},
+        {"angular boulder", to_mesh(boulder{.size = {2.2f, 1.7f, 1.3f}, .angularity = 0.8f, .seed = 4}), 20, 8},
+        {"crate", to_mesh(crate{}), 30, 4, 20},
+        {"open crate, damaged", to_mesh(crate{.is_open = true, .damage = 0.35f, .seed = 2}), 60, 4, 24},
+        {"lobster pot", to_mesh(lobster_pot{}), 80, 3, 20},
+
+        {"lobster pot, no net", to_mesh(lobster_pot{.mesh_size = 0}), 30, 3, 20},
+        {"crushed pot", to_mesh(lobster_pot{.crushed = 0.6f}), 60, 3, 20},
+        {"pipe, scour", to_mesh(open_pipe{}), 80, 20, 14, {.burial = 0.15f}, 0.25f},
+        {"boulder, scour", to_mesh(boulder{.size = {2.2f, 1.7f, 1.3f}, .seed = 9}), 0, 12, 14, {}, 0.3f},
+        {"bomber, scour", to_mesh(bomber), 120, 40, 20, {.burial = 0.3f}, 0.5f},
     };
 }
 

@@ -56,6 +56,7 @@
 #include <insonify/geometry/objects/compound.hpp>
 #include <insonify/geometry/objects/crate.hpp>
 #include <insonify/geometry/objects/creases.hpp>
+#include <insonify/geometry/objects/footprint.hpp>
 #include <insonify/geometry/objects/hull.hpp>
 #include <insonify/geometry/objects/hull_fittings.hpp>
 #include <insonify/geometry/objects/hull_form.hpp>
@@ -105,6 +106,7 @@
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/seabed/lattice.hpp>
 #include <insonify/seabed/mixed.hpp>
+#include <insonify/seabed/moat.hpp>
 #include <insonify/seabed/mud.hpp>
 #include <insonify/seabed/needed_vertices.hpp>
 #include <insonify/seabed/noise.hpp>

@@ -79,7 +79,8 @@ class aeroplane_builder {
         }
         append_body(fuselage, canopy, 0, (std::max)(a_.segments / 2, 8), key_);
         if (spinner_ > 0)
-            propeller({station_x(0) - 0.02 * length_, 0, station(0).z}, 0.45 * radius_, spinner_ + 0.02 * length_, 0.3);
+            add_propeller({station_x(0) - 0.02 * length_, 0, station(0).z}, 0.45 * radius_, spinner_ + 0.02 * length_,
+                          0.3);
     }
 
     aerofoil_surface wing(double side) const {
@@ -137,12 +138,20 @@ class aeroplane_builder {
         }
         append_body(wings, body, nose.y, (std::max)(a_.segments / 2, 8), key_);
         if (a_.propeller_diameter > 0)
-            propeller({nose.x + ahead - 0.05 * chord, nose.y, nose.z}, 0.45 * radius, 0.25 * chord, turn);
+            add_propeller({nose.x + ahead - 0.05 * chord, nose.y, nose.z}, 0.45 * radius, 0.25 * chord, turn);
     }
 
-    void propeller(const glm::dvec3& hub, double hub_radius, double length, double turn) {
-        append_propeller(propellers, hub, static_cast<double>(a_.propeller_diameter), hub_radius, length, 3,
-                         (std::max)(a_.segments / 3, 8), turn);
+    void add_propeller(const glm::dvec3& hub, double hub_radius, double length, double turn) {
+        const double up = a_.is_inverted ? -1 : 1;
+        append_propeller(propellers,
+                         {.hub = hub,
+                          .diameter = static_cast<double>(a_.propeller_diameter),
+                          .hub_radius = hub_radius,
+                          .length = length,
+                          .turn = turn,
+                          .up = up,
+                          .clearance = up * hub.z + radius_},
+                         (std::max)(a_.segments / 3, 8));
     }
 
     void build_tail() {
@@ -189,9 +198,7 @@ inline compound to_compound(const aeroplane& a) {
     if (a.is_inverted) map.linear = glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
     double lowest = 1e9;
     for (const mesh* m : {&built.fuselage, &built.wings, &built.propellers})
-        for (const glm::vec3& p : m->positions)
-            // Blades bend or sink in.
-            if (m != &built.propellers) lowest = (std::min)(lowest, transform_point(map, glm::dvec3(p)).z);
+        for (const glm::vec3& p : m->positions) lowest = (std::min)(lowest, transform_point(map, glm::dvec3(p)).z);
     map.offset.z = -lowest;
     compound out;
     const auto add = [&](const mesh& m, float reflectivity) {

@@ -150,24 +150,35 @@ inline void append_body(mesh& into, std::span<const body_section> stations, doub
     append_loft(into, sections);
 }
 
-/// A spinner with blades in front of x.
-inline void append_propeller(mesh& into, const glm::dvec3& hub, double diameter, double hub_radius, double length,
-                             int blades, int corners, double turn) {
+/// A spinner with blades in front of a hub.
+struct propeller {
+    glm::dvec3 hub;
+    double diameter, hub_radius, length, turn;  // the last as a share of the angle between blades
+    double up, clearance;                       // +1 or -1: where up is; height of the hub above the bottom
+};
+
+/// Blades that would reach into the bottom are as short as a crash landing leaves them.
+inline void append_propeller(mesh& into, const propeller& p, int corners) {
     std::vector<section> sections;
     for (const double t : {0.0, 0.35, 0.65, 0.85, 1.0}) {
-        const double radius = hub_radius * numeric::square_root(1 - 0.97 * t * t);
-        sections.push_back(circle(hub + glm::dvec3(t * length, 0, 0), {0, radius, 0}, {0, 0, radius}, corners));
+        const double radius = p.hub_radius * numeric::square_root(1 - 0.97 * t * t);
+        sections.push_back(circle(p.hub + glm::dvec3(t * p.length, 0, 0), {0, radius, 0}, {0, 0, radius}, corners));
     }
     append_loft(into, sections);
+    constexpr int blades = 3;
     for (int i = 0; i < blades; ++i) {
-        const auto [sine, cosine] = numeric::sin_cos_turns((i + turn) / blades);
+        const auto [sine, cosine] = numeric::sin_cos_turns((i + p.turn) / blades);
         const glm::dvec3 out(0, cosine, sine), over(0, -sine, cosine);
+        const double drop = -p.up * sine * 0.5 * p.diameter;
+        const double room = 0.85 * (std::max)(p.clearance, 0.0);
+        const double reach = 0.5 * p.diameter * (drop > room ? (std::max)(room / drop, 0.25) : 1.0);
+        const double wide = 0.045 * p.diameter, thick = 0.012 * p.diameter;
         std::vector<section> blade;
         for (const double t : {0.05, 0.4, 0.75, 1.0}) {
-            const double wide = diameter * (t < 0.9 ? 0.045 : 0.02), pitch = 0.9 - 0.6 * t, thick = 0.012 * diameter;
-            const glm::dvec3 at = hub + glm::dvec3(0.4 * length, 0, 0) + 0.5 * diameter * t * out;
-            const glm::dvec3 chord = wide * (over + glm::dvec3(pitch, 0, 0)),
-                             normal = thick * (glm::dvec3(1, 0, 0) - pitch * over);
+            const double pitch = 0.9 - 0.6 * t;
+            const glm::dvec3 at = p.hub + glm::dvec3(0.4 * p.length, 0, 0) + reach * t * out;
+            const glm::dvec3 chord = wide * (t < 0.9 ? 1.0 : 0.45) * (over + glm::dvec3(pitch, 0, 0));
+            const glm::dvec3 normal = thick * (glm::dvec3(1, 0, 0) - pitch * over);
             blade.push_back({at - chord - normal, at + chord - normal, at + chord + normal, at - chord + normal});
         }
         append_loft(into, blade);

@@ -132,24 +132,30 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
 inline compound to_compound(const hull& h) {
     validate(h);
     detail::hull_parts all;
-    const auto add = [&](const detail::hull_parts& half, const affine& map) {
-        for (std::size_t i = 0; i < all.size(); ++i) detail::append(all[i], half[i], map);
-    };
     if (h.break_gap > 0) {
         const double at = 0.5 + static_cast<double>(h.break_position);
-        add(detail::build_hull(h, {0, at}), {});
+        all = detail::build_hull(h, {0, at});
         // The bow half turns about the break, and rises by what its roll would sink into the bottom.
         const double x = (at - 0.5) * static_cast<double>(h.length);
-        const affine turn = compose(
-            to_world(
-                {.position = {x + static_cast<double>(h.break_gap), 0, 0}, .yaw = h.break_yaw, .roll = h.break_roll}),
-            {glm::dmat3(1), {-x, 0, 0}});
+        const auto turned = [&](float roll) {
+            return compose(
+                to_world({.position = {x + static_cast<double>(h.break_gap), 0, 0}, .yaw = h.break_yaw, .roll = roll}),
+                {glm::dmat3(1), {-x, 0, 0}});
+        };
         const detail::hull_parts bow = detail::build_hull(h, {at, 1});
+        // What collapsed lies flatter, and what fell off it lies on the bottom.
+        const affine turn = turned(h.break_roll * (1 - h.collapse)), level = turned(0);
         double lowest = 0;
         for (const glm::vec3& p : bow[0].positions) lowest = (std::min)(lowest, transform_point(turn, glm::dvec3(p)).z);
-        add(bow, {turn.linear, turn.offset - glm::dvec3(0, 0, lowest)});
+        const affine raised{turn.linear, turn.offset - glm::dvec3(0, 0, lowest)};
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const auto part = static_cast<detail::hull_part>(i);
+            const bool has_fallen = part == detail::hull_part::debris ||
+                                    (part == detail::hull_part::rigging && h.collapse > detail::masts_fall);
+            detail::append(all[i], bow[i], has_fallen ? level : raised);
+        }
     } else {
-        add(detail::build_hull(h, {0, 1}), {});
+        all = detail::build_hull(h, {0, 1});
     }
     compound out;
     constexpr float reflectivity[] = {1, 0.7f, 0.9f, 0.8f, 1, 0.8f};

@@ -52,6 +52,20 @@ inline void append_house(mesh& into, const hull& h, const hull_lines& lines, con
         wall(0, settled * low, settled * (high - 0.5 * roof));
         wall(0.25 * tier, settled * (high - roof), settled * high);
     }
+    // Lifeboats on both sides of the lowest roof, inside the ship's side.
+    const double boat_u = whole.from + 0.35 * (whole.to - whole.from), boat_size = 0.34 * tier;
+    const double rail = lines.half_breadth(boat_u, 1) - 1.2 * boat_size;
+    if (tiers > 1 && lines.collapse() < 0.3 && part.holds(boat_u) && rail > 1.5 * boat_size)
+        for (const double side : {-1.0, 1.0}) {
+            glm::dvec3 at = lines.between(boat_u, 1, 0, (1 - 0.35 * lines.collapse()) * (base + 1.25 * tier));
+            at.y = side * rail;
+            std::vector<section> boat;
+            for (int i = 0; i <= 6; ++i) {
+                const double t = i / 3.0 - 1, wide = boat_size * numeric::square_root(1 - 0.94 * t * t);
+                boat.push_back(circle(at + glm::dvec3(3.4 * t * boat_size, 0, 0), {0, wide, 0}, {0, 0, 0.7 * wide}, 8));
+            }
+            append_loft(into, boat);
+        }
     const double funnel_u = whole.from + 0.3 * (whole.to - whole.from);
     if (h.has_funnel && lines.collapse() < 0.4 && part.holds(funnel_u) && tiers > 0) {
         const glm::dvec3 foot = lines.between(funnel_u, 1, 0, base + 0.2 * tier);
@@ -60,12 +74,15 @@ inline void append_house(mesh& into, const hull& h, const hull_lines& lines, con
     }
 }
 
+/// The collapse beyond which masts lie over the side.
+inline constexpr float masts_fall = 0.35f;
+
 /// A mast with two derricks, or, where decks have gone, fallen over the side.
 inline void append_mast(mesh& into, const hull& h, const hull_lines& lines, double u, double side) {
     const double high = static_cast<double>(h.mast_height);
     const double thick = (std::max)(0.016 * high, 0.7 * lines.plating());
     const double deck = lines.deck_height(u);
-    if (lines.collapse() > 0.35) {
+    if (h.collapse > masts_fall) {
         const glm::dvec3 foot = lines.between(u, 0.5, 0, 0.4 * deck);
         const glm::dvec3 tip = foot + glm::dvec3(0.35 * high, side * 0.9 * high, 0);
         append_bar(into, foot, {tip.x, tip.y, 1.2 * thick}, thick, 0.5 * thick, 8);
@@ -73,13 +90,25 @@ inline void append_mast(mesh& into, const hull& h, const hull_lines& lines, doub
     }
     const glm::dvec3 foot = lines.between(u, 0.5, 0, 0.3 * deck), top(foot.x, 0, deck + high);
     append_bar(into, foot, top, thick, 0.5 * thick, 8);
+    // Within the ship's side, and short of her stem.
+    const double reach = (std::min)(0.6 * high, 0.1 * lines.length()),
+                 aside = (std::min)(0.13 * high, 0.5 * lines.half_beam());
     const glm::dvec3 hinge(foot.x, 0, deck + 0.15 * high);
     for (const double end : {-1.0, 1.0}) {
-        const glm::dvec3 boom = hinge + glm::dvec3(end * 0.6 * high, 0.12 * end * high, 0.22 * high);
+        const glm::dvec3 boom = hinge + glm::dvec3(end * reach, end * aside, 0.22 * high);
         append_bar(into, hinge, boom, 0.5 * thick, 0.35 * thick, 6);
     }
+    // The mast house with its winches.
+    const double house = 0.22 * lines.half_beam(), high_house = 0.35 * tier_height(h);
+    append_box(into, foot + glm::dvec3(-house, -1.4 * house, deck - foot.z - 0.5 * lines.plating()),
+               foot + glm::dvec3(house, 1.4 * house, deck - foot.z + high_house));
+    for (const double end : {-1.0, 1.0}) {
+        const glm::dvec3 drum = foot + glm::dvec3(1.5 * end * house, 0, deck - foot.z + 0.6 * high_house);
+        append_bar(into, drum - glm::dvec3(0, house, 0), drum + glm::dvec3(0, house, 0), 0.45 * high_house,
+                   0.45 * high_house, 8);
+    }
     // Crosstrees.
-    const glm::dvec3 cross(foot.x, 0, deck + 0.72 * high), arm(0, 0.14 * high, 0);
+    const glm::dvec3 cross(foot.x, 0, deck + 0.72 * high), arm(0, aside, 0);
     append_bar(into, cross - arm, cross + arm, 0.4 * thick, 0.4 * thick, 5);
 }
 
@@ -108,7 +137,7 @@ inline void append_debris(mesh& into, const hull_lines& lines, const stretch_of_
     for (int i = 0; i < pieces; ++i) {
         const double u = draw.uniform(0.03, 0.97), side = draw.uniform() < 0.5 ? -1 : 1;
         const double away = draw.uniform(0.15, 1.9), turns = draw.uniform(), tilt = draw.uniform(0.02, 0.3);
-        const double size = lines.half_beam() * draw.uniform(0.08, 0.35), shape = draw.uniform(0.08, 0.7);
+        const double size = lines.half_beam() * draw.uniform(0.04, 0.24), shape = draw.uniform(0.06, 0.5);
         if (!part.holds(u)) continue;
         const auto [sine, cosine] = numeric::sin_cos_turns(turns);
         const glm::dvec3 along(size * cosine, size * sine, size * tilt),

@@ -3,6 +3,7 @@
 
 #include <insonify/geometry/objects/creases.hpp>
 #include <insonify/geometry/objects/solids.hpp>
+#include <insonify/geometry/revolution.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -34,8 +35,8 @@ inline void validate(const open_pipe& p) {
     const float larger = p.diameter > p.length ? p.diameter : p.length;
     detail::require(p.wall >= 1e-4f * larger && p.wall < 0.499f * p.diameter, "open_pipe.wall", p.wall,
                     "at least 1/10000 of the larger size, below half the diameter");
-    detail::require(p.flange == 0 || (p.flange >= 1e-4f * larger && p.flange <= p.diameter), "open_pipe.flange", p.flange,
-                    "0, or from 1/10000 of the larger size to the diameter");
+    detail::require(p.flange == 0 || (p.flange >= 1e-4f * larger && p.flange <= p.diameter), "open_pipe.flange",
+                    p.flange, "0, or from 1/10000 of the larger size to the diameter");
     detail::require(p.broken >= 0 && p.broken <= 0.5f * p.length, "open_pipe.broken", p.broken, "0 to half the length");
     detail::require_segments("open_pipe.segments", p.segments, 6, 8192);
 }
