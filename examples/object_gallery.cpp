@@ -18,7 +18,7 @@ using namespace in::literals;
 
 namespace {
 
-constexpr int tile = 256, gap = 4, caption = 14, columns = 5;
+constexpr int tile = 224, gap = 4, caption = 14, columns = 5;
 
 struct entry {
     const char* name;
@@ -66,12 +66,16 @@ in::image<float> tile_of(const entry& e, in::thread_pool& pool) {
     return in::with_speckle(recorded, rig, look, pool).image;
 }
 
-/// Gray values in decibels over 36 dB, with the bottom's median at a third.
+/// Gray values in decibels over 36 dB, with the bottom's median at a third. 32 levels keep the file short.
 in::image<float> shown(in::image<float> intensity) {
     std::vector<float> sorted(intensity.pixels().begin(), intensity.pixels().end());
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    const float median = std::max(sorted[sorted.size() / 2], 1e-12f);
-    for (float& i : intensity.pixels()) i = std::clamp(0.36f + std::log10(i / median + 0.02f) / 3.6f, 0.0f, 1.0f);
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const float median = std::max(*middle, 1e-12f);
+    for (float& i : intensity.pixels()) {
+        const float gray = std::clamp(0.36f + std::log10(i / median + 0.02f) / 3.6f, 0.0f, 1.0f);
+        i = std::round(31 * gray) / 31;
+    }
     return intensity;
 }
 

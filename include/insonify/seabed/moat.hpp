@@ -63,13 +63,13 @@ inline double moat_reach(const moat& m) {
 
 /// How much a moat raises (or, negative, lowers) the ground at a position.
 inline double moat_change(const moat& m, const glm::dvec2& p) {
-    const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(m.current));
+    const numeric::sine_cosine flow = numeric::sin_cos(static_cast<double>(m.current));
     // Along the current and across it, of the outline and of the position, from the outline's mean corner.
     glm::dvec2 centre(0, 0);
     for (const glm::dvec2& c : m.outline) centre += c / static_cast<double>(m.outline.size());
     const auto turned = [&](const glm::dvec2& q) {
         const glm::dvec2 off = q - centre;
-        return glm::dvec2(off.x * cosine + off.y * sine, off.y * cosine - off.x * sine);
+        return glm::dvec2(off.x * flow.cosine + off.y * flow.sine, off.y * flow.cosine - off.x * flow.sine);
     };
     double lee_end = 0, left = 0, right = 0;
     for (const glm::dvec2& c : m.outline) {

@@ -186,10 +186,10 @@ class aeroplane_builder {
 
 }  // namespace detail
 
-/// Fuselage with tail, wings with engine bodies, and propellers: reflectivities of smooth aluminium sheet and of solid
-/// steel. Each part is solid, and so is all of it.
+/// The parts: fuselage with tail, wings with engine nacelles, propellers. Reflectivities are illustrative: aluminium
+/// sheet 0.9, steel 1. Each part is solid, and so is the merged mesh.
 ///
-/// A whole aeroplane spans exactly `span`, and `length` if no engine stands out in front of its nose.
+/// A whole aeroplane spans exactly `span`, and exactly `length` unless wing engines reach ahead of its nose.
 /// @throws invalid_input as `validate` does
 inline compound to_compound(const aeroplane& a) {
     validate(a);

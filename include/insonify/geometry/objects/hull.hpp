@@ -123,11 +123,12 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
 
 }  // namespace detail
 
-/// The ship's parts with usual reflectivities: plating, decks, deckhouse, rigging, machinery, debris; those that are
-/// missing are left out. Each is solid, and so is all of it.
+/// The parts of the ship in the order plating, decks, deckhouse, rigging, machinery, debris; empty parts are left out.
+/// Reflectivities are illustrative: steel 1, decks covered by silt and planks less. Each part is solid, and so is the
+/// merged mesh.
 ///
-/// An intact ship spans exactly `length` and `beam`; z = 0 is the keel's lower side. Of one that broke, the stern half
-/// stays in place.
+/// An intact ship spans exactly `length` and `beam`, with the lower side of the keel at z = 0. The stern half of a
+/// broken ship stays in place; the bow half is moved, yawed and rolled.
 /// @throws invalid_input as `validate` does
 inline compound to_compound(const hull& h) {
     validate(h);

@@ -19,8 +19,7 @@ enum class stern_type : std::uint8_t { cruiser, transom };
 /// The default is a coaster. Proportions: H. Schneekluth, V. Bertram. Ship Design for Efficiency and Economy, 1998
 /// (length / beam 4 to 7, beam / depth 1.6 to 2.5). Sheer and bulwark: International Convention on Load Lines, 1966
 /// (regulation 38: standard sheer of 50 (L / 3 + 10) mm at the bow and half of that at the stern; regulation 25:
-/// bulwarks of 1 m). A trawler is 25 m long, 6.8 m wide and 3.4 m deep, a cargo steamer of 1910 100 m, 14.5 m and 7.5
-/// m.
+/// bulwarks of 1 m). A trawler measures some 25 x 6.8 x 3.4 m, a cargo steamer of 1910 some 100 x 14.5 x 7.5 m.
 struct hull {
     float length = 45;   ///< over all, metres
     float beam = 8.2f;   ///< metres, length / 20 to length / 2
@@ -28,19 +27,19 @@ struct hull {
     float bulwark = 1;   ///< height above the deck, metres, at most half the depth
     float sheer = 1.5f;  ///< times the standard sheer, 0 to 4
     stern_type stern = stern_type::cruiser;
-    /// Thickness in which plating is drawn, metres; from 1/2000 of the length to 1/16 of the beam. Real plates are 10
-    /// mm thick, which no sonar and no grid of pixels resolves.
+    /// Thickness in which plating is drawn, metres; from 1/2000 of the length to 1/16 of the beam. Real plates
+    /// measure 10 mm, which neither a sonar nor a grid of pixels resolves.
     float plating = 0.12f;
 
     float house_length = 0.2f;     ///< of the deckhouse, share of the length; 0: none, at most 0.5
     float house_position = -0.3f;  ///< of its middle from midships, share of the length: -0.35 (aft) to 0.3
     int house_tiers = 2;           ///< 1 to 4, each 2.4 m or half the depth high, whichever is less
     bool has_funnel = true;
-    int hatches = 2;        ///< open ones, 0 to 8
+    int hatches = 2;        ///< open, 0 to 8
     int masts = 2;          ///< 0 to 4, with two derricks each
     float mast_height = 9;  ///< above the deck, metres, at most the length
 
-    float break_gap = 0;          ///< metres between the halves of one that broke; 0: in one piece
+    float break_gap = 0;          ///< metres between the two halves of a broken ship; 0: in one piece
     float break_position = 0.1f;  ///< from midships, share of the length, -0.4 to 0.4
     float break_yaw = 0.3f;       ///< radians that the bow half is turned by, -1.6 to 1.6
     float break_roll = -0.25f;    ///< radians that the bow half is rolled by, -1.6 to 1.6
