@@ -18,7 +18,7 @@ using namespace in::literals;
 
 namespace {
 
-constexpr int tile = 224, gap = 4, caption = 14, columns = 5;
+constexpr int tile = 208, gap = 4, caption = 14, columns = 5;
 
 struct entry {
     const char* name;

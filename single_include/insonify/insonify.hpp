@@ -17797,7 +17797,7 @@ struct hull {
 
     float house_length = 0.2f;     ///< of the deckhouse, share of the length; 0: none, at most 0.5
     float house_position = -0.3f;  ///< of its middle from midships, share of the length: -0.35 (aft) to 0.3
-    int house_tiers = 2;           ///< 1 to 4, each 2.4 m or half the depth high, whichever is less
+    int house_tiers = 2;           ///< 1 to 4, each 2.4 m high, at most half the depth and 0.08 length
     bool has_funnel = true;
     int hatches = 2;        ///< open, 0 to 8
     int masts = 2;          ///< 0 to 4, with two derricks each
@@ -18063,7 +18063,7 @@ inline stretch_of_hull house_of(const hull& h) {
     return {(std::max)(middle - half, 0.07), (std::min)(middle + half, 0.85)};
 }
 inline double tier_height(const hull& h) {
-    return (std::min)(2.4, 0.5 * static_cast<double>(h.depth));
+    return (std::min)({2.4, 0.5 * static_cast<double>(h.depth), 0.08 * static_cast<double>(h.length)});
 }
 
 /// The tiers of the deckhouse, each smaller than the one below and under a roof that overhangs it.
@@ -18097,7 +18097,7 @@ inline void append_house(mesh& into, const hull& h, const hull_lines& lines, con
         };
         const double settled = 1 - 0.35 * lines.collapse();
         wall(0, settled * low, settled * (high - 0.5 * roof));
-        wall(0.25 * tier, settled * (high - roof), settled * high);
+        wall((std::min)(0.25 * tier, 0.1 * lines.half_beam()), settled * (high - roof), settled * high);
     }
     // Lifeboats on both sides of the lowest roof, inside the ship's side.
     const double boat_u = whole.from + 0.35 * (whole.to - whole.from), boat_size = 0.34 * tier;
@@ -18287,7 +18287,7 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
 
     append_plating(of(hull_part::plating), lines, part, h.segments);
     if (part.from <= 0)
-        append_bulkhead(of(hull_part::plating), lines, 0.004,
+        append_bulkhead(of(hull_part::plating), lines, (std::max)(0.004, 0.6 * lines.plating() / lines.length()),
                         0.985 * (std::min)(lines.standing(0, 1), lines.standing(0, -1)));
     for (const double u : {0.065, 0.31, 0.6, 0.93})
         if (part.holds(u))

@@ -397,6 +397,9 @@ TEST_CASE("a hull stays solid while it collapses and breaks, and sinks lower") {
     // The halves of one that broke straight apart are the gap farther from end to end, but for the torn edges.
     const in::mesh broken = to_mesh(in::hull{.break_gap = 6, .break_yaw = 0, .break_roll = 0});
     CHECK(in::bounds(broken).size().x == Approx(51));
+    // However the bow half rolls, it does not sink into the bottom.
+    for (const float roll : {-1.5f, -0.3f, 0.6f})
+        check_stands(to_mesh(in::hull{.has_funnel = false, .masts = 0, .break_gap = 6, .break_roll = roll}));
 }
 
 TEST_CASE("a hull refuses what it cannot be, by name and value") {

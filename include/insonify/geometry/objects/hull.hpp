@@ -90,7 +90,7 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
 
     append_plating(of(hull_part::plating), lines, part, h.segments);
     if (part.from <= 0)
-        append_bulkhead(of(hull_part::plating), lines, 0.004,
+        append_bulkhead(of(hull_part::plating), lines, (std::max)(0.004, 0.6 * lines.plating() / lines.length()),
                         0.985 * (std::min)(lines.standing(0, 1), lines.standing(0, -1)));
     for (const double u : {0.065, 0.31, 0.6, 0.93})
         if (part.holds(u))

@@ -16,7 +16,7 @@ inline stretch_of_hull house_of(const hull& h) {
     return {(std::max)(middle - half, 0.07), (std::min)(middle + half, 0.85)};
 }
 inline double tier_height(const hull& h) {
-    return (std::min)(2.4, 0.5 * static_cast<double>(h.depth));
+    return (std::min)({2.4, 0.5 * static_cast<double>(h.depth), 0.08 * static_cast<double>(h.length)});
 }
 
 /// The tiers of the deckhouse, each smaller than the one below and under a roof that overhangs it.
@@ -50,7 +50,7 @@ inline void append_house(mesh& into, const hull& h, const hull_lines& lines, con
         };
         const double settled = 1 - 0.35 * lines.collapse();
         wall(0, settled * low, settled * (high - 0.5 * roof));
-        wall(0.25 * tier, settled * (high - roof), settled * high);
+        wall((std::min)(0.25 * tier, 0.1 * lines.half_beam()), settled * (high - roof), settled * high);
     }
     // Lifeboats on both sides of the lowest roof, inside the ship's side.
     const double boat_u = whole.from + 0.35 * (whole.to - whole.from), boat_size = 0.34 * tier;

@@ -33,7 +33,7 @@ struct hull {
 
     float house_length = 0.2f;     ///< of the deckhouse, share of the length; 0: none, at most 0.5
     float house_position = -0.3f;  ///< of its middle from midships, share of the length: -0.35 (aft) to 0.3
-    int house_tiers = 2;           ///< 1 to 4, each 2.4 m or half the depth high, whichever is less
+    int house_tiers = 2;           ///< 1 to 4, each 2.4 m high, at most half the depth and 0.08 length
     bool has_funnel = true;
     int hatches = 2;        ///< open, 0 to 8
     int masts = 2;          ///< 0 to 4, with two derricks each
