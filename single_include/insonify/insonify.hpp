@@ -10441,6 +10441,105 @@ struct none {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/seabed/moat.hpp ------------------------------------------------------------------
+// Scour around what has lain long: a moat along its outline, and down-current a mound of what was dug.
+//
+// Sources: Richard J. S. Whitehouse. Scour at Marine Structures: A Manual for Practical Applications, 1998 (scour is
+// deepest up-current, and half of that in the lee). G. F. Caston. Wreck marks: indicators of net sand transport. Marine
+// Geology 33, 1979 (tails of sand down-current of wrecks). Around piles in sand the depth reaches 1.38 diameters (R. J.
+// S. Whitehouse and others. The nature of scour development and scour protection at offshore windfarm foundations.
+// Marine Pollution Bulletin 62, 2011).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// Scour around a footprint of any outline; `scour` is the same around a round one. The ground below the middle of the
+/// footprint stays, so that what lies on it keeps standing on it.
+struct moat {
+    std::vector<glm::dvec2> outline{
+        {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  ///< of the target on the ground, 3 to 4096 corners
+    float depth = 0.3f;                       ///< metres, >= 0, where the current arrives; half of it in the lee
+    float width = 1.5f;                       ///< metres, > 0: from the outline to where the moat ends
+    float current = 0;                        ///< radians from +x: where it flows to
+    float mound = 0.15f;                      ///< height of the deposit down-current, metres, >= 0
+    float tail = 6;                           ///< its length, metres, >= 0; 0: none
+};
+
+namespace detail {
+
+inline void validate(const moat& m) {
+    validate_points(m.outline, "moat.outline", 3);
+    require(m.outline.size() <= 4096, "moat.outline.size()", m.outline.size(), "at most 4096");
+    for (const glm::dvec2& p : m.outline) {
+        require(p.x >= -1e9 && p.x <= 1e9, "moat.outline", p.x, "within 1e9 metres");
+        require(p.y >= -1e9 && p.y <= 1e9, "moat.outline", p.y, "within 1e9 metres");
+    }
+    require(m.depth >= 0 && m.depth < 1e6f, "moat.depth", m.depth, "metres, at least 0");
+    require(m.width > 0 && m.width < 1e6f, "moat.width", m.width, "metres above 0");
+    require(m.mound >= 0 && m.mound < 1e6f, "moat.mound", m.mound, "metres, at least 0");
+    require(m.tail >= 0 && m.tail < 1e6f, "moat.tail", m.tail, "metres, at least 0");
+    require(numeric::is_finite(m.current), "moat.current", m.current, "a finite angle");
+}
+
+/// (1 - t^2)^2: 1 at 0, and 0 with its slope from 1 on.
+constexpr double soft_edge(double t) {
+    const double inside = t * t < 1 ? 1 - t * t : 0.0;
+    return inside * inside;
+}
+
+/// How far from its outline's corners a moat reaches, at most.
+inline double moat_reach(const moat& m) {
+    // The tail is as wide as the outline, whose corners may all lie to one side of it.
+    double square = 0;
+    for (const glm::dvec2& p : m.outline) {
+        const glm::dvec2 off = p - m.outline.front();
+        square = (std::max)(square, off.x * off.x + off.y * off.y);
+    }
+    return numeric::square_root(square) + static_cast<double>(m.width) + static_cast<double>(m.tail);
+}
+
+/// How much a moat raises (or, negative, lowers) the ground at a position.
+inline double moat_change(const moat& m, const glm::dvec2& p) {
+    const numeric::sine_cosine flow = numeric::sin_cos(static_cast<double>(m.current));
+    // Along the current and across it, of the outline and of the position, from the outline's mean corner.
+    glm::dvec2 centre(0, 0);
+    for (const glm::dvec2& c : m.outline) centre += c / static_cast<double>(m.outline.size());
+    const auto turned = [&](const glm::dvec2& q) {
+        const glm::dvec2 off = q - centre;
+        return glm::dvec2(off.x * flow.cosine + off.y * flow.sine, off.y * flow.cosine - off.x * flow.sine);
+    };
+    double lee_end = 0, left = 0, right = 0;
+    for (const glm::dvec2& c : m.outline) {
+        const glm::dvec2 q = turned(c);
+        lee_end = (std::max)(lee_end, q.x);
+        left = (std::min)(left, q.y);
+        right = (std::max)(right, q.y);
+    }
+
+    const double width = static_cast<double>(m.width), outside = -inside(polygon{m.outline}, p);
+    const glm::dvec2 at = turned(p);
+    const double away = numeric::square_root(at.x * at.x + at.y * at.y);
+    const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;
+    double change =
+        -static_cast<double>(m.depth) * facing * soft_edge(outside > 0 ? outside / width : 2 * outside / width);
+
+    if (m.tail > 0) {
+        // A ridge behind the moat, as wide as the outline is across the current.
+        const double length = static_cast<double>(m.tail), along = (at.x - lee_end - 0.5 * width) / length;
+        const double half = 0.5 * (right - left), side = std::abs(at.y - 0.5 * (left + right));
+        if (along > 0 && along < 1)
+            change += static_cast<double>(m.mound) * 6.75 * along * (1 - along) * (1 - along) *
+                      soft_edge(side / (half + 0.5 * width));
+    }
+    return change;
+}
+
+}  // namespace detail
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/edit.hpp ------------------------------------------------------------------
 // What hands, plows and currents do to a seabed, an edit at a time: see sculpt.hpp for how they are applied.
 
@@ -10502,7 +10601,7 @@ struct heap {
     float slope = 0.6f;   ///< > 0: of its sides; sand lies at 0.6, mud flatter
 };
 
-using edit = std::variant<raise, flatten, smooth, ramp, stamp, scour, heap>;
+using edit = std::variant<raise, flatten, smooth, ramp, stamp, scour, heap, moat>;
 
 namespace detail {
 
@@ -10606,6 +10705,11 @@ inline box box_of(const heap& e) {
     return box_around(e.centre, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
 }
 
+inline box box_of(const moat& e) {
+    validate(e);
+    return box_around(e.outline, moat_reach(e));
+}
+
 /// What an edit makes of a height at a position.
 inline float worked(const raise& e, const glm::dvec2& p, float height) {
     return height + e.height * brush(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius);
@@ -10658,6 +10762,9 @@ inline float worked(const scour& e, const glm::dvec2& p, float height) {
     const float tail = 0.4f * e.depth * 4 * way * (1 - way) * brush((side - e.radius) / e.width);
     return height + moat + tail;
 }
+inline float worked(const moat& e, const glm::dvec2& p, float height) {
+    return height + static_cast<float>(moat_change(e, p));
+}
 inline float worked(const heap& e, const glm::dvec2& p, float height) {
     const float beyond = length(p.x - e.centre.x, p.y - e.centre.y) - e.radius;
     return (std::max)(height, e.level - e.slope * (std::max)(beyond, 0.0f));
@@ -10688,6 +10795,9 @@ inline height_range worked_range(const stamp& e, const height_range& ground) {
 }
 inline height_range worked_range(const scour& e, const height_range& ground) {
     return added(ground, -static_cast<double>(e.depth), 0.4 * static_cast<double>(e.depth));
+}
+inline height_range worked_range(const moat& e, const height_range& ground) {
+    return added(ground, -static_cast<double>(e.depth), static_cast<double>(e.mound));
 }
 inline height_range worked_range(const heap& e, const height_range& ground) {
     return {ground.lowest, (std::max)(ground.highest, static_cast<double>(e.level))};
@@ -16675,6 +16785,2049 @@ inline mesh load_obj(const std::string& path) {
             return read_obj(text, path);
         }
     }
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/lattice_noise.hpp -----------------------------------------------
+// Noise for broken edges, relief and decay of objects.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// Value noise on the integer lattice, in [-1, 1], continuous with its slope.
+inline double lattice_noise(const glm::dvec3& p, const philox_key& key) {
+    std::int64_t cell[3];
+    double weight[3];
+    for (int i = 0; i < 3; ++i) {
+        cell[i] = numeric::floor_to_int(p[i]);
+        const double t = p[i] - static_cast<double>(cell[i]);
+        weight[i] = t * t * (3 - 2 * t);
+    }
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        philox_counter at{};
+        double share = 1;
+        for (int i = 0; i < 3; ++i) {
+            const int step = (corner >> i) & 1;
+            at[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(cell[i] + step);
+            share *= step == 1 ? weight[i] : 1 - weight[i];
+        }
+        sum += share * (2 * uniform_open(philox4x32(at, key)[0]) - 1);
+    }
+    return sum;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/solids.hpp ------------------------------------------------------
+// Closed pieces that objects are assembled from: lofts of cross sections, boxes, bars and tubes.
+//
+// An object is a union of closed pieces that may overlap. Pieces never share an edge, so that the union stays closed by
+// position (`inspect(mesh).solid()`); where two pieces meet, one reaches into the other.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// A closed polygon in space, without coincident corners.
+using section = std::vector<glm::dvec3>;
+
+inline void require_size(const char* name, float metres) {
+    require(metres >= 1e-4f && metres <= 1e5f, name, metres, "0.0001 to 100000 metres");
+}
+/// A size that may be absent.
+inline void require_size_or_none(const char* name, float metres) {
+    require(metres == 0 || (metres >= 1e-4f && metres <= 1e5f), name, metres, "0, or 0.0001 to 100000 metres");
+}
+/// A thickness that float positions resolve on an object of the given size.
+inline void require_thickness(const char* name, float metres, float object_size) {
+    require(metres >= 1e-4f * object_size && metres <= object_size, name, metres,
+            "at least 1/10000 of the object's size, at most that size");
+}
+inline void require_share(const char* name, float value) {
+    require(value >= 0 && value <= 1, name, value, "0 to 1");
+}
+inline void require_segments(const char* name, int value, int fewest, int most) {
+    require(value >= fewest && value <= most, name, value, to_text(fewest) + " to " + to_text(most));
+}
+
+/// Appends the surface through sections with equal numbers of corners, closed at both ends. The two ends are cut into
+/// triangles by a zigzag between corner i and corner n - 1 - i: exact for convex sections, for thin shells whose second
+/// half runs back along the first, and for sections that are symmetric about their middle.
+/// The piece faces outwards for either direction of the sections.
+inline void append_loft(mesh& into, std::span<const section> sections) {
+    const auto corners = static_cast<std::uint32_t>(sections[0].size());
+    const auto first = static_cast<std::uint32_t>(into.positions.size());
+    const std::size_t first_triangle = into.triangles.size();
+    for (const section& s : sections)
+        for (const glm::dvec3& p : s) into.positions.emplace_back(p);
+
+    for (std::uint32_t k = 0; k + 1 < sections.size(); ++k)
+        for (std::uint32_t i = 0; i < corners; ++i) {
+            const std::uint32_t j = (i + 1) % corners, here = first + k * corners, next = here + corners;
+            into.triangles.emplace_back(here + i, here + j, next + j);
+            into.triangles.emplace_back(here + i, next + j, next + i);
+        }
+    const auto last = first + static_cast<std::uint32_t>(sections.size() - 1) * corners;
+    for (std::uint32_t low = 0, high = corners - 1; high - low >= 2; ++low, --high) {
+        into.triangles.emplace_back(first + low, first + high, first + low + 1);
+        into.triangles.emplace_back(last + low, last + low + 1, last + high);
+        if (high - low < 3) break;
+        into.triangles.emplace_back(first + low + 1, first + high, first + high - 1);
+        into.triangles.emplace_back(last + low + 1, last + high - 1, last + high);
+    }
+
+    double volume = 0;
+    const glm::dvec3 origin(into.positions[first]);
+    for (std::size_t t = first_triangle; t < into.triangles.size(); ++t) {
+        const auto corner = [&](int i) { return glm::dvec3(into.positions[into.triangles[t][i]]) - origin; };
+        volume += numeric::dot(corner(0), numeric::cross(corner(1), corner(2)));
+    }
+    if (volume < 0)
+        for (std::size_t t = first_triangle; t < into.triangles.size(); ++t)
+            std::swap(into.triangles[t].y, into.triangles[t].z);
+}
+
+/// Appends the hexahedron between two quadrilaterals whose corners correspond.
+inline void append_block(mesh& into, const std::array<glm::dvec3, 4>& from, const std::array<glm::dvec3, 4>& to) {
+    const section ends[2] = {{from.begin(), from.end()}, {to.begin(), to.end()}};
+    append_loft(into, ends);
+}
+
+/// Appends a box with edges along the axes.
+inline void append_box(mesh& into, const glm::dvec3& low, const glm::dvec3& high) {
+    append_block(
+        into, {{{low.x, low.y, low.z}, {high.x, low.y, low.z}, {high.x, high.y, low.z}, {low.x, high.y, low.z}}},
+        {{{low.x, low.y, high.z}, {high.x, low.y, high.z}, {high.x, high.y, high.z}, {low.x, high.y, high.z}}});
+}
+
+/// Two unit vectors across a direction.
+inline std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& direction) {
+    const glm::dvec3 along = unit(direction);
+    const glm::dvec3 away = std::abs(along.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 u = unit(numeric::cross(away, along));
+    return {u, numeric::cross(along, u)};
+}
+
+/// The corners of a regular polygon around a point.
+inline section circle(const glm::dvec3& centre, const glm::dvec3& u, const glm::dvec3& v, int corners) {
+    section out;
+    for (int i = 0; i < corners; ++i) {
+        const auto [sine, cosine] = numeric::sin_cos_turns((i + 0.5) / corners);
+        out.push_back(centre + cosine * u + sine * v);
+    }
+    return out;
+}
+
+/// Appends a straight round bar, its radius growing or shrinking linearly.
+inline void append_bar(mesh& into, const glm::dvec3& from, const glm::dvec3& to, double from_radius, double to_radius,
+                       int corners = 6) {
+    const auto [u, v] = across(to - from);
+    const section ends[2] = {circle(from, from_radius * u, from_radius * v, corners),
+                             circle(to, to_radius * u, to_radius * v, corners)};
+    append_loft(into, ends);
+}
+
+/// Appends a bent round bar through points; the sections at its bends lie in the bisecting planes.
+inline void append_bent_bar(mesh& into, std::span<const glm::dvec3> path, double radius, int corners = 6) {
+    std::vector<section> sections;
+    const auto [start_u, start_v] = across(path[1] - path[0]);
+    glm::dvec3 u = start_u;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const glm::dvec3 before = i > 0 ? unit(path[i] - path[i - 1]) : glm::dvec3(0);
+        const glm::dvec3 after = i + 1 < path.size() ? unit(path[i + 1] - path[i]) : glm::dvec3(0);
+        const glm::dvec3 along = unit(before + after);
+        u = unit(u - numeric::dot(u, along) * along);
+        sections.push_back(circle(path[i], radius * u, radius * numeric::cross(along, u), corners));
+    }
+    append_loft(into, sections);
+}
+
+/// Appends a copy of all triangles of another mesh, moved.
+inline void append(mesh& into, mesh part, const affine& map = {}) {
+    part = transformed(std::move(part), map);
+    const auto first = static_cast<std::uint32_t>(into.positions.size());
+    into.positions.insert(into.positions.end(), part.positions.begin(), part.positions.end());
+    into.normals.insert(into.normals.end(), part.normals.begin(), part.normals.end());
+    for (const glm::uvec3& t : part.triangles) into.triangles.push_back(t + first);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/aeroplane_form.hpp ----------------------------------------------
+// The form of an aeroplane: its parameters, the sections of its wings, and the bodies it is built from.
+//
+// Based on: Eastman N. Jacobs, Kenneth E. Ward, Robert M. Pinkerton. The Characteristics of 78 Related Airfoil
+// Sections. NACA Report 460, 1933 (thickness of the four-digit sections).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// An aeroplane on its belly, nose towards +x, its lowest point at z = 0: fuselage with canopy, tapered wings with
+/// dihedral, tailplane, fin, engines with propellers; whole, without wings, with its tail broken off, or on its back.
+///
+/// The default is a twin-engined bomber of the 1940s of the size of a Junkers Ju 88 A-4, 14.4 m long with a span of
+/// 20 m; a single-engined fighter such as the Spitfire Mk V is 9.1 m and 11.2 m, a Douglas C-47 19.4 m and 29 m (Jane's
+/// All the World's Aircraft, 1945). Taper and tail sizes: D. P. Raymer. Aircraft Design: A Conceptual Approach,
+/// chapters 4 and 6.
+struct aeroplane {
+    float length = 14.4f;            ///< of the fuselage with a nose engine's spinner, metres
+    float span = 20;                 ///< metres, length / 4 to 4 length
+    float fuselage_diameter = 1.7f;  ///< mean of height and width, metres, length / 40 to length / 4
+    float root_chord = 3.7f;         ///< metres, length / 20 to length / 2
+    float tip_chord = 1.5f;          ///< metres, length / 100 to root_chord
+    float sweep = 0.08f;             ///< of the leading edge, radians, -0.5 to 0.8
+    float dihedral = 0.08f;          ///< radians, -0.2 to 0.3
+    float wing_position = 0.2f;  ///< of the root's leading edge ahead of the middle, share of the length, -0.1 to 0.4
+    float tail_span = 7.4f;      ///< of the tailplane, metres, at most the span
+    float fin_height = 2.1f;     ///< above the fuselage, metres, at most length / 3
+    int engines = 2;             ///< 0 to 4; odd ones sit in the nose, the others in the wings
+    float propeller_diameter = 3.4f;  ///< metres, at most the length; 0: without propellers
+
+    float port_wing = 1;       ///< share of the half span that is left, 0 to 1
+    float starboard_wing = 1;  ///< the same of the other
+    float torn_off = 0;     ///< metres to the lost parts of the wings, which lie on the bottom; 0: they are not there
+    float tail_gap = 0;     ///< metres between the fuselage and a tail that broke off; 0: whole
+    float tail_yaw = 0.5f;  ///< radians that such a tail is turned by, -1.6 to 1.6
+    bool is_inverted = false;  ///< lies on its back, on a fin that is crushed to a third
+    int segments = 24;         ///< around the fuselage, 8 to 512; as many along it and along a wing
+    std::uint64_t seed = 1;    ///< of torn edges
+};
+
+/// @throws invalid_input for a value outside its range
+inline void validate(const aeroplane& a) {
+    using detail::require;
+    detail::require_size("aeroplane.length", a.length);
+    const auto in_range = [](const char* name, float value, float least, float most, const char* expected) {
+        require(value >= least && value <= most, name, value, expected);
+    };
+    const float l = a.length;
+    in_range("aeroplane.span", a.span, l / 4, 4 * l, "length / 4 to 4 length");
+    in_range("aeroplane.fuselage_diameter", a.fuselage_diameter, l / 40, l / 4, "length / 40 to length / 4");
+    in_range("aeroplane.root_chord", a.root_chord, l / 20, l / 2, "length / 20 to length / 2");
+    in_range("aeroplane.tip_chord", a.tip_chord, l / 100, a.root_chord, "length / 100 to root_chord");
+    in_range("aeroplane.sweep", a.sweep, -0.5f, 0.8f, "-0.5 to 0.8 radians");
+    in_range("aeroplane.dihedral", a.dihedral, -0.2f, 0.3f, "-0.2 to 0.3 radians");
+    in_range("aeroplane.wing_position", a.wing_position, -0.1f, 0.4f, "-0.1 to 0.4");
+    in_range("aeroplane.tail_span", a.tail_span, 1.2f * a.fuselage_diameter, a.span,
+             "1.2 fuselage diameters to the span");
+    in_range("aeroplane.fin_height", a.fin_height, l / 50, l / 3, "length / 50 to length / 3");
+    require(a.engines >= 0 && a.engines <= 4, "aeroplane.engines", a.engines, "0 to 4");
+    require(a.propeller_diameter == 0 || (a.propeller_diameter >= l / 50 && a.propeller_diameter <= l),
+            "aeroplane.propeller_diameter", a.propeller_diameter, "0, or length / 50 to length");
+    detail::require_share("aeroplane.port_wing", a.port_wing);
+    detail::require_share("aeroplane.starboard_wing", a.starboard_wing);
+    in_range("aeroplane.torn_off", a.torn_off, 0, 10 * l, "0 to 10 lengths");
+    in_range("aeroplane.tail_gap", a.tail_gap, 0, 10 * l, "0 to 10 lengths");
+    in_range("aeroplane.tail_yaw", a.tail_yaw, -1.6f, 1.6f, "-1.6 to 1.6 radians");
+    detail::require_segments("aeroplane.segments", a.segments, 8, 512);
+}
+
+namespace detail {
+
+/// A wing, tailplane or fin: straight edges from root to tip, the tip rounded. `out` is a unit vector along its span,
+/// `up` across its chord; the chord runs towards -x.
+struct aerofoil_surface {
+    glm::dvec3 leading_edge;  // at the root
+    glm::dvec3 out, up;
+    double span, root_chord, tip_chord, sweep_tangent, thickness;
+};
+
+/// One wing's cross section, from the upper trailing edge round the nose to the lower one.
+inline section aerofoil(const aerofoil_surface& wing, double t) {
+    const double tip = (std::max)((t - 0.9) / 0.1, 0.0);
+    const double rounded = numeric::square_root(1 - 0.9 * tip * tip);
+    const double full = wing.root_chord + (wing.tip_chord - wing.root_chord) * t, chord = full * rounded;
+    const glm::dvec3 nose = wing.leading_edge + t * wing.span * wing.out -
+                            glm::dvec3(t * wing.span * wing.sweep_tangent + 0.4 * (full - chord), 0, 0);
+    constexpr double stations[] = {1, 0.75, 0.5, 0.3, 0.15, 0.05, 0.0125};
+    section out;
+    const auto add = [&](double x, double side) {
+        const double half = 5 * wing.thickness *
+                            (0.2969 * numeric::square_root(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x -
+                             0.0936 * x * x * x * x);  // a trailing edge of 1/20 of the thickness instead of 1/50
+        out.push_back(nose + glm::dvec3(-x * chord, 0, 0) + side * half * chord * wing.up);
+    };
+    for (const double x : stations) add(x, 1);
+    for (int i = 6; i >= 0; --i) add(stations[i], -1);
+    return out;
+}
+
+/// Appends the part of a wing between two shares of its span; ends that are not the wing's own are torn.
+inline void append_wing(mesh& into, const aerofoil_surface& wing, double from, double to, int segments,
+                        const philox_key& key, const affine& map = {}) {
+    const int steps = (std::max)(static_cast<int>(segments * (to - from)), 4);
+    std::vector<section> sections;
+    for (int k = 0; k <= steps; ++k) {
+        // Half of the stations go to the rounded tip.
+        double t = static_cast<double>(k) / steps;
+        if (to >= 1) t = t < 0.5 ? 1.7 * t : 0.85 + 0.15 * (1 - 4 * (1 - t) * (1 - t));
+        section ring = aerofoil(wing, from + (to - from) * t);
+        const bool is_torn = (k == 0 && from > 0) || (k == steps && to < 1);
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const double torn = 0.4 * (to - from) / steps * wing.span *
+                                (1 + lattice_noise({0.8 * static_cast<double>(i), 3.5, k == 0 ? 1.5 : 0.5}, key));
+            if (is_torn) ring[i] += (k == 0 ? torn : -torn) * wing.out;
+            ring[i] = transform_point(map, ring[i]);
+        }
+        sections.push_back(std::move(ring));
+    }
+    append_loft(into, sections);
+}
+
+/// A section across the x axis: an ellipse, optionally torn.
+struct body_section {
+    double x, half_width, half_height, z;
+    double torn = 0;  // metres along x
+};
+inline void append_body(mesh& into, std::span<const body_section> stations, double y, int corners,
+                        const philox_key& key, const affine& map = {}) {
+    std::vector<section> sections;
+    for (const body_section& s : stations) {
+        section ring = circle({s.x, y, s.z}, {0, s.half_width, 0}, {0, 0, s.half_height}, corners);
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            if (s.torn != 0)
+                ring[i].x +=
+                    s.torn *
+                    (0.5 +
+                     0.5 * lattice_noise({9.0 * static_cast<double>(i) / corners, 7.5, s.torn > 0 ? 2.5 : 4.5}, key));
+            ring[i] = transform_point(map, ring[i]);
+        }
+        sections.push_back(std::move(ring));
+    }
+    append_loft(into, sections);
+}
+
+/// A spinner with blades in front of a hub.
+struct propeller {
+    glm::dvec3 hub;
+    double diameter, hub_radius, length, turn;  // the last as a share of the angle between blades
+    double up, clearance;                       // +1 or -1: where up is; height of the hub above the bottom
+};
+
+/// Blades that would reach into the bottom are as short as a crash landing leaves them.
+inline void append_propeller(mesh& into, const propeller& p, int corners) {
+    std::vector<section> sections;
+    for (const double t : {0.0, 0.35, 0.65, 0.85, 1.0}) {
+        const double radius = p.hub_radius * numeric::square_root(1 - 0.97 * t * t);
+        sections.push_back(circle(p.hub + glm::dvec3(t * p.length, 0, 0), {0, radius, 0}, {0, 0, radius}, corners));
+    }
+    append_loft(into, sections);
+    constexpr int blades = 3;
+    for (int i = 0; i < blades; ++i) {
+        const auto [sine, cosine] = numeric::sin_cos_turns((i + p.turn) / blades);
+        const glm::dvec3 out(0, cosine, sine), over(0, -sine, cosine);
+        const double drop = -p.up * sine * 0.5 * p.diameter;
+        const double room = 0.85 * (std::max)(p.clearance, 0.0);
+        const double reach = 0.5 * p.diameter * (drop > room ? (std::max)(room / drop, 0.25) : 1.0);
+        const double wide = 0.045 * p.diameter, thick = 0.012 * p.diameter;
+        std::vector<section> blade;
+        for (const double t : {0.05, 0.4, 0.75, 1.0}) {
+            const double pitch = 0.9 - 0.6 * t;
+            const glm::dvec3 at = p.hub + glm::dvec3(0.4 * p.length, 0, 0) + reach * t * out;
+            const glm::dvec3 chord = wide * (t < 0.9 ? 1.0 : 0.45) * (over + glm::dvec3(pitch, 0, 0));
+            const glm::dvec3 normal = thick * (glm::dvec3(1, 0, 0) - pitch * over);
+            blade.push_back({at - chord - normal, at + chord - normal, at + chord + normal, at - chord + normal});
+        }
+        append_loft(into, blade);
+    }
+}
+
+}  // namespace detail
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/compound.hpp ----------------------------------------------------
+// Several meshes as one target, each with a reflectivity of its own.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A part of a compound.
+struct compound_part {
+    mesh shape;  ///< with or without normals
+    pose placement;
+    float reflectivity = 1;  ///< relative to the target's material, >= 0: 1 for steel plating, less for rubber or wood
+};
+
+/// A list of parts that moves and is labelled as one target. Built from primitives, imported meshes and other objects.
+struct compound {
+    std::vector<compound_part> parts;
+
+    /// Adds a mesh, or anything that has a `to_mesh`.
+    template <class Shape>
+    compound& add(const Shape& shape, const pose& placement = {}, float reflectivity = 1) {
+        if constexpr (requires { shape.triangles; })
+            parts.push_back({shape, placement, reflectivity});
+        else
+            parts.push_back({to_mesh(shape), placement, reflectivity});
+        return *this;
+    }
+};
+
+/// A compound's parts in one mesh, and which triangle came from which part.
+struct merged_compound {
+    mesh shape;                           ///< with normals if every part has them
+    std::vector<std::uint16_t> part_ids;  ///< by triangle: an index of `reflectivities`
+    std::vector<float> reflectivities;    ///< by part
+};
+
+/// @throws invalid_input for a part without matching indices or normals, a reflectivity that is negative or not finite,
+///         or more than 65535 parts
+inline void validate(const compound& c) {
+    detail::require(c.parts.size() <= 65535, "compound.parts.size()", c.parts.size(), "at most 65535");
+    for (const compound_part& p : c.parts) {
+        validate(p.shape);
+        detail::require(numeric::is_finite(p.reflectivity) && p.reflectivity >= 0, "compound_part.reflectivity",
+                        p.reflectivity, "finite and at least 0");
+    }
+}
+
+/// The parts, placed, in one mesh. It is solid if every part is and no two parts share an edge.
+/// @throws invalid_input as `validate` and `to_world` do
+inline merged_compound merge(const compound& c) {
+    validate(c);
+    merged_compound out;
+    bool has_normals = true;
+    for (const compound_part& p : c.parts) has_normals = has_normals && !p.shape.normals.empty();
+    for (std::size_t i = 0; i < c.parts.size(); ++i) {
+        detail::append(out.shape, c.parts[i].shape, to_world(c.parts[i].placement));
+        out.part_ids.resize(out.shape.triangles.size(), static_cast<std::uint16_t>(i));
+        out.reflectivities.push_back(c.parts[i].reflectivity);
+    }
+    if (!has_normals) out.shape.normals.clear();
+    return out;
+}
+
+/// @throws invalid_input as `merge` does
+inline mesh to_mesh(const compound& c) {
+    return merge(c).shape;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/creases.hpp -----------------------------------------------------
+// Shading normals that are smooth across gentle bends and sharp across edges.
+//
+// Based on: Grit Thuermer, Charles A. Wuethrich. Computing Vertex Normals from Polygonal Facets. Journal of Graphics
+// Tools 3(1), 1998 (the weight of a facet is its angle at the vertex).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// The same triangles with unit normals. A corner's normal is the mean of the facets around its position that bend away
+/// from its own facet by less than `angle`, so a position has as many vertices as sides of it look different.
+/// Facets without area keep their corners, with +z as normal.
+/// @param angle  radians; 0 makes every facet flat
+/// @throws invalid_input if an index has no position
+inline mesh with_creases(const mesh& m, float angle = 0.7f) {
+    validate(m);
+    const double smoothest = numeric::sin_cos(static_cast<double>(angle)).cosine;
+    const std::vector<std::uint32_t> first = weld(m.positions);
+
+    struct corner {
+        std::uint32_t position, triangle;
+        int number;
+        glm::dvec3 weighted;  // the facet's unit normal times its angle here
+    };
+    std::vector<glm::dvec3> facets(m.triangles.size(), glm::dvec3(0));
+    std::vector<corner> corners;
+    corners.reserve(3 * m.triangles.size());
+    for (std::uint32_t t = 0; t < m.triangles.size(); ++t) {
+        const glm::dvec3 p[3] = {m.positions[m.triangles[t].x], m.positions[m.triangles[t].y],
+                                 m.positions[m.triangles[t].z]};
+        const glm::dvec3 area = numeric::cross(p[1] - p[0], p[2] - p[0]);
+        const double length = numeric::square_root(numeric::dot(area, area));
+        if (length > 0 && numeric::is_finite(length)) facets[t] = area / length;
+        for (int i = 0; i < 3; ++i) {
+            const double turn = numeric::atan2(length, numeric::dot(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]));
+            corners.push_back({first[m.triangles[t][i]], t, i, turn * facets[t]});
+        }
+    }
+    std::sort(corners.begin(), corners.end(), [](const corner& a, const corner& b) {
+        return a.position != b.position   ? a.position < b.position
+               : a.triangle != b.triangle ? a.triangle < b.triangle
+                                          : a.number < b.number;
+    });
+
+    mesh out;
+    out.triangles = m.triangles;
+    for (std::size_t begin = 0, end; begin < corners.size(); begin = end) {
+        for (end = begin; end < corners.size() && corners[end].position == corners[begin].position;) ++end;
+        const auto fan = out.positions.size();
+        for (std::size_t i = begin; i < end; ++i) {
+            glm::dvec3 sum(0);
+            for (std::size_t j = begin; j < end; ++j)
+                if (i == j || numeric::dot(facets[corners[i].triangle], facets[corners[j].triangle]) > smoothest)
+                    sum += corners[j].weighted;
+            const double length = numeric::square_root(numeric::dot(sum, sum));
+            const glm::vec3 normal = length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
+            std::size_t vertex = fan;
+            while (vertex < out.normals.size() && out.normals[vertex] != normal) ++vertex;
+            if (vertex == out.normals.size()) {
+                out.positions.push_back(m.positions[corners[begin].position]);
+                out.normals.push_back(normal);
+            }
+            out.triangles[corners[i].triangle][corners[i].number] = static_cast<std::uint32_t>(vertex);
+        }
+    }
+    return out;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/aeroplane.hpp ---------------------------------------------------
+// Aeroplanes, whole, without wings or tail, or on their back.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+class aeroplane_builder {
+  public:
+    explicit aeroplane_builder(const aeroplane& a)
+        : a_(a),
+          length_(static_cast<double>(a.length)),
+          radius_(0.5 * static_cast<double>(a.fuselage_diameter)),
+          key_(stream_key(a.seed, 0x706C616E)) {
+        spinner_ = a.engines % 2 == 1 && a.propeller_diameter > 0 ? 0.045 * length_ : 0.0;
+        if (a.tail_gap > 0) {
+            const double x = station_x(break_at);
+            tail_ = compose(to_world({.position = {x - static_cast<double>(a.tail_gap), 0, 0}, .yaw = a.tail_yaw}),
+                            {glm::dmat3(1), {-x, 0, 0}});
+        }
+        build_fuselage();
+        build_wings();
+        build_tail();
+    }
+
+    mesh fuselage, wings, propellers;
+
+  private:
+    static constexpr double break_at = 0.62;  // share of the fuselage from its nose, behind the wings
+
+    double station_x(double s) const { return 0.5 * length_ - spinner_ - s * (length_ - spinner_); }
+    body_section station(double s) const {
+        double r = 1;
+        if (s < 0.28) {
+            const double t = (0.28 - s) / 0.28, blunt = a_.engines % 2 == 1 ? 0.55 : 0.96;
+            r = numeric::square_root(1 - blunt * t * t);
+        } else if (s > 0.45) {
+            r = 1 - 0.87 * numeric::pow((s - 0.45) / 0.55, 1.3);
+        }
+        // The upper side runs straight, so the tail rises.
+        return {station_x(s), 0.92 * radius_ * r, 1.08 * radius_ * r, 0.75 * radius_ * (1 - r) * (s > 0.45 ? 1 : 0.2)};
+    }
+
+    void build_fuselage() {
+        std::vector<body_section> front, aft;
+        const int steps = 2 * a_.segments;
+        const bool is_broken = a_.tail_gap > 0;
+        for (int k = 0; k <= steps; ++k) {
+            // Denser at the nose.
+            const double t = static_cast<double>(k) / steps, s = 0.25 * t + 0.75 * t * t;
+            (is_broken && s > break_at ? aft : front).push_back(station(s));
+        }
+        if (is_broken) {
+            front.push_back(station(break_at + 1e-4));
+            front.back().torn = -0.02 * length_;
+            front.back().x = (std::min)(front.back().x, front[front.size() - 2].x);
+            aft.insert(aft.begin(), station(break_at + 2e-4));
+            aft.front().torn = 0.02 * length_;
+            append_body(fuselage, aft, 0, a_.segments, key_, tail_);
+        }
+        append_body(fuselage, front, 0, a_.segments, key_);
+
+        // A canopy or cockpit, half sunk.
+        std::vector<body_section> canopy;
+        const double middle = a_.engines % 2 == 1 ? 0.4 : 0.2, long_half = 0.09;
+        for (int k = 0; k <= 10; ++k) {
+            const double t = k / 5.0 - 1, size = numeric::square_root(1 - 0.96 * t * t), s = middle + long_half * t;
+            canopy.push_back({station_x(s), 0.42 * radius_ * size, 0.6 * radius_ * size,
+                              0.85 * radius_ * station(s).half_height / (1.08 * radius_)});
+        }
+        append_body(fuselage, canopy, 0, (std::max)(a_.segments / 2, 8), key_);
+        if (spinner_ > 0)
+            add_propeller({station_x(0) - 0.02 * length_, 0, station(0).z}, 0.45 * radius_, spinner_ + 0.02 * length_,
+                          0.3);
+    }
+
+    aerofoil_surface wing(double side) const {
+        const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(a_.dihedral));
+        const double half = 0.5 * static_cast<double>(a_.span), inner = 0.15 * radius_;
+        // Roots of both wings lie inside the fuselage, apart from each other.
+        return {{static_cast<double>(a_.wing_position) * length_, side * inner, -0.45 * radius_},
+                {0, side * cosine, sine},
+                {0, 0, 1},  // sections stay upright, so that the tips lie at the span
+                (half - inner) / cosine,
+                static_cast<double>(a_.root_chord),
+                static_cast<double>(a_.tip_chord),
+                numeric::tan(static_cast<double>(a_.sweep)) * cosine,
+                0.15};
+    }
+
+    void build_wings() {
+        for (const double side : {1.0, -1.0}) {
+            const aerofoil_surface w = wing(side);
+            const double left = static_cast<double>(side > 0 ? a_.port_wing : a_.starboard_wing);
+            const double stump = 0.3 * radius_ / w.span;
+            if (left > stump) append_wing(wings, w, 0, left, 2 * a_.segments, key_);
+            if (left < 1 && a_.torn_off > 0) {
+                const double from = (std::min)((std::max)(left, 1.2 * radius_ / w.span), 0.97);
+                // Lies flat, turned and away from its root.
+                const glm::dvec3 root = w.leading_edge + from * w.span * w.out;
+                const affine off =
+                    to_world({.position = root + glm::dvec3(0.3, side, 0) * static_cast<double>(a_.torn_off),
+                              .yaw = static_cast<float>(side) * 0.45f,
+                              .roll = static_cast<float>(-side) * a_.dihedral});
+                affine fallen = compose(off, {glm::dmat3(1), -root});
+                fallen.offset.z += -0.98 * radius_ - transform_point(fallen, root).z + 0.06 * w.root_chord;
+                append_wing(wings, w, from, 1, 2 * a_.segments, key_, fallen);
+            }
+            for (int i = 0; i < a_.engines / 2; ++i) {
+                const double t = 0.3 + 0.25 * i;
+                if (t < left) nacelle(w, t, i == 0 ? 0.15 : 0.6);
+            }
+        }
+    }
+
+    void nacelle(const aerofoil_surface& w, double t, double turn) {
+        const section s = aerofoil(w, t);
+        const glm::dvec3 nose = 0.5 * (s[6] + s[7]), trailing = 0.5 * (s.front() + s.back());
+        const double chord = nose.x - trailing.x, radius = (std::min)(0.3 * chord, 0.62 * radius_),
+                     ahead = 0.65 * chord;
+        std::vector<body_section> body;
+        for (int k = 0; k <= 14; ++k) {
+            const double u = k / 14.0, x = nose.x + ahead - u * (ahead + 0.75 * chord);
+            const double r =
+                radius * (u < 0.15  ? 0.75 + 0.25 * numeric::square_root(1 - (1 - u / 0.15) * (1 - u / 0.15))
+                          : u > 0.5 ? 1 - 0.85 * numeric::pow((u - 0.5) / 0.5, 1.6)
+                                    : 1.0);
+            body.push_back({x, r, r, nose.z});
+        }
+        append_body(wings, body, nose.y, (std::max)(a_.segments / 2, 8), key_);
+        if (a_.propeller_diameter > 0)
+            add_propeller({nose.x + ahead - 0.05 * chord, nose.y, nose.z}, 0.45 * radius, 0.25 * chord, turn);
+    }
+
+    void add_propeller(const glm::dvec3& hub, double hub_radius, double length, double turn) {
+        const double up = a_.is_inverted ? -1 : 1;
+        append_propeller(propellers,
+                         {.hub = hub,
+                          .diameter = static_cast<double>(a_.propeller_diameter),
+                          .hub_radius = hub_radius,
+                          .length = length,
+                          .turn = turn,
+                          .up = up,
+                          .clearance = up * hub.z + radius_},
+                         (std::max)(a_.segments / 3, 8));
+    }
+
+    void build_tail() {
+        const body_section root = station(0.9);
+        const double chord = 0.115 * length_, end = -0.5 * length_;
+        for (const double side : {1.0, -1.0}) {
+            const double inner = 0.1 * root.half_width;
+            const aerofoil_surface plane{
+                {end + 0.015 * length_ + 1.05 * chord, side * inner, root.z + 0.3 * root.half_height},
+                {0, side, 0},
+                {0, 0, 1},
+                0.5 * static_cast<double>(a_.tail_span) - inner,
+                1.05 * chord,
+                0.6 * chord,
+                0.2 * chord / static_cast<double>(a_.tail_span),
+                0.1};
+            append_wing(fuselage, plane, 0, 1, a_.segments, key_, tail_);
+        }
+        const double fin = static_cast<double>(a_.fin_height) * (a_.is_inverted ? 0.33 : 1.0);
+        const double foot = 0.5 * root.half_height;
+        const aerofoil_surface rudder{{end + 1.35 * chord, 0, root.z + foot},  {0, 0, 1},   {0, 1, 0},
+                                      fin + root.half_height - foot,           1.3 * chord, 0.75 * chord,
+                                      0.45 * chord / (fin + root.half_height), 0.1};
+        append_wing(fuselage, rudder, 0, 1, a_.segments, key_, tail_);
+    }
+
+    const aeroplane& a_;
+    double length_, radius_, spinner_ = 0;
+    affine tail_;
+    philox_key key_;
+};
+
+}  // namespace detail
+
+/// The parts: fuselage with tail, wings with engine nacelles, propellers. Reflectivities are illustrative: aluminium
+/// sheet 0.9, steel 1. Each part is solid, and so is the merged mesh.
+///
+/// A whole aeroplane spans exactly `span`, and exactly `length` unless wing engines reach ahead of its nose.
+/// @throws invalid_input as `validate` does
+inline compound to_compound(const aeroplane& a) {
+    validate(a);
+    detail::aeroplane_builder built(a);
+    affine map;
+    if (a.is_inverted) map.linear = glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
+    double lowest = 1e9;
+    for (const mesh* m : {&built.fuselage, &built.wings, &built.propellers})
+        for (const glm::vec3& p : m->positions) lowest = (std::min)(lowest, transform_point(map, glm::dvec3(p)).z);
+    map.offset.z = -lowest;
+    compound out;
+    const auto add = [&](const mesh& m, float reflectivity) {
+        if (!m.triangles.empty()) out.parts.push_back({with_creases(transformed(m, map)), {}, reflectivity});
+    };
+    add(built.fuselage, 0.9f);
+    add(built.wings, 0.9f);
+    add(built.propellers, 1);
+    return out;
+}
+
+/// @throws invalid_input as `validate` does
+inline mesh to_mesh(const aeroplane& a) {
+    return to_mesh(to_compound(a));
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/boulder.hpp -----------------------------------------------------
+// Boulders: rounded by water, or angular where they broke.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A rock that stands on z = 0 and fills its box exactly. A boulder is larger than 0.256 m (C. K. Wentworth. A Scale of
+/// Grade and Class Terms for Clastic Sediments. Journal of Geology 30, 1922); the default proportions are those usual
+/// for glacial boulders, 1 : 0.8 : 0.6 (Th. Zingg. Beitrag zur Schotteranalyse. 1935: the borders between disc, rod,
+/// sphere and blade are at 2 : 3).
+struct boulder {
+    glm::vec3 size{1.2f, 1.0f, 0.75f};  ///< metres; the largest at most 100 times the least
+    float angularity = 0.6f;            ///< 0: round, 1: bounded by plane fractures
+    float roughness = 0.5f;             ///< 0: smooth, 1: relief of a tenth of the size
+    int segments = 20;                  ///< along each of the 12 edges of the octahedron it is made from, 2 to 256
+    std::uint64_t seed = 1;
+};
+
+/// @throws invalid_input for a value outside its range
+inline void validate(const boulder& b) {
+    const float largest = (std::max)((std::max)(b.size.x, b.size.y), b.size.z);
+    for (int i = 0; i < 3; ++i) {
+        detail::require_size("boulder.size", b.size[i]);
+        detail::require(100 * b.size[i] >= largest, "boulder.size", b.size[i], "at least 1/100 of the largest");
+    }
+    detail::require_share("boulder.angularity", b.angularity);
+    detail::require_share("boulder.roughness", b.roughness);
+    detail::require_segments("boulder.segments", b.segments, 2, 256);
+}
+
+namespace detail {
+
+/// A unit octahedron with every face cut into n * n triangles, projected onto the sphere; 4 n^2 + 2 vertices.
+inline mesh geodesic_sphere(int n) {
+    mesh out;
+    // Rows of latitude: row i has 4 i vertices in the upper half, 4 (2 n - i) in the lower.
+    const auto width = [&](int row) { return row <= n ? row : 2 * n - row; };
+    std::vector<std::uint32_t> first;
+    for (int row = 0; row <= 2 * n; ++row) {
+        first.push_back(static_cast<std::uint32_t>(out.positions.size()));
+        const int w = width(row);
+        const double z = 1 - static_cast<double>(row) / n;
+        for (int i = 0; i < (std::max)(4 * w, 1); ++i) {
+            const int quarter = w > 0 ? i / w : 0;
+            const double t = w > 0 ? static_cast<double>(i - quarter * w) / n : 0.0, s = static_cast<double>(w) / n - t;
+            const glm::dvec3 p = quarter == 0   ? glm::dvec3(s, t, z)
+                                 : quarter == 1 ? glm::dvec3(-t, s, z)
+                                 : quarter == 2 ? glm::dvec3(-s, -t, z)
+                                                : glm::dvec3(t, -s, z);
+            out.positions.emplace_back(unit(p));
+        }
+    }
+    const auto vertex = [&](int row, int quarter, int step) {
+        const int w = width(row);
+        return first[static_cast<std::size_t>(row)] +
+               (w > 0 ? static_cast<std::uint32_t>((quarter * w + step) % (4 * w)) : 0u);
+    };
+    for (int row = 0; row < 2 * n; ++row)
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            const bool opens = row < n;
+            const int wide = opens ? row + 1 : row;  // the row with more vertices
+            const int other = opens ? row : row + 1;
+            const int steps = width(wide);
+            for (int i = 0; i < steps; ++i) {
+                const std::uint32_t a = vertex(wide, quarter, i), b = vertex(wide, quarter, i + 1);
+                const std::uint32_t c = vertex(other, quarter, i);
+                out.triangles.push_back(opens ? glm::uvec3(a, b, c) : glm::uvec3(b, a, c));
+                if (i + 1 < steps) {
+                    const std::uint32_t d = vertex(other, quarter, i + 1);
+                    out.triangles.push_back(opens ? glm::uvec3(b, d, c) : glm::uvec3(d, b, c));
+                }
+            }
+        }
+    return out;
+}
+
+}  // namespace detail
+
+/// 8 segments^2 triangles. Deterministic in the seed.
+/// @throws invalid_input as `validate` does
+inline mesh to_mesh(const boulder& b) {
+    validate(b);
+    random_sequence draw(b.seed, 0x726F636B);
+    struct fracture {
+        glm::dvec3 normal;
+        double distance;
+    };
+    std::vector<fracture> fractures;
+    for (int i = 0; i < 16; ++i) {
+        const double z = draw.uniform(-1, 1), turns = draw.uniform(), r = numeric::square_root(1 - z * z);
+        const auto [sine, cosine] = numeric::sin_cos_turns(turns);
+        fractures.push_back({{r * cosine, r * sine, z}, draw.uniform(0.55, 0.9)});
+    }
+    const philox_key key = stream_key(b.seed, 0x726F636C);
+
+    mesh body = detail::geodesic_sphere(b.segments);
+    glm::dvec3 low(1e9), high(-1e9);
+    std::vector<glm::dvec3> points;
+    for (const glm::vec3& position : body.positions) {
+        const glm::dvec3 direction(position);
+        double cut = 1;
+        for (const fracture& f : fractures) {
+            const double facing = numeric::dot(f.normal, direction);
+            if (facing > 0) cut = (std::min)(cut, f.distance / facing);
+        }
+        double radius = 1 + static_cast<double>(b.angularity) * (cut - 1);
+        double octave = 0.1 * static_cast<double>(b.roughness), frequency = 2;
+        for (int i = 0; i < 5; ++i, octave *= 0.55, frequency *= 2.1)
+            radius += octave * detail::lattice_noise(frequency * direction + glm::dvec3(7.0 * i), key);
+        points.push_back(radius * direction);
+        for (int i = 0; i < 3; ++i) {
+            low[i] = (std::min)(low[i], points.back()[i]);
+            high[i] = (std::max)(high[i], points.back()[i]);
+        }
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec3 share = (points[i] - low) / (high - low);
+        body.positions[i] = glm::vec3((share - glm::dvec3(0.5, 0.5, 0)) * glm::dvec3(b.size));
+    }
+    return with_creases(body, 0.5f);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/crate.hpp -------------------------------------------------------
+// Wooden crates, whole or with boards missing.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A hollow crate of boards on corner posts, standing on z = 0. Long sides along x.
+///
+/// The default footprint is the pallet of 1.2 m by 0.8 m (ISO 6780, EN 13698-1) that transport cases are sized for.
+struct crate {
+    glm::vec3 size{1.2f, 0.8f, 0.8f};  ///< metres; the largest at most 50 times the least
+    float board = 0.025f;              ///< thickness, metres, at most a tenth of the least size
+    int boards = 5;                    ///< one above another on each side, 1 to 64
+    float gap = 0.1f;                  ///< share of a board's width that is open between two, 0.01 to 0.9
+    bool is_open = false;              ///< the lid is missing
+    float damage = 0;                  ///< share of side and lid boards that are missing, 0 to 1
+    std::uint64_t seed = 1;            ///< which ones
+};
+
+/// @throws invalid_input for a value outside its range
+inline void validate(const crate& c) {
+    const float largest = (std::max)((std::max)(c.size.x, c.size.y), c.size.z);
+    const float least = (std::min)((std::min)(c.size.x, c.size.y), c.size.z);
+    for (int i = 0; i < 3; ++i) {
+        detail::require_size("crate.size", c.size[i]);
+        detail::require(50 * c.size[i] >= largest, "crate.size", c.size[i], "at least 1/50 of the largest");
+    }
+    detail::require(c.board >= 1e-3f * largest && c.board <= 0.1f * least, "crate.board", c.board,
+                    "at least 1/1000 of the largest size, at most 1/10 of the least");
+    detail::require(c.boards >= 1 && c.boards <= 64, "crate.boards", c.boards, "1 to 64");
+    detail::require(c.gap >= 0.01f && c.gap <= 0.9f, "crate.gap", c.gap, "0.01 to 0.9");
+    detail::require_share("crate.damage", c.damage);
+}
+
+/// 12 triangles for each board and post: 6 boards + 4 of them when nothing is missing.
+/// @throws invalid_input as `validate` does
+inline mesh to_mesh(const crate& c) {
+    validate(c);
+    const glm::dvec3 half = glm::dvec3(c.size) * glm::dvec3(0.5, 0.5, 1);
+    const double t = static_cast<double>(c.board);
+    mesh body;
+    random_sequence draw(c.seed, 0x62726474);
+    const auto stays = [&] { return draw.uniform() >= static_cast<double>(c.damage); };
+    // The extent of a board among those that share a length; the outermost reach its ends.
+    struct extent {
+        double low, high;
+    };
+    const auto part = [&](int i, double low, double high) {
+        const double pitch = (high - low) / (c.boards - static_cast<double>(c.gap));
+        return extent{low + pitch * i, low + pitch * (i + 1 - static_cast<double>(c.gap))};
+    };
+
+    // Boards of the short sides and of lid and floor reach half way into those of the long sides.
+    for (int i = 0; i < c.boards; ++i) {
+        const auto [low, high] = part(i, 0, half.z);
+        const auto [left, right] = part(i, -half.y + 1.1 * t, half.y - 1.1 * t);
+        for (const double side : {-1.0, 1.0}) {
+            const double outer = side * half.y, inner = side * (half.y - t);
+            if (stays())
+                detail::append_box(body, {-half.x, (std::min)(outer, inner), low},
+                                   {half.x, (std::max)(outer, inner), high});
+            const double face = side * (half.x - 0.05 * t), back = side * (half.x - t);
+            if (stays())
+                detail::append_box(body, {(std::min)(face, back), -half.y + 0.5 * t, low + 0.05 * t},
+                                   {(std::max)(face, back), half.y - 0.5 * t, high - 0.05 * t});
+        }
+        detail::append_box(body, {-half.x + 0.5 * t, left, 0.05 * t}, {half.x - 0.5 * t, right, t});
+        if (stays() && !c.is_open)
+            detail::append_box(body, {-half.x + 0.5 * t, left, half.z - t},
+                               {half.x - 0.5 * t, right, half.z - 0.05 * t});
+    }
+    for (const double x : {-1.0, 1.0})
+        for (const double y : {-1.0, 1.0}) {
+            const glm::dvec3 a(x * (half.x - 0.5 * t), y * (half.y - 0.6 * t), 0.1 * t);
+            const glm::dvec3 b(x * (half.x - 3.5 * t), y * (half.y - 3.5 * t), half.z - 0.5 * t);
+            detail::append_box(body, {(std::min)(a.x, b.x), (std::min)(a.y, b.y), a.z},
+                               {(std::max)(a.x, b.x), (std::max)(a.y, b.y), b.z});
+        }
+    return with_creases(body, 0);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/footprint.hpp ---------------------------------------------------
+// The outline of an object on the ground it stands on.
+//
+// Based on: A. M. Andrew. Another efficient algorithm for convex hulls in two dimensions. Information Processing
+// Letters 9(5), 1979.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// The convex hull, counter-clockwise and without corners on straight edges, of the positions that are less than
+/// `height` above the lowest one, seen from above. Fewer than three corners if those lie on a line.
+/// @param height  metres, >= 0: masts and wings that stick out higher do not count
+/// @throws invalid_input for a pose that `to_world` refuses, or a height that is negative or NaN
+inline std::vector<glm::dvec2> footprint(const mesh_view& m, const pose& placement, float height) {
+    detail::require(height >= 0, "height", height, "at least 0 metres");
+    const affine map = to_world(placement);
+    double lowest = std::numeric_limits<double>::infinity();
+    std::vector<glm::dvec3> points;
+    for (const glm::vec3& p : m.positions) {
+        points.push_back(transform_point(map, glm::dvec3(p)));
+        lowest = (std::min)(lowest, points.back().z);
+    }
+    std::vector<glm::dvec2> flat;
+    for (const glm::dvec3& p : points)
+        if (p.z - lowest <= static_cast<double>(height)) flat.emplace_back(p.x, p.y);
+    std::sort(flat.begin(), flat.end(),
+              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+
+    std::vector<glm::dvec2> outline;
+    const auto add = [&](const glm::dvec2& p, std::size_t kept) {
+        while (outline.size() >= kept + 2) {
+            const glm::dvec2 a = outline[outline.size() - 2], ab = outline.back() - a, ap = p - a;
+            if (ab.x * ap.y - ab.y * ap.x > 0) break;
+            outline.pop_back();
+        }
+        outline.push_back(p);
+    };
+    for (const glm::dvec2& p : flat) add(p, 0);
+    const std::size_t lower = outline.empty() ? 0 : outline.size() - 1;
+    for (std::size_t i = flat.size(); i-- > 0;) add(flat[i], lower);
+    if (outline.size() > 1) outline.pop_back();  // the first again
+    return outline;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/hull_form.hpp ---------------------------------------------------
+// The form of a ship's hull: its parameters, and the lines that plating, decks and fittings follow.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+enum class stern_type : std::uint8_t { cruiser, transom };
+
+/// A ship standing upright on z = 0 with its keel, bow towards +x, midships at the origin: an open shell of plating on
+/// frames, with decks, hatches, deckhouse, masts and funnel; whole, broken in two, or collapsed.
+///
+/// The default is a coaster. Proportions: H. Schneekluth, V. Bertram. Ship Design for Efficiency and Economy, 1998
+/// (length / beam 4 to 7, beam / depth 1.6 to 2.5). Sheer and bulwark: International Convention on Load Lines, 1966
+/// (regulation 38: standard sheer of 50 (L / 3 + 10) mm at the bow and half of that at the stern; regulation 25:
+/// bulwarks of 1 m). A trawler measures some 25 x 6.8 x 3.4 m, a cargo steamer of 1910 some 100 x 14.5 x 7.5 m.
+struct hull {
+    float length = 45;   ///< over all, metres
+    float beam = 8.2f;   ///< metres, length / 20 to length / 2
+    float depth = 4;     ///< from keel to deck amidships, metres, beam / 5 to 2 beam
+    float bulwark = 1;   ///< height above the deck, metres, at most half the depth
+    float sheer = 1.5f;  ///< times the standard sheer, 0 to 4
+    stern_type stern = stern_type::cruiser;
+    /// Thickness in which plating is drawn, metres; from 1/2000 of the length to 1/16 of the beam. Real plates
+    /// measure 10 mm, which neither a sonar nor a grid of pixels resolves.
+    float plating = 0.12f;
+
+    float house_length = 0.2f;     ///< of the deckhouse, share of the length; 0: none, at most 0.5
+    float house_position = -0.3f;  ///< of its middle from midships, share of the length: -0.35 (aft) to 0.3
+    int house_tiers = 2;           ///< 1 to 4, each 2.4 m high, at most half the depth and 0.08 length
+    bool has_funnel = true;
+    int hatches = 2;        ///< open, 0 to 8
+    int masts = 2;          ///< 0 to 4, with two derricks each
+    float mast_height = 9;  ///< above the deck, metres, at most the length
+
+    float break_gap = 0;          ///< metres between the two halves of a broken ship; 0: in one piece
+    float break_position = 0.1f;  ///< from midships, share of the length, -0.4 to 0.4
+    float break_yaw = 0.3f;       ///< radians that the bow half is turned by, -1.6 to 1.6
+    float break_roll = -0.25f;    ///< radians that the bow half is rolled by, -1.6 to 1.6
+    float collapse = 0;           ///< 0: intact; 1: sides fallen out, decks and house gone, frames and boilers left
+    int segments = 64;            ///< stations along the length, 16 to 1024; a sixth as many up a side
+    std::uint64_t seed = 1;       ///< of edges and losses
+};
+
+/// @throws invalid_input for a value outside its range
+inline void validate(const hull& h) {
+    using detail::require;
+    detail::require_size("hull.length", h.length);
+    const auto in_range = [](const char* name, float value, float least, float most, const char* expected) {
+        require(value >= least && value <= most, name, value, expected);
+    };
+    in_range("hull.beam", h.beam, h.length / 20, h.length / 2, "length / 20 to length / 2");
+    in_range("hull.depth", h.depth, h.beam / 5, 2 * h.beam, "beam / 5 to 2 beam");
+    in_range("hull.bulwark", h.bulwark, 0, h.depth / 2, "0 to depth / 2");
+    in_range("hull.sheer", h.sheer, 0, 4, "0 to 4");
+    require(h.stern == stern_type::cruiser || h.stern == stern_type::transom, "hull.stern", static_cast<int>(h.stern),
+            "cruiser or transom");
+    in_range("hull.plating", h.plating, h.length / 2000, h.beam / 16, "length / 2000 to beam / 16");
+    in_range("hull.house_length", h.house_length, 0, 0.5f, "0 to 0.5");
+    in_range("hull.house_position", h.house_position, -0.35f, 0.3f, "-0.35 to 0.3");
+    require(h.house_tiers >= 1 && h.house_tiers <= 4, "hull.house_tiers", h.house_tiers, "1 to 4");
+    require(h.hatches >= 0 && h.hatches <= 8, "hull.hatches", h.hatches, "0 to 8");
+    require(h.masts >= 0 && h.masts <= 4, "hull.masts", h.masts, "0 to 4");
+    in_range("hull.mast_height", h.mast_height, h.length / 1000, h.length, "length / 1000 to length");
+    in_range("hull.break_gap", h.break_gap, 0, h.length, "0 to length");
+    in_range("hull.break_position", h.break_position, -0.4f, 0.4f, "-0.4 to 0.4");
+    in_range("hull.break_yaw", h.break_yaw, -1.6f, 1.6f, "-1.6 to 1.6");
+    in_range("hull.break_roll", h.break_roll, -1.6f, 1.6f, "-1.6 to 1.6");
+    detail::require_share("hull.collapse", h.collapse);
+    detail::require_segments("hull.segments", h.segments, 16, 1024);
+}
+
+namespace detail {
+
+/// Positions on a hull: u runs from the stern (0) to the bow (1), w from the keel (0) to the bulwark's top (1), side is
+/// +1 (port) or -1 (starboard).
+class hull_lines {
+  public:
+    explicit hull_lines(const hull& h)
+        : length_(static_cast<double>(h.length)),
+          half_beam_(0.5 * static_cast<double>(h.beam)),
+          depth_(static_cast<double>(h.depth)),
+          bulwark_(static_cast<double>(h.bulwark)),
+          plating_(static_cast<double>(h.plating)),
+          collapse_(static_cast<double>(h.collapse)),
+          is_transom_(h.stern == stern_type::transom),
+          // The formula's constant scales with ships; for models and giants all of it follows the length.
+          sheer_(static_cast<double>(h.sheer) * 0.05 * (length_ / 3 + (std::min)(10.0, length_ / 4))),
+          key_(stream_key(h.seed, 0x68756C6C)) {}
+
+    double length() const { return length_; }
+    double half_beam() const { return half_beam_; }
+    double depth() const { return depth_; }
+    double plating() const { return plating_; }
+    double collapse() const { return collapse_; }
+
+    double deck_height(double u) const {
+        const double fore = (std::max)(2 * u - 1, 0.0), aft = (std::max)(1 - 2 * u, 0.0);
+        return depth_ + sheer_ * (fore * fore + 0.5 * aft * aft);
+    }
+    /// The bulwark rises by half towards the bow, as a forecastle's does.
+    double top(double u) const {
+        const double fore = (std::max)((u - 0.8) / 0.2, 0.0);
+        return deck_height(u) + bulwark_ * (1 + 0.5 * fore * (2 - fore));
+    }
+    double deck_w(double u) const { return deck_height(u) / top(u); }
+
+    /// Half the breadth outside the plating.
+    double half_breadth(double u, double w) const {
+        const auto taper = [](double t, double power) { return t > 0 ? 1 - numeric::pow(t, power) : 1.0; };
+        const double r = is_transom_ ? 0.35 : 0.2, aft = (r - u) / r;
+        const double deck_aft = aft <= 0      ? 1.0
+                                : is_transom_ ? 1 - 0.28 * aft * aft
+                                              : numeric::square_root(1 - 0.95 * aft * aft);
+        const double deck = taper((u - 0.68) / 0.32, 2.2) * deck_aft;
+        const double keel = taper((u - 0.55) / 0.45, 1.6) * taper((0.35 - u) / 0.35, 1.5);
+        const double flare = numeric::pow(w, 1.4);
+        const double plan = keel + (deck - keel) * flare;
+        const double rise = w < 0.25 ? 1 - w / 0.25 : 0.0;
+        const double bilge = 0.7 + 0.3 * numeric::square_root(1 - rise * rise);
+        return (std::max)(half_beam_ * plan * bilge, 0.6 * plating_);
+    }
+
+    /// Outside of the plating; collapsed sides lean outwards.
+    glm::dvec3 outer(double u, double w, double side) const { return at(u, w, side, half_breadth(u, w), w * top(u)); }
+    /// Inside of the plating.
+    glm::dvec3 inner(double u, double w, double side) const {
+        const double breadth = half_breadth(u, w);
+        return at(u, w, side, (std::max)(breadth - plating_, 0.35 * breadth), plating_ + w * (top(u) - plating_));
+    }
+    /// A point between the sides: `share` of the way from the middle line (0) to the plating's middle (1 or -1).
+    glm::dvec3 between(double u, double w, double share, double height) const {
+        const double side = share < 0 ? -1 : 1;
+        const glm::dvec3 plate = at(u, w, side, half_breadth(u, w) - 0.5 * plating_, height);
+        return {plate.x, (share < 0 ? -share : share) * plate.y, plate.z};
+    }
+    /// Up to which w the plating of a side stands.
+    double standing(double u, double side) const {
+        const double loss = 0.5 + 0.5 * noise({14 * u, 3 * side, 0.5}) + 0.35 * noise({45 * u, 5 * side, 1.5});
+        const double ends = (std::max)((u - 0.82) / 0.18, (0.14 - u) / 0.14);
+        const double held = 1 - 0.6 * (std::max)(ends, 0.0);  // bow and stern stand longest
+        return 1 - collapse_ * held * (std::min)((std::max)(0.35 + 0.55 * loss, 0.0), 0.88);
+    }
+    double noise(const glm::dvec3& p) const { return lattice_noise(p, key_); }
+
+  private:
+    glm::dvec3 at(double u, double w, double side, double breadth, double height) const {
+        const double rake = 0.45 * depth_, overhang = (is_transom_ ? 0.15 : 0.6) * depth_;
+        const double stem = 0.5 * length_ - rake * (1 - w);
+        const double stern = -0.5 * length_ + overhang * (1 - w) * (1 - w);
+        const double share = height / depth_, lean = collapse_ * share * numeric::square_root(share);
+        return {stern + u * (stem - stern), side * (breadth * (1 + 0.12 * collapse_ * share) + 0.22 * depth_ * lean),
+                height * (1 - 0.3 * collapse_ * (std::min)(share, 1.0))};
+    }
+
+    double length_, half_beam_, depth_, bulwark_, plating_, collapse_;
+    bool is_transom_;
+    double sheer_;
+    philox_key key_;
+};
+
+}  // namespace detail
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/hull_structure.hpp ----------------------------------------------
+// The steel of a ship's hull: plating, frames, bulkheads, decks with their hatches.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// A stretch of a hull's length.
+struct stretch_of_hull {
+    double from = 0, to = 1;
+    bool holds(double u) const { return u >= from && u <= to; }
+};
+
+/// The shell between two stations, open above; where the ship broke its edge is ragged.
+inline void append_plating(mesh& into, const hull_lines& lines, const stretch_of_hull& part, int segments) {
+    const int stations = (std::max)(static_cast<int>(segments * (part.to - part.from)), 6);
+    const int rows = (std::max)(segments / 6, 6);
+    std::vector<section> sections;
+    for (int k = 0; k <= stations; ++k) {
+        const double t = static_cast<double>(k) / stations, u = part.from + (part.to - part.from) * t;
+        const bool tears_aft = k == 0 && part.from > 0, tears_fore = k == stations && part.to < 1;
+        section ring;
+        const auto add = [&](double side, int row, bool is_outer) {
+            const double w = lines.standing(u, side) * row / rows;
+            glm::dvec3 p = is_outer ? lines.outer(u, w, side) : lines.inner(u, w, side);
+            if (tears_aft || tears_fore) {
+                const double torn =
+                    0.025 * lines.length() * (0.5 + 0.5 * lines.noise({9 * w, 4 * side, tears_aft ? 8 : 6}));
+                p.x += tears_fore ? torn : -torn;
+            }
+            ring.push_back(p);
+        };
+        for (int row = rows; row >= 0; --row) add(-1, row, true);
+        for (int row = 0; row <= rows; ++row) add(1, row, true);
+        for (int row = rows; row >= 0; --row) add(1, row, false);
+        for (int row = 0; row <= rows; ++row) add(-1, row, false);
+        sections.push_back(std::move(ring));
+    }
+    append_loft(into, sections);
+}
+
+/// A wall across the hull from the keel up to `highest`, w.
+inline void append_bulkhead(mesh& into, const hull_lines& lines, double u, double highest) {
+    std::vector<section> sections;
+    for (int i = 0; i <= 8; ++i) {
+        const double low = 0.03, w = low + (highest - low) * i / 8, height = w * lines.top(u);
+        const glm::dvec3 port = lines.between(u, w, 1, height), starboard = lines.between(u, w, -1, height);
+        const glm::dvec3 thick(0.5 * lines.plating(), 0, 0);
+        sections.push_back({starboard - thick, port - thick, port + thick, starboard + thick});
+    }
+    append_loft(into, sections);
+}
+
+/// A rib inside the plating of one side, up to `highest`, w.
+inline void append_frame(mesh& into, const hull_lines& lines, double u, double side, double highest, double size) {
+    std::vector<section> sections;
+    for (int i = 0; i <= 6; ++i) {
+        const double w = 0.02 + (highest - 0.02) * i / 6;
+        const glm::dvec3 plate = lines.between(u, w, side, lines.plating() + w * (lines.top(u) - lines.plating()));
+        const glm::dvec3 inward(0, -side * (std::min)(size + lines.plating(), 0.8 * std::abs(plate.y)), 0),
+            along(0.4 * size, 0, 0);
+        sections.push_back({plate - along, plate + along, plate + along + inward, plate - along + inward});
+    }
+    append_loft(into, sections);
+}
+
+/// Part of a deck: between two stations, and between two shares of the half breadth.
+struct deck_plate {
+    double from, to, left = -1, right = 1;
+    bool is_split_off = false;  ///< lies a plate's thickness lower, so that it shares no edge with those beside it
+};
+
+inline void append_deck(mesh& into, const hull_lines& lines, const deck_plate& plate, int segments) {
+    const int steps = (std::max)(static_cast<int>(segments * (plate.to - plate.from)), 1);
+    std::vector<section> sections;
+    for (int k = 0; k <= steps; ++k) {
+        const double u = plate.from + (plate.to - plate.from) * k / steps;
+        section ring;
+        const auto add = [&](double t, double drop) {
+            const double share = plate.left + (plate.right - plate.left) * t;
+            // Camber: 1/50 of the breadth, the usual parabola.
+            const double camber = 0.04 * lines.half_beam() * (1 - share * share);
+            const double split = plate.is_split_off ? 0.3 * lines.plating() : 0.0;
+            ring.push_back(lines.between(u, lines.deck_w(u), share, lines.deck_height(u) + camber - drop - split));
+        };
+        for (int i = 0; i <= 4; ++i) add(i / 4.0, lines.plating());
+        for (int i = 4; i >= 0; --i) add(i / 4.0, 0);
+        sections.push_back(std::move(ring));
+    }
+    append_loft(into, sections);
+}
+
+/// Four bars around a hatch, standing on the deck: what holds the covers.
+inline void append_coaming(mesh& into, const hull_lines& lines, const deck_plate& opening, double height) {
+    const double thick = 0.8 * lines.plating(), u[2] = {opening.from, opening.to};
+    const auto corner = [&](double at, double share, double up) {
+        return lines.between(at, lines.deck_w(at), share, lines.deck_height(at) + up);
+    };
+    const double below = -0.6 * lines.plating();
+    for (const double share : {opening.left, opening.right}) {
+        const glm::dvec3 out(0, share > 0 ? thick : -thick, 0);
+        const glm::dvec3 a = corner(u[0], share, below), b = corner(u[1], share, below);
+        const glm::dvec3 up(0, 0, height);
+        append_block(into, {{a, a + out, a + out + up, a + up}}, {{b, b + out, b + out + up, b + up}});
+    }
+    for (const double at : u) {
+        const glm::dvec3 along(at == u[0] ? -thick : thick, 0, 0), up(0, 0, 0.97 * height);
+        const glm::dvec3 a = corner(at, opening.left - 0.02, below), b = corner(at, opening.right + 0.02, below);
+        append_block(into, {{a, a + along, a + along + up, a + up}}, {{b, b + along, b + along + up, b + up}});
+    }
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/hull_fittings.hpp -----------------------------------------------
+// What stands on a ship's decks and what falls off them: deckhouse, funnel, masts, boilers, debris.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// Where the deckhouse stands.
+inline stretch_of_hull house_of(const hull& h) {
+    const double middle = 0.5 + static_cast<double>(h.house_position), half = 0.5 * static_cast<double>(h.house_length);
+    return {(std::max)(middle - half, 0.07), (std::min)(middle + half, 0.85)};
+}
+inline double tier_height(const hull& h) {
+    return (std::min)({2.4, 0.5 * static_cast<double>(h.depth), 0.08 * static_cast<double>(h.length)});
+}
+
+/// The tiers of the deckhouse, each smaller than the one below and under a roof that overhangs it.
+inline void append_house(mesh& into, const hull& h, const hull_lines& lines, const stretch_of_hull& part) {
+    if (h.house_length <= 0) return;
+    const stretch_of_hull whole = house_of(h);
+    // Upper tiers fall first.
+    const int tiers = (std::min)(h.house_tiers, static_cast<int>((1 - lines.collapse()) * (h.house_tiers + 1)));
+    const double tier = tier_height(h), roof = 0.8 * lines.plating();
+    const double base = lines.deck_height(0.5 * (whole.from + whole.to));
+    for (int k = 0; k < tiers; ++k) {
+        const double shrink = 0.14 * k * (whole.to - whole.from);
+        const stretch_of_hull ends{(std::max)(whole.from + 1.6 * shrink, part.from + 0.003 * k),
+                                   (std::min)(whole.to - 0.4 * shrink, part.to - 0.003 * k)};
+        if (ends.to - ends.from < 0.01) continue;
+        const double share = (0.86 - 0.13 * k), low = base + tier * k - (k == 0 ? 0.3 * tier : 0.1 * roof),
+                     high = base + tier * (k + 1);
+        const auto wall = [&](double grow, double from_height, double to_height) {
+            std::vector<section> sections;
+            for (int i = 0; i <= 4; ++i) {
+                const double u = ends.from + (ends.to - ends.from) * i / 4.0, w = lines.deck_w(u);
+                const glm::dvec3 on(grow * (i == 0 ? -1 : i == 4 ? 1 : 0), 0, 0), out(0, grow, 0);
+                const glm::dvec3 port = lines.between(u, w, share, lines.depth()) + on + out;
+                const glm::dvec3 starboard = lines.between(u, w, -share, lines.depth()) + on - out;
+                sections.push_back({{starboard.x, starboard.y, from_height},
+                                    {port.x, port.y, from_height},
+                                    {port.x, port.y, to_height},
+                                    {starboard.x, starboard.y, to_height}});
+            }
+            append_loft(into, sections);
+        };
+        const double settled = 1 - 0.35 * lines.collapse();
+        wall(0, settled * low, settled * (high - 0.5 * roof));
+        wall((std::min)(0.25 * tier, 0.1 * lines.half_beam()), settled * (high - roof), settled * high);
+    }
+    // Lifeboats on both sides of the lowest roof, inside the ship's side.
+    const double boat_u = whole.from + 0.35 * (whole.to - whole.from), boat_size = 0.34 * tier;
+    const double rail = lines.half_breadth(boat_u, 1) - 1.2 * boat_size;
+    if (tiers > 1 && lines.collapse() < 0.3 && part.holds(boat_u) && rail > 1.5 * boat_size)
+        for (const double side : {-1.0, 1.0}) {
+            glm::dvec3 at = lines.between(boat_u, 1, 0, (1 - 0.35 * lines.collapse()) * (base + 1.25 * tier));
+            at.y = side * rail;
+            std::vector<section> boat;
+            for (int i = 0; i <= 6; ++i) {
+                const double t = i / 3.0 - 1, wide = boat_size * numeric::square_root(1 - 0.94 * t * t);
+                boat.push_back(circle(at + glm::dvec3(3.4 * t * boat_size, 0, 0), {0, wide, 0}, {0, 0, 0.7 * wide}, 8));
+            }
+            append_loft(into, boat);
+        }
+    const double funnel_u = whole.from + 0.3 * (whole.to - whole.from);
+    if (h.has_funnel && lines.collapse() < 0.4 && part.holds(funnel_u) && tiers > 0) {
+        const glm::dvec3 foot = lines.between(funnel_u, 1, 0, base + 0.2 * tier);
+        const double up = tier * (tiers + 0.9), radius = 0.16 * lines.half_beam();
+        append_bar(into, foot, foot + glm::dvec3(-0.12 * up, 0, up), 1.15 * radius, radius, 16);
+    }
+}
+
+/// The collapse beyond which masts lie over the side.
+inline constexpr float masts_fall = 0.35f;
+
+/// A mast with two derricks, or, where decks have gone, fallen over the side.
+inline void append_mast(mesh& into, const hull& h, const hull_lines& lines, double u, double side) {
+    const double high = static_cast<double>(h.mast_height);
+    const double thick = (std::max)(0.016 * high, 0.7 * lines.plating());
+    const double deck = lines.deck_height(u);
+    if (h.collapse > masts_fall) {
+        const glm::dvec3 foot = lines.between(u, 0.5, 0, 0.4 * deck);
+        const glm::dvec3 tip = foot + glm::dvec3(0.35 * high, side * 0.9 * high, 0);
+        append_bar(into, foot, {tip.x, tip.y, 1.2 * thick}, thick, 0.5 * thick, 8);
+        return;
+    }
+    const glm::dvec3 foot = lines.between(u, 0.5, 0, 0.3 * deck), top(foot.x, 0, deck + high);
+    append_bar(into, foot, top, thick, 0.5 * thick, 8);
+    // Within the ship's side, and short of her stem.
+    const double reach = (std::min)(0.6 * high, 0.1 * lines.length()),
+                 aside = (std::min)(0.13 * high, 0.5 * lines.half_beam());
+    const glm::dvec3 hinge(foot.x, 0, deck + 0.15 * high);
+    for (const double end : {-1.0, 1.0}) {
+        const glm::dvec3 boom = hinge + glm::dvec3(end * reach, end * aside, 0.22 * high);
+        append_bar(into, hinge, boom, 0.5 * thick, 0.35 * thick, 6);
+    }
+    // The mast house with its winches.
+    const double house = 0.22 * lines.half_beam(), high_house = 0.35 * tier_height(h);
+    append_box(into, foot + glm::dvec3(-house, -1.4 * house, deck - foot.z - 0.5 * lines.plating()),
+               foot + glm::dvec3(house, 1.4 * house, deck - foot.z + high_house));
+    for (const double end : {-1.0, 1.0}) {
+        const glm::dvec3 drum = foot + glm::dvec3(1.5 * end * house, 0, deck - foot.z + 0.6 * high_house);
+        append_bar(into, drum - glm::dvec3(0, house, 0), drum + glm::dvec3(0, house, 0), 0.45 * high_house,
+                   0.45 * high_house, 8);
+    }
+    // Crosstrees.
+    const glm::dvec3 cross(foot.x, 0, deck + 0.72 * high), arm(0, aside, 0);
+    append_bar(into, cross - arm, cross + arm, 0.4 * thick, 0.4 * thick, 5);
+}
+
+/// Boilers and engine: what stands when all else has fallen.
+inline void append_machinery(mesh& into, const hull& h, const hull_lines& lines, const stretch_of_hull& part) {
+    const stretch_of_hull room = house_of(h);
+    const double u = 0.5 * (room.from + room.to), radius = 0.26 * lines.half_beam(), size = 1.5 * radius;
+    if (!part.holds(u) || !part.holds(u - 0.05)) return;
+    for (const double side : {-1.0, 1.0}) {
+        const glm::dvec3 centre =
+            lines.between(u, 0.4, 0, lines.plating() + 1.02 * radius) + glm::dvec3(0, 1.15 * side * radius, 0);
+        append_bar(into, centre - glm::dvec3(size, 0, 0), centre + glm::dvec3(size, 0, 0), radius, radius, 20);
+    }
+    const glm::dvec3 engine = lines.between(u - 0.05, 0.4, 0, 0.8 * lines.plating());
+    append_box(into, engine - glm::dvec3(0.8 * radius, 0.4 * radius, 0),
+               engine + glm::dvec3(0.8 * radius, 0.4 * radius, 2.1 * radius));
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 at = engine + glm::dvec3(0.5 * radius * (i - 1), 0, 2 * radius);
+        append_bar(into, at, at + glm::dvec3(0, 0, 0.5 * radius), 0.2 * radius, 0.2 * radius, 10);
+    }
+}
+
+/// Plates and beams that lie in and beside what has collapsed.
+inline void append_debris(mesh& into, const hull_lines& lines, const stretch_of_hull& part, int pieces,
+                          random_sequence& draw) {
+    for (int i = 0; i < pieces; ++i) {
+        const double u = draw.uniform(0.03, 0.97), side = draw.uniform() < 0.5 ? -1 : 1;
+        const double away = draw.uniform(0.15, 1.9), turns = draw.uniform(), tilt = draw.uniform(0.02, 0.3);
+        const double size = lines.half_beam() * draw.uniform(0.04, 0.24), shape = draw.uniform(0.06, 0.5);
+        if (!part.holds(u)) continue;
+        const auto [sine, cosine] = numeric::sin_cos_turns(turns);
+        const glm::dvec3 along(size * cosine, size * sine, size * tilt),
+            over(-shape * size * sine, shape * size * cosine, 0);
+        const glm::dvec3 middle =
+            lines.between(u, 0.4, 0, 0) +
+            glm::dvec3(0, side * away * lines.half_beam(), size * tilt + (away < 0.8 ? 1.2 : 0.05) * lines.plating());
+        const glm::dvec3 up(0, 0, (std::max)(0.6 * lines.plating(), 0.05 * size));
+        append_block(into,
+                     {{middle - along - over, middle + along - over, middle + along + over, middle - along + over}},
+                     {{middle - along - over + up, middle + along - over + up, middle + along + over + up,
+                       middle - along + over + up}});
+    }
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/hull.hpp --------------------------------------------------------
+// Ships, whole, broken in two or collapsed.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+enum class hull_part : std::size_t { plating, decks, house, rigging, machinery, debris, count };
+using hull_parts = std::array<mesh, static_cast<std::size_t>(hull_part::count)>;
+
+/// Openings in the deck, spread over what the deckhouse leaves free.
+inline std::vector<deck_plate> hatches_of(const hull& h) {
+    const stretch_of_hull house = h.house_length > 0 ? house_of(h) : stretch_of_hull{0.07, 0.07};
+    const stretch_of_hull free[2] = {{0.1, house.from - 0.01}, {house.to + 0.02, 0.87}};
+    const auto room = [](const stretch_of_hull& s) { return (std::max)(s.to - s.from, 0.0); };
+    const double all = room(free[0]) + room(free[1]);
+    const int aft = all > 0 ? static_cast<int>(numeric::floor_to_int(h.hatches * room(free[0]) / all + 0.5)) : 0;
+    std::vector<deck_plate> out;
+    for (int i = 0; i < h.hatches; ++i) {
+        const stretch_of_hull& s = free[i < aft ? 0 : 1];
+        const int place = i < aft ? i : i - aft, count = i < aft ? aft : h.hatches - aft;
+        const double pitch = room(s) / count;
+        if (pitch < 0.03) continue;
+        out.push_back({s.from + pitch * (place + 0.14), s.from + pitch * (place + 0.86), -0.52, 0.52});
+    }
+    return out;
+}
+
+/// Decks with their openings, and their beams; plate by plate where they decay.
+inline void append_decks(mesh& into, const hull& h, const hull_lines& lines, const stretch_of_hull& part,
+                         random_sequence& draw) {
+    const std::vector<deck_plate> hatches = hatches_of(h);
+    const double c = lines.collapse();
+    std::vector<deck_plate> plates;
+    double reached = 0.004;
+    for (const deck_plate& hatch : hatches) {
+        plates.push_back({reached, hatch.from});
+        plates.push_back({hatch.from - 0.001, hatch.to + 0.001, -1, hatch.left, true});
+        plates.push_back({hatch.from - 0.001, hatch.to + 0.001, hatch.right, 1, true});
+        reached = hatch.to;
+    }
+    plates.push_back({reached, 0.985});
+    for (const deck_plate& whole : plates) {
+        const int pieces = c > 0 ? (std::max)(static_cast<int>(24 * (whole.to - whole.from)), 1) : 1;
+        for (int i = 0; i < pieces; ++i) {
+            deck_plate plate = whole;
+            const double pitch = (whole.to - whole.from) / pieces;
+            plate.from = (std::max)(whole.from + pitch * (i + (c > 0 ? 0.02 : 0.0)), part.from);
+            plate.to = (std::min)(whole.from + pitch * (i + 1 - (c > 0 ? 0.02 : 0.0)), part.to);
+            if (draw.uniform() < 1.15 * c || plate.to - plate.from < 0.002) continue;
+            append_deck(into, lines, plate, h.segments);
+        }
+    }
+    if (c < 0.6)
+        for (const deck_plate& hatch : hatches)
+            if (part.holds(hatch.from) && part.holds(hatch.to))
+                append_coaming(into, lines, hatch, 0.18 * lines.depth());
+
+    // Beams stay when the planks above them have gone.
+    const int beams = 28;
+    for (int i = 1; c > 0 && i < beams; ++i) {
+        const double u = 0.04 + 0.9 * (i + 0.31) / beams, drop = draw.uniform();
+        if (draw.uniform() < c * c * 1.1 || !part.holds(u)) continue;
+        const double low = lines.deck_height(u) * (1 - 0.25 * c * drop) - 2 * lines.plating(),
+                     w = 0.85 * lines.deck_w(u);
+        const glm::dvec3 port = lines.between(u, w, 0.98, low), starboard = lines.between(u, w, -0.98, low);
+        const glm::dvec3 along(0.5 * lines.plating(), 0, 0), up(0, 0, lines.plating());
+        append_block(into, {{port - along, port + along, port + along + up, port - along + up}},
+                     {{starboard - along, starboard + along, starboard + along + up, starboard - along + up}});
+    }
+}
+
+/// What lies between two stations, as if the rest were not there.
+inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
+    const hull_lines lines(h);
+    hull_parts out;
+    const auto of = [&](hull_part p) -> mesh& { return out[static_cast<std::size_t>(p)]; };
+    random_sequence draw(h.seed, 0x77726563);
+
+    append_plating(of(hull_part::plating), lines, part, h.segments);
+    if (part.from <= 0)
+        append_bulkhead(of(hull_part::plating), lines, (std::max)(0.004, 0.6 * lines.plating() / lines.length()),
+                        0.985 * (std::min)(lines.standing(0, 1), lines.standing(0, -1)));
+    for (const double u : {0.065, 0.31, 0.6, 0.93})
+        if (part.holds(u))
+            append_bulkhead(of(hull_part::plating), lines, u, lines.deck_w(u) * 0.97 * (1 - 0.55 * lines.collapse()));
+    const int frames = 36;
+    for (int i = 0; i < frames; ++i) {
+        const double u = 0.03 + 0.93 * (i + 0.17) / frames;
+        for (const double side : {-1.0, 1.0}) {
+            // Ribs outlast the plates between them.
+            const double extra = 0.3 * lines.collapse() * draw.uniform();
+            if (part.holds(u))
+                append_frame(of(hull_part::plating), lines, u, side,
+                             (std::min)(lines.standing(u, side) + extra - 0.02, 0.97 * lines.deck_w(u)),
+                             (std::max)(0.05 * lines.half_beam(), lines.plating()));
+        }
+    }
+    append_decks(of(hull_part::decks), h, lines, part, draw);
+    append_house(of(hull_part::house), h, lines, part);
+    const stretch_of_hull house = house_of(h);
+    for (int i = 0; i < h.masts; ++i) {
+        // From the bow aft, between the hatches, clear of the house.
+        const double u =
+            i == 0 ? 0.885 : house.to + (0.885 - house.to) * (1 - static_cast<double>(i) / h.masts) - 0.012 * (i + 1);
+        if (part.holds(u)) append_mast(of(hull_part::rigging), h, lines, u, i % 2 == 0 ? 1 : -1);
+    }
+    if (lines.collapse() > 0.25 && h.has_funnel) append_machinery(of(hull_part::machinery), h, lines, part);
+    append_debris(of(hull_part::debris), lines, part, static_cast<int>(60 * lines.collapse()), draw);
+    return out;
+}
+
+}  // namespace detail
+
+/// The parts of the ship in the order plating, decks, deckhouse, rigging, machinery, debris; empty parts are left out.
+/// Reflectivities are illustrative: steel 1, decks covered by silt and planks less. Each part is solid, and so is the
+/// merged mesh.
+///
+/// An intact ship spans exactly `length` and `beam`, with the lower side of the keel at z = 0. The stern half of a
+/// broken ship stays in place; the bow half is moved, yawed and rolled.
+/// @throws invalid_input as `validate` does
+inline compound to_compound(const hull& h) {
+    validate(h);
+    detail::hull_parts all;
+    if (h.break_gap > 0) {
+        const double at = 0.5 + static_cast<double>(h.break_position);
+        all = detail::build_hull(h, {0, at});
+        // The bow half turns about the break, and rises by what its roll would sink into the bottom.
+        const double x = (at - 0.5) * static_cast<double>(h.length);
+        const auto turned = [&](float roll) {
+            return compose(
+                to_world({.position = {x + static_cast<double>(h.break_gap), 0, 0}, .yaw = h.break_yaw, .roll = roll}),
+                {glm::dmat3(1), {-x, 0, 0}});
+        };
+        const detail::hull_parts bow = detail::build_hull(h, {at, 1});
+        // What collapsed lies flatter, and what fell off it lies on the bottom.
+        const affine turn = turned(h.break_roll * (1 - h.collapse)), level = turned(0);
+        double lowest = 0;
+        for (const glm::vec3& p : bow[0].positions) lowest = (std::min)(lowest, transform_point(turn, glm::dvec3(p)).z);
+        const affine raised{turn.linear, turn.offset - glm::dvec3(0, 0, lowest)};
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const auto part = static_cast<detail::hull_part>(i);
+            const bool has_fallen = part == detail::hull_part::debris ||
+                                    (part == detail::hull_part::rigging && h.collapse > detail::masts_fall);
+            detail::append(all[i], bow[i], has_fallen ? level : raised);
+        }
+    } else {
+        all = detail::build_hull(h, {0, 1});
+    }
+    compound out;
+    constexpr float reflectivity[] = {1, 0.7f, 0.9f, 0.8f, 1, 0.8f};
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (!all[i].triangles.empty()) out.parts.push_back({with_creases(all[i]), {}, reflectivity[i]});
+    return out;
+}
+
+/// @throws invalid_input as `validate` does
+inline mesh to_mesh(const hull& h) {
+    return to_mesh(to_compound(h));
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/lobster_pot.hpp -------------------------------------------------
+// Lobster pots: frames of bars under a net.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A D-shaped creel along x, standing on z = 0: a slatted base, arched hoops over it, bars from hoop to hoop, the rings
+/// of two entrances, and a net of bars. The D shape with two entrances in its sides, diagonally opposite each other, is
+/// the usual one (Seafish Gear Database, Pots and Traps - Lobster); the default size is the common 36 by 22 by 16
+/// inches of makers' catalogues.
+struct lobster_pot {
+    float length = 0.91f;     ///< metres
+    float width = 0.56f;      ///< metres
+    float height = 0.41f;     ///< metres
+    float bar = 0.016f;       ///< diameter of the frame, metres, 1/1000 of the largest to 1/8 of the least size
+    int hoops = 4;            ///< 2 to 16
+    float mesh_size = 0.07f;  ///< between two twines, metres, at least 1/64 of the largest size; 0: without a net
+    float twine = 0.005f;     ///< diameter of the net's bars, metres, at most `bar`
+    float crushed = 0;        ///< 0: upright, 1: hoops bent over until a fifth of the height is left
+    int segments = 12;        ///< straight pieces of a hoop, 6 to 256
+};
+
+/// @throws invalid_input for a value outside its range
+inline void validate(const lobster_pot& p) {
+    detail::require_size("lobster_pot.length", p.length);
+    detail::require_size("lobster_pot.width", p.width);
+    detail::require_size("lobster_pot.height", p.height);
+    const float largest = (std::max)((std::max)(p.length, p.width), p.height);
+    const float least = (std::min)((std::min)(p.length, p.width), p.height);
+    detail::require(p.bar >= 1e-3f * largest && p.bar <= 0.125f * least, "lobster_pot.bar", p.bar,
+                    "1/1000 of the largest to 1/8 of the least size");
+    detail::require(p.hoops >= 2 && p.hoops <= 16, "lobster_pot.hoops", p.hoops, "2 to 16");
+    detail::require(p.mesh_size == 0 || (p.mesh_size >= largest / 64 && p.mesh_size <= largest),
+                    "lobster_pot.mesh_size", p.mesh_size, "0, or 1/64 to 1 of the largest size");
+    detail::require(p.twine >= 5e-4f * largest && p.twine <= p.bar, "lobster_pot.twine", p.twine,
+                    "1/2000 of the largest size to the bar's diameter");
+    detail::require_share("lobster_pot.crushed", p.crushed);
+    detail::require_segments("lobster_pot.segments", p.segments, 6, 256);
+}
+
+namespace detail {
+
+/// A point of the arch, from one foot (0) over the top (1/2) to the other (1): upright sides, then half an ellipse.
+inline glm::dvec3 arch_point(const lobster_pot& p, double x, double t, double inset) {
+    const double half = 0.5 * static_cast<double>(p.width) - inset;
+    const double base = inset, top = static_cast<double>(p.height) - inset;
+    const double spring = base + 0.35 * (top - base);  // where the curve begins
+    double y = 0, z = 0;
+    if (t < 0.15 || t > 0.85) {
+        y = t < 0.5 ? -half : half;
+        z = base + (spring - base) * (t < 0.5 ? t : 1 - t) / 0.15;
+    } else {
+        const auto [sine, cosine] = numeric::sin_cos_turns((t - 0.15) / 0.7 * 0.5);
+        y = -half * cosine;
+        z = spring + (top - spring) * sine;
+    }
+    // A crushed pot leans over: what it loses in height it gains to the side.
+    const double crushed = static_cast<double>(p.crushed);
+    return {x, y + 0.8 * crushed * (z - base), base + (z - base) * (1 - 0.8 * crushed)};
+}
+
+}  // namespace detail
+
+/// @throws invalid_input as `validate` does
+inline mesh to_mesh(const lobster_pot& p) {
+    validate(p);
+    using detail::append_bar, detail::arch_point;
+    const double radius = 0.5 * static_cast<double>(p.bar), half = 0.5 * static_cast<double>(p.length);
+    const double side = 0.5 * static_cast<double>(p.width) - radius, inner = half - radius;
+    mesh body;
+
+    // The base: slats across, two runners along. Bars end inside one another, never in the same circle.
+    detail::append_box(body, {-half, -side - radius, 0}, {half, -side + radius, 1.9 * radius});
+    detail::append_box(body, {-half, side - radius, 0}, {half, side + radius, 1.9 * radius});
+    const int slats = 5;
+    for (int i = 0; i < slats; ++i) {
+        const double x = -half + 2 * radius + (2 * half - 4 * radius) * i / (slats - 1.0);
+        detail::append_box(body, {x - 1.5 * radius, -side, 0.2 * radius}, {x + 1.5 * radius, side, 1.7 * radius});
+    }
+
+    std::vector<glm::dvec3> path;
+    const auto add_arch = [&](double x, double inset, double thick, int corners) {
+        path.clear();
+        for (int k = 0; k <= p.segments; ++k)
+            path.push_back(arch_point(p, x, static_cast<double>(k) / p.segments, inset));
+        detail::append_bent_bar(body, path, thick, corners);
+    };
+    for (int i = 0; i < p.hoops; ++i) add_arch(-inner + 2 * inner * i / (p.hoops - 1.0), radius, radius, 6);
+    for (const double t : {0.15, 0.5, 0.85}) {
+        const glm::dvec3 a = arch_point(p, -half, t, 1.3 * radius), b = arch_point(p, half, t, 1.3 * radius);
+        append_bar(body, a, b, 0.8 * radius, 0.8 * radius);
+    }
+
+    // Entrances: rings in the two long sides.
+    for (const double end : {-1.0, 1.0}) {
+        const glm::dvec3 middle = arch_point(p, 0.25 * end * half * 2 * 0.9, end < 0 ? 0.24 : 0.76, 3 * radius);
+        const double eye = 0.2 * (std::min)(half, static_cast<double>(p.height));
+        path.clear();
+        for (int k = 0; k <= 8; ++k) {
+            const auto [sine, cosine] = numeric::sin_cos_turns(0.96 * k / 8.0);
+            path.push_back(
+                middle + glm::dvec3(eye * cosine, 0.3 * eye * end * sine, eye * sine * (p.crushed < 0.5f ? 0.8 : 0.3)));
+        }
+        detail::append_bent_bar(body, path, 0.5 * radius, 5);
+    }
+
+    if (p.mesh_size > 0) {
+        const double thin = 0.5 * static_cast<double>(p.twine), inset = radius;
+        const int rows = static_cast<int>(2 * half / static_cast<double>(p.mesh_size));
+        for (int i = 1; i < rows; ++i) add_arch(-half + 2 * half * (i + 0.013) / rows, inset, thin, 3);
+        const double around = 2 * static_cast<double>(p.height) + static_cast<double>(p.width);
+        const int lines = static_cast<int>(0.85 * around / static_cast<double>(p.mesh_size));
+        for (int i = 1; i < lines; ++i) {
+            const double t = (i + 0.017) / lines;
+            append_bar(body, arch_point(p, -0.995 * half, t, inset), arch_point(p, 0.995 * half, t, inset), thin, thin,
+                       3);
+        }
+    }
+    return with_creases(body, 1.2f);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/open_pipe.hpp ---------------------------------------------------
+// Pipes with open ends: lost pipeline joints, culvert pipes, spool pieces.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A pipe along x, centred at the origin, open at both ends.
+///
+/// The defaults are a joint of line pipe NPS 24 (API Specification 5L, Line Pipe, and ASME B36.10M: 610 mm outside
+/// diameter, double random length of about 12 m) with a concrete weight coating of 50 mm. A concrete culvert pipe has
+/// a wall of about a tenth of its diameter and 2.5 m of length (EN 1916).
+struct open_pipe {
+    float diameter = 0.71f;  ///< outside, metres
+    float length = 12;       ///< from end to end, metres
+    float wall = 0.065f;     ///< thickness, metres, below half the diameter
+    float flange = 0;        ///< metres by which a flange at either end stands out; 0: none
+    float broken = 0;        ///< metres by which the +x end is ragged, at most half the length; 0: cut square
+    int segments = 48;       ///< around the axis, 6 to 8192; see `segments_for`
+    std::uint64_t seed = 1;  ///< of the ragged end
+};
+
+/// @throws invalid_input for a value outside its range
+inline void validate(const open_pipe& p) {
+    detail::require_size("open_pipe.diameter", p.diameter);
+    detail::require_size("open_pipe.length", p.length);
+    const float larger = p.diameter > p.length ? p.diameter : p.length;
+    detail::require(p.wall >= 1e-4f * larger && p.wall < 0.499f * p.diameter, "open_pipe.wall", p.wall,
+                    "at least 1/10000 of the larger size, below half the diameter");
+    detail::require(p.flange == 0 || (p.flange >= 1e-4f * larger && p.flange <= p.diameter), "open_pipe.flange",
+                    p.flange, "0, or from 1/10000 of the larger size to the diameter");
+    detail::require(p.broken >= 0 && p.broken <= 0.5f * p.length, "open_pipe.broken", p.broken, "0 to half the length");
+    detail::require_segments("open_pipe.segments", p.segments, 6, 8192);
+}
+
+/// 8 segments triangles without flanges. The outer surface is inscribed in its circle.
+/// @throws invalid_input as `validate` does
+inline mesh to_mesh(const open_pipe& p) {
+    validate(p);
+    const double radius = 0.5 * static_cast<double>(p.diameter), bore = radius - static_cast<double>(p.wall);
+    const double half = 0.5 * static_cast<double>(p.length);
+    random_sequence draw(p.seed, 0x70697065);
+    double ragged = 0;
+
+    // Each section is the cut of the wall at one angle: a ring of them, closed on itself.
+    struct corner {
+        double radius, x;
+    };
+    std::vector<corner> outline = {{bore, -half}, {radius, -half}, {radius, half}, {bore, half}};
+    if (p.flange > 0) {
+        const double rim = radius + static_cast<double>(p.flange);
+        const double thick = (std::min)(static_cast<double>(p.flange), 0.1 * static_cast<double>(p.length));
+        outline = {{bore, -half},          {rim, -half},        {rim, -half + thick}, {radius, -half + thick},
+                   {radius, half - thick}, {rim, half - thick}, {rim, half},          {bore, half}};
+    }
+    mesh body;
+    const auto count = static_cast<std::uint32_t>(outline.size());
+    const auto segments = static_cast<std::uint32_t>(p.segments);
+    for (std::uint32_t i = 0; i < segments; ++i) {
+        const auto [sine, cosine] = numeric::sin_cos_turns(static_cast<double>(i) / p.segments);
+        // A broken edge tears in steps: a slow walk with a jump at every segment.
+        ragged = 0.6 * ragged + 0.4 * draw.uniform();
+        const double torn = i == 0 ? 0.0 : static_cast<double>(p.broken) * ragged;
+        for (const corner& c : outline) {
+            const double x = c.x - (c.x > 0 ? torn : 0.0);
+            body.positions.emplace_back(x, c.radius * cosine, c.radius * sine);
+        }
+        const std::uint32_t here = i * count, next = (i + 1) % segments * count;
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const std::uint32_t l = (k + 1) % count;
+            body.triangles.emplace_back(here + k, next + l, here + l);
+            body.triangles.emplace_back(here + k, next + k, next + l);
+        }
+    }
+    return with_creases(body);
+}
+
+/// Fewest segments with which the outside is nowhere farther than `deviation` from its circle.
+/// @throws invalid_input as `segments_for(radius, chord_error)`
+inline int segments_for(const open_pipe& p, float deviation) {
+    return (std::max)(segments_for(0.5f * p.diameter + p.flange, deviation), 6);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/truncated_cone.hpp ----------------------------------------------
+// Truncated cones that lie on the bottom: ground mines of the Manta kind, sinkers, mooring blocks.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A truncated cone standing on z = 0 with a rounded shoulder, a boss on its top and lifting lugs on its side.
+///
+/// The defaults are the size published for the Manta ground mine, 0.98 m across and 0.47 m high (Jane's Underwater
+/// Warfare Systems); shoulder, boss and lugs are estimates from photographs. Without those three it is a plain frustum
+/// of volume pi / 12 (D^2 + D d + d^2) h.
+struct truncated_cone {
+    float diameter = 0.98f;      ///< of the base, metres
+    float top_diameter = 0.52f;  ///< metres
+    float height = 0.47f;        ///< with the boss, metres
+    float shoulder = 0.05f;  ///< metres that the edge of the top is rounded by, at most a fifth of the height; 0: sharp
+    float boss_diameter = 0.22f;  ///< metres, at most 0.8 of the top; 0: none
+    float boss_height = 0.04f;    ///< metres, at most a quarter of the height; 0: none
+    int lugs = 2;                 ///< 0 to 8
+    int segments = 64;            ///< around the axis, 6 to 8192; see `segments_for`
+};
+
+/// @throws invalid_input for a value outside its range
+inline void validate(const truncated_cone& c) {
+    detail::require_size("truncated_cone.diameter", c.diameter);
+    detail::require_thickness("truncated_cone.height", c.height, (std::max)(c.height, c.diameter));
+    detail::require_thickness("truncated_cone.top_diameter", c.top_diameter, c.diameter);
+    detail::require(c.shoulder >= 0 && c.shoulder <= 0.2f * (std::min)(c.height, c.top_diameter),
+                    "truncated_cone.shoulder", c.shoulder, "0 to a fifth of height and top_diameter");
+    detail::require(c.boss_diameter >= 0 && c.boss_diameter <= 0.8f * c.top_diameter, "truncated_cone.boss_diameter",
+                    c.boss_diameter, "0 to 0.8 top_diameter");
+    detail::require(c.boss_height >= 0 && c.boss_height <= 0.25f * c.height, "truncated_cone.boss_height",
+                    c.boss_height, "0 to a quarter of the height");
+    detail::require(c.lugs >= 0 && c.lugs <= 8, "truncated_cone.lugs", c.lugs, "0 to 8");
+    detail::require_segments("truncated_cone.segments", c.segments, 6, 8192);
+}
+
+/// Some 14 segments triangles, and 64 for each lug.
+/// @throws invalid_input as `validate` does
+inline mesh to_mesh(const truncated_cone& c) {
+    validate(c);
+    const double base = 0.5 * static_cast<double>(c.diameter), top = 0.5 * static_cast<double>(c.top_diameter);
+    const bool has_boss = c.boss_height > 0 && c.boss_diameter > 0;
+    const double deck = static_cast<double>(c.height) - (has_boss ? static_cast<double>(c.boss_height) : 0.0);
+    const double slant = numeric::square_root(deck * deck + (base - top) * (base - top));
+
+    // Normals come from the creases; those of the two poles make one vertex of each.
+    std::vector<outline_point> outline = {{0, 0, 0, -1}, {base, 0, 1, 0}};
+    if (c.shoulder > 0) {
+        // A quadratic curve from the side to the top, tangent to both.
+        const double cut = static_cast<double>(c.shoulder);
+        const double from_r = top + cut * (base - top) / slant, from_z = deck - cut * deck / slant;
+        for (int i = 0; i <= 4; ++i) {
+            const double t = i / 4.0, a = (1 - t) * (1 - t), b = 2 * t * (1 - t), d = t * t;
+            outline.push_back({a * from_r + b * top + d * (top - cut), a * from_z + (b + d) * deck, 1, 0});
+        }
+    } else {
+        outline.push_back({top, deck, 1, 0});
+    }
+    if (has_boss) {
+        const double boss = 0.5 * static_cast<double>(c.boss_diameter);
+        outline.push_back({boss, deck, 1, 0});
+        outline.push_back({0.9 * boss, static_cast<double>(c.height), 1, 0});
+    }
+    outline.push_back({0, static_cast<double>(c.height), 0, 1});
+    mesh body = revolve(outline, c.segments);
+
+    // Lugs are half rings that stand out of the side above its middle.
+    for (int i = 0; i < c.lugs; ++i) {
+        const auto [sine, cosine] = numeric::sin_cos_turns((i + 0.25) / c.lugs);
+        const double at = base + 0.6 * (top - base), size = 0.09 * static_cast<double>(c.height);
+        const glm::dvec3 out(cosine, sine, 0), foot = at * out + glm::dvec3(0, 0, 0.6 * deck);
+        const glm::dvec3 path[] = {
+            foot - size * out + glm::dvec3(0, 0, size), foot + size * out + glm::dvec3(0, 0, size),
+            foot + size * out - glm::dvec3(0, 0, size), foot - size * out - glm::dvec3(0, 0, size)};
+        detail::append_bent_bar(body, path, 0.3 * size);
+    }
+    body.normals.clear();
+    return with_creases(body);
+}
+
+/// Fewest segments with which the base is nowhere farther than `deviation` from its circle.
+/// @throws invalid_input as `segments_for(radius, chord_error)`
+inline int segments_for(const truncated_cone& c, float deviation) {
+    return (std::max)(segments_for(0.5f * c.diameter, deviation), 6);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/tyre.hpp --------------------------------------------------------
+// Tyres that lie flat on the bottom.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A tyre without its wheel, its axis along z, lying on z = 0: a hollow ring that is open towards its axis.
+///
+/// The defaults are a car's 195/65 R15 (ISO 4000-1): 195 mm wide, on a rim of 15 inches, and as high as 65 % of its
+/// width, so 381 + 2 * 0.65 * 195 = 634 mm across. A lorry's 315/80 R22.5 (ISO 4209-1) is 1.076 m, 0.315 m, 0.572 m.
+struct tyre {
+    float diameter = 0.634f;      ///< outside, metres
+    float width = 0.195f;         ///< metres
+    float rim_diameter = 0.381f;  ///< of the hole, metres, at most 0.95 of the diameter
+    float wall = 0.015f;          ///< thickness, metres, at most 0.45 of the width
+    float fill = 0;               ///< share of the inner height that sediment fills the hole to: 0, or 0.001 to 1
+    int segments = 64;            ///< around the axis, 6 to 8192; a quarter as many across the tread
+};
+
+/// @throws invalid_input for a value outside its range
+inline void validate(const tyre& t) {
+    detail::require_size("tyre.diameter", t.diameter);
+    detail::require(t.width >= 1e-3f * t.diameter && t.width <= 10 * t.diameter, "tyre.width", t.width,
+                    "1/1000 to 10 diameters");
+    detail::require(t.rim_diameter >= 1e-3f * t.diameter && t.rim_diameter <= 0.95f * t.diameter, "tyre.rim_diameter",
+                    t.rim_diameter, "0.001 to 0.95 diameters");
+    detail::require(t.wall >= 1e-4f * (std::max)(t.diameter, t.width) && t.wall <= 0.45f * t.width &&
+                        t.wall <= 0.45f * (t.diameter - t.rim_diameter),
+                    "tyre.wall", t.wall, "at least 1/10000 of the size, at most 0.45 of width and of the ring");
+    detail::require(t.fill == 0 || (t.fill >= 0.001f && t.fill <= 1), "tyre.fill", t.fill, "0, or 0.001 to 1");
+    detail::require_segments("tyre.segments", t.segments, 6, 8192);
+}
+
+/// The tread's section is a superellipse of exponent 3.2, outside and inside.
+/// @throws invalid_input as `validate` does
+inline mesh to_mesh(const tyre& t) {
+    validate(t);
+    const double rim = 0.5 * static_cast<double>(t.rim_diameter), wall = static_cast<double>(t.wall);
+    const double ring = 0.5 * static_cast<double>(t.diameter) - rim, half = 0.5 * static_cast<double>(t.width);
+    const int steps = 2 * ((std::max)(t.segments / 8, 3));  // even: one point lies on the widest circle
+    std::vector<outline_point> outline;
+    const auto add_arc = [&](double radial, double axial, bool upwards) {
+        for (int i = 0; i <= steps; ++i) {
+            const double turns = (upwards ? 1 : -1) * (0.5 * i / steps - 0.25);
+            auto [sine, cosine] = numeric::sin_cos_turns(turns);
+            if (i == 0 || i == steps) cosine = 0;
+            const double out = cosine > 0 ? numeric::pow(cosine, 2 / 3.2) : 0.0;
+            const double up = numeric::pow(std::abs(sine), 2 / 3.2);
+            outline.push_back({rim + radial * out, half + (sine < 0 ? -up : up) * axial, 1, 0});
+        }
+    };
+    add_arc(ring, half, true);
+    add_arc(ring - wall, half - wall, false);
+    outline.push_back(outline.front());
+    mesh body = revolve(outline, t.segments);
+
+    if (t.fill > 0) {
+        // Sediment reaches into the ring, whose inside is that high a third of the way up.
+        const double inner = 0.9 * (half - wall), bottom = half - inner, reach = rim + 0.3 * (ring - wall);
+        const double surface = bottom + 2 * inner * static_cast<double>(t.fill);
+        const std::vector<outline_point> sediment = {
+            {0, bottom, 0, -1}, {reach, bottom, 1, 0}, {reach, surface, 1, 0}, {0, surface, 0, 1}};
+        detail::append(body, revolve(sediment, t.segments));
+    }
+    body.normals.clear();
+    return with_creases(body);
+}
+
+/// Fewest segments with which the tread is nowhere farther than `deviation` from its circle.
+/// @throws invalid_input as `segments_for(radius, chord_error)`
+inline int segments_for(const tyre& t, float deviation) {
+    return (std::max)(segments_for(0.5f * t.diameter, deviation), 6);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/wedge.hpp -------------------------------------------------------
+// Low wedges that lie on the bottom: ground mines of the Rockan kind.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A wedge standing on z = 0, nose towards +x: flat below, highest near its tail, with sloping sides. Such a shape
+/// reflects sound away from a sonar at most aspects.
+///
+/// The defaults are the size published for the GMI 100 Rockan, 1.02 m long, 0.80 m wide and 0.385 m high (Jane's
+/// Underwater Warfare Systems); the slopes are estimates from photographs.
+struct wedge {
+    float length = 1.02f;       ///< metres
+    float width = 0.8f;         ///< at the tail, metres
+    float height = 0.385f;      ///< at the ridge, metres
+    float nose_height = 0.06f;  ///< metres, below the height
+    float nose_width = 0.46f;   ///< metres, at most the width
+    float tail_height = 0.2f;   ///< metres, below the height
+    float ridge = 0.2f;         ///< metres from the tail to the ridge, below half the length
+    float side_slope = 0.35f;   ///< inward per upward metre of the sides, >= 0; the ridge keeps a tenth of the width
+};
+
+namespace detail {
+
+/// Length position, half width and height of the wedge's four cross sections.
+struct wedge_station {
+    double x, half_width, height;
+};
+inline std::array<wedge_station, 4> stations_of(const wedge& w) {
+    const double length = static_cast<double>(w.length), wide = 0.5 * static_cast<double>(w.width);
+    const double nose = 0.5 * static_cast<double>(w.nose_width), high = static_cast<double>(w.height);
+    const double ridge = static_cast<double>(w.ridge), low = static_cast<double>(w.nose_height);
+    // The sides run parallel to two thirds of the length; the nose narrows from there.
+    const double bend = 2.0 / 3 * length;
+    const double bend_height = high + (low - high) * (bend - ridge) / (length - ridge);
+    return {{{-0.5 * length, wide, static_cast<double>(w.tail_height)},
+             {-0.5 * length + ridge, wide, high},
+             {-0.5 * length + bend, wide, bend_height},
+             {0.5 * length, nose, low}}};
+}
+
+}  // namespace detail
+
+/// @throws invalid_input for a value outside its range
+inline void validate(const wedge& w) {
+    using namespace detail;
+    require_size("wedge.length", w.length);
+    const float larger = w.length > w.width ? w.length : w.width;
+    require_thickness("wedge.width", w.width, larger);
+    require_thickness("wedge.height", w.height, larger > w.height ? larger : w.height);
+    require_thickness("wedge.nose_height", w.nose_height, w.height);
+    require_thickness("wedge.tail_height", w.tail_height, w.height);
+    require_thickness("wedge.nose_width", w.nose_width, w.width);
+    require(w.ridge >= 1e-4f * w.length && w.ridge <= 0.5f * w.length, "wedge.ridge", w.ridge,
+            "1/10000 to half of the length");
+    require(w.side_slope >= 0 && w.side_slope * w.height <= 0.45f * w.width &&
+                w.side_slope * w.nose_height <= 0.45f * w.nose_width,
+            "wedge.side_slope", w.side_slope, "0, or so that the top keeps a tenth of width and nose_width");
+}
+
+/// 28 triangles, flat.
+/// @throws invalid_input as `validate` does
+inline mesh to_mesh(const wedge& w) {
+    validate(w);
+    std::vector<detail::section> sections;
+    for (const auto& [x, half, height] : detail::stations_of(w)) {
+        const double top = half - static_cast<double>(w.side_slope) * height;
+        sections.push_back({{x, -half, 0}, {x, half, 0}, {x, top, height}, {x, -top, height}});
+    }
+    mesh body;
+    detail::append_loft(body, sections);
+    return with_creases(body, 0);
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

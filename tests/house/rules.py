@@ -55,7 +55,8 @@ def allowed_from(folder):
 
 
 def folder_of(header):
-    return header.rpartition("/")[0]
+    """The folder below insonify/ that a header belongs to; those inside it follow its rules."""
+    return header.partition("/")[0] if "/" in header else ""
 
 
 def code_of(text):

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/seabed/area.hpp>
+#include <insonify/seabed/moat.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -61,7 +62,7 @@ struct heap {
     float slope = 0.6f;   ///< > 0: of its sides; sand lies at 0.6, mud flatter
 };
 
-using edit = std::variant<raise, flatten, smooth, ramp, stamp, scour, heap>;
+using edit = std::variant<raise, flatten, smooth, ramp, stamp, scour, heap, moat>;
 
 namespace detail {
 
@@ -165,6 +166,11 @@ inline box box_of(const heap& e) {
     return box_around(e.centre, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
 }
 
+inline box box_of(const moat& e) {
+    validate(e);
+    return box_around(e.outline, moat_reach(e));
+}
+
 /// What an edit makes of a height at a position.
 inline float worked(const raise& e, const glm::dvec2& p, float height) {
     return height + e.height * brush(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius);
@@ -217,6 +223,9 @@ inline float worked(const scour& e, const glm::dvec2& p, float height) {
     const float tail = 0.4f * e.depth * 4 * way * (1 - way) * brush((side - e.radius) / e.width);
     return height + moat + tail;
 }
+inline float worked(const moat& e, const glm::dvec2& p, float height) {
+    return height + static_cast<float>(moat_change(e, p));
+}
 inline float worked(const heap& e, const glm::dvec2& p, float height) {
     const float beyond = length(p.x - e.centre.x, p.y - e.centre.y) - e.radius;
     return (std::max)(height, e.level - e.slope * (std::max)(beyond, 0.0f));
@@ -247,6 +256,9 @@ inline height_range worked_range(const stamp& e, const height_range& ground) {
 }
 inline height_range worked_range(const scour& e, const height_range& ground) {
     return added(ground, -static_cast<double>(e.depth), 0.4 * static_cast<double>(e.depth));
+}
+inline height_range worked_range(const moat& e, const height_range& ground) {
+    return added(ground, -static_cast<double>(e.depth), static_cast<double>(e.mound));
 }
 inline height_range worked_range(const heap& e, const height_range& ground) {
     return {ground.lowest, (std::max)(ground.highest, static_cast<double>(e.level))};

@@ -71,6 +71,50 @@ TEST_CASE("Furrows follow a path; marks come at equal steps along it, around cor
     for (const glm::dvec2 at : {glm::dvec2{1, 0}, {3, 0}, {3, 2}, {3, 4}}) CHECK(height(marks, at.x, at.y) == 0);
 }
 
+TEST_CASE("A moat follows its outline, deepest where the current arrives, and heaps a mound down-current") {
+    const sb::moat m{.outline = {{-4, -1}, {4, -1}, {4, 1}, {-4, 1}},
+                     .depth = 0.4f,
+                     .width = 2,
+                     .current = 0,
+                     .mound = 0.2f,
+                     .tail = 6};
+    // Up-current of the outline it is as deep as stated, abeam three quarters of it, in the lee half.
+    CHECK(height({m}, -4, 0) == Approx(-0.4f));
+    CHECK(height({m}, 0, 1) == Approx(-0.3f));
+    CHECK(height({m}, 4, 0) == Approx(-0.2f));
+    CHECK(height({m}, -5, 0) == Approx(-0.4f * 0.5625f));
+    // The target keeps standing, and beyond the moat nothing changes.
+    CHECK(height({m}, 0, 0) == 0);
+    CHECK(height({m}, -6, 0) == 0);
+    CHECK(height({m}, 0, 3.001) == 0);
+    // The mound begins half a width behind the outline, and is highest after a third of its length.
+    CHECK(height({m}, 5 + 2, 0) == Approx(0.2f));
+    CHECK(height({m}, 11, 0) == 0);
+    CHECK(height({m}, 7, 2.001) == 0);
+
+    // Turning outline and current turns all of it, up to the borders of the box that it is kept in.
+    sb::moat turned = m;
+    turned.current = 0.7f;
+    for (glm::dvec2& p : turned.outline)
+        p = {p.x * std::cos(0.7) - p.y * std::sin(0.7), p.x * std::sin(0.7) + p.y * std::cos(0.7)};
+    for (double x = -7; x < 12; x += 0.5)
+        for (double y = -4; y < 4; y += 0.5)
+            CHECK(height({turned}, x * std::cos(0.7) - y * std::sin(0.7), x * std::sin(0.7) + y * std::cos(0.7)) ==
+                  Approx(height({m}, x, y)).margin(1e-5));
+    const auto range = sb::sculpted{.ground = plane, .edits = {m}}.prepare().range();
+    CHECK(range.lowest <= -0.4);
+    CHECK(range.highest >= 0.2);
+
+    const auto prepare = [](const sb::edit& e) { return sb::sculpted{.ground = plane, .edits = {e}}.prepare(); };
+    CHECK_THROWS_WITH(prepare(sb::moat{.outline = {{0, 0}, {1, 0}}}), ContainsSubstring("moat.outline.size() is 2"));
+    CHECK_THROWS_WITH(prepare(sb::moat{.outline = {{0, 0}, {1, 0}, {2e9, 1}}}),
+                      ContainsSubstring("moat.outline is 2e+09"));
+    CHECK_THROWS_WITH(prepare(sb::moat{.depth = -1}), ContainsSubstring("moat.depth is -1"));
+    CHECK_THROWS_WITH(prepare(sb::moat{.width = 0}), ContainsSubstring("moat.width is 0"));
+    CHECK_THROWS_WITH(prepare(sb::moat{.mound = -1}), ContainsSubstring("moat.mound is -1"));
+    CHECK_THROWS_WITH(prepare(sb::moat{.tail = -1}), ContainsSubstring("moat.tail is -1"));
+}
+
 TEST_CASE("A current scours deepest where it comes from, and lays tails behind the target") {
     const sb::scour moat{.centre = {10, 0}, .radius = 0.5f, .depth = 0.2f, .width = 0.6f, .current = 0, .tail = 2};
     const auto at = [&](double x, double y) { return height({moat}, x, y); };

@@ -1,0 +1,77 @@
+// Several meshes as one target, each with a reflectivity of its own.
+#pragma once
+
+#include <insonify/geometry/objects/solids.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A part of a compound.
+struct compound_part {
+    mesh shape;  ///< with or without normals
+    pose placement;
+    float reflectivity = 1;  ///< relative to the target's material, >= 0: 1 for steel plating, less for rubber or wood
+};
+
+/// A list of parts that moves and is labelled as one target. Built from primitives, imported meshes and other objects.
+struct compound {
+    std::vector<compound_part> parts;
+
+    /// Adds a mesh, or anything that has a `to_mesh`.
+    template <class Shape>
+    compound& add(const Shape& shape, const pose& placement = {}, float reflectivity = 1) {
+        if constexpr (requires { shape.triangles; })
+            parts.push_back({shape, placement, reflectivity});
+        else
+            parts.push_back({to_mesh(shape), placement, reflectivity});
+        return *this;
+    }
+};
+
+/// A compound's parts in one mesh, and which triangle came from which part.
+struct merged_compound {
+    mesh shape;                           ///< with normals if every part has them
+    std::vector<std::uint16_t> part_ids;  ///< by triangle: an index of `reflectivities`
+    std::vector<float> reflectivities;    ///< by part
+};
+
+/// @throws invalid_input for a part without matching indices or normals, a reflectivity that is negative or not finite,
+///         or more than 65535 parts
+inline void validate(const compound& c) {
+    detail::require(c.parts.size() <= 65535, "compound.parts.size()", c.parts.size(), "at most 65535");
+    for (const compound_part& p : c.parts) {
+        validate(p.shape);
+        detail::require(numeric::is_finite(p.reflectivity) && p.reflectivity >= 0, "compound_part.reflectivity",
+                        p.reflectivity, "finite and at least 0");
+    }
+}
+
+/// The parts, placed, in one mesh. It is solid if every part is and no two parts share an edge.
+/// @throws invalid_input as `validate` and `to_world` do
+inline merged_compound merge(const compound& c) {
+    validate(c);
+    merged_compound out;
+    bool has_normals = true;
+    for (const compound_part& p : c.parts) has_normals = has_normals && !p.shape.normals.empty();
+    for (std::size_t i = 0; i < c.parts.size(); ++i) {
+        detail::append(out.shape, c.parts[i].shape, to_world(c.parts[i].placement));
+        out.part_ids.resize(out.shape.triangles.size(), static_cast<std::uint16_t>(i));
+        out.reflectivities.push_back(c.parts[i].reflectivity);
+    }
+    if (!has_normals) out.shape.normals.clear();
+    return out;
+}
+
+/// @throws invalid_input as `merge` does
+inline mesh to_mesh(const compound& c) {
+    return merge(c).shape;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

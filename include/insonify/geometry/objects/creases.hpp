@@ -1,0 +1,83 @@
+// Shading normals that are smooth across gentle bends and sharp across edges.
+//
+// Based on: Grit Thuermer, Charles A. Wuethrich. Computing Vertex Normals from Polygonal Facets. Journal of Graphics
+// Tools 3(1), 1998 (the weight of a facet is its angle at the vertex).
+#pragma once
+
+#include <insonify/core/linear.hpp>
+#include <insonify/core/numeric.hpp>
+#include <insonify/geometry/mesh.hpp>
+#include <insonify/geometry/topology.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// The same triangles with unit normals. A corner's normal is the mean of the facets around its position that bend away
+/// from its own facet by less than `angle`, so a position has as many vertices as sides of it look different.
+/// Facets without area keep their corners, with +z as normal.
+/// @param angle  radians; 0 makes every facet flat
+/// @throws invalid_input if an index has no position
+inline mesh with_creases(const mesh& m, float angle = 0.7f) {
+    validate(m);
+    const double smoothest = numeric::sin_cos(static_cast<double>(angle)).cosine;
+    const std::vector<std::uint32_t> first = weld(m.positions);
+
+    struct corner {
+        std::uint32_t position, triangle;
+        int number;
+        glm::dvec3 weighted;  // the facet's unit normal times its angle here
+    };
+    std::vector<glm::dvec3> facets(m.triangles.size(), glm::dvec3(0));
+    std::vector<corner> corners;
+    corners.reserve(3 * m.triangles.size());
+    for (std::uint32_t t = 0; t < m.triangles.size(); ++t) {
+        const glm::dvec3 p[3] = {m.positions[m.triangles[t].x], m.positions[m.triangles[t].y],
+                                 m.positions[m.triangles[t].z]};
+        const glm::dvec3 area = numeric::cross(p[1] - p[0], p[2] - p[0]);
+        const double length = numeric::square_root(numeric::dot(area, area));
+        if (length > 0 && numeric::is_finite(length)) facets[t] = area / length;
+        for (int i = 0; i < 3; ++i) {
+            const double turn = numeric::atan2(length, numeric::dot(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]));
+            corners.push_back({first[m.triangles[t][i]], t, i, turn * facets[t]});
+        }
+    }
+    std::sort(corners.begin(), corners.end(), [](const corner& a, const corner& b) {
+        return a.position != b.position   ? a.position < b.position
+               : a.triangle != b.triangle ? a.triangle < b.triangle
+                                          : a.number < b.number;
+    });
+
+    mesh out;
+    out.triangles = m.triangles;
+    for (std::size_t begin = 0, end; begin < corners.size(); begin = end) {
+        for (end = begin; end < corners.size() && corners[end].position == corners[begin].position;) ++end;
+        const auto fan = out.positions.size();
+        for (std::size_t i = begin; i < end; ++i) {
+            glm::dvec3 sum(0);
+            for (std::size_t j = begin; j < end; ++j)
+                if (i == j || numeric::dot(facets[corners[i].triangle], facets[corners[j].triangle]) > smoothest)
+                    sum += corners[j].weighted;
+            const double length = numeric::square_root(numeric::dot(sum, sum));
+            const glm::vec3 normal = length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
+            std::size_t vertex = fan;
+            while (vertex < out.normals.size() && out.normals[vertex] != normal) ++vertex;
+            if (vertex == out.normals.size()) {
+                out.positions.push_back(m.positions[corners[begin].position]);
+                out.normals.push_back(normal);
+            }
+            out.triangles[corners[i].triangle][corners[i].number] = static_cast<std::uint32_t>(vertex);
+        }
+    }
+    return out;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

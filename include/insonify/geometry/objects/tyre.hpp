@@ -1,0 +1,85 @@
+// Tyres that lie flat on the bottom.
+#pragma once
+
+#include <insonify/geometry/objects/creases.hpp>
+#include <insonify/geometry/objects/solids.hpp>
+#include <insonify/geometry/revolution.hpp>
+
+#include <algorithm>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A tyre without its wheel, its axis along z, lying on z = 0: a hollow ring that is open towards its axis.
+///
+/// The defaults are a car's 195/65 R15 (ISO 4000-1): 195 mm wide, on a rim of 15 inches, and as high as 65 % of its
+/// width, so 381 + 2 * 0.65 * 195 = 634 mm across. A lorry's 315/80 R22.5 (ISO 4209-1) is 1.076 m, 0.315 m, 0.572 m.
+struct tyre {
+    float diameter = 0.634f;      ///< outside, metres
+    float width = 0.195f;         ///< metres
+    float rim_diameter = 0.381f;  ///< of the hole, metres, at most 0.95 of the diameter
+    float wall = 0.015f;          ///< thickness, metres, at most 0.45 of the width
+    float fill = 0;               ///< share of the inner height that sediment fills the hole to: 0, or 0.001 to 1
+    int segments = 64;            ///< around the axis, 6 to 8192; a quarter as many across the tread
+};
+
+/// @throws invalid_input for a value outside its range
+inline void validate(const tyre& t) {
+    detail::require_size("tyre.diameter", t.diameter);
+    detail::require(t.width >= 1e-3f * t.diameter && t.width <= 10 * t.diameter, "tyre.width", t.width,
+                    "1/1000 to 10 diameters");
+    detail::require(t.rim_diameter >= 1e-3f * t.diameter && t.rim_diameter <= 0.95f * t.diameter, "tyre.rim_diameter",
+                    t.rim_diameter, "0.001 to 0.95 diameters");
+    detail::require(t.wall >= 1e-4f * (std::max)(t.diameter, t.width) && t.wall <= 0.45f * t.width &&
+                        t.wall <= 0.45f * (t.diameter - t.rim_diameter),
+                    "tyre.wall", t.wall, "at least 1/10000 of the size, at most 0.45 of width and of the ring");
+    detail::require(t.fill == 0 || (t.fill >= 0.001f && t.fill <= 1), "tyre.fill", t.fill, "0, or 0.001 to 1");
+    detail::require_segments("tyre.segments", t.segments, 6, 8192);
+}
+
+/// The tread's section is a superellipse of exponent 3.2, outside and inside.
+/// @throws invalid_input as `validate` does
+inline mesh to_mesh(const tyre& t) {
+    validate(t);
+    const double rim = 0.5 * static_cast<double>(t.rim_diameter), wall = static_cast<double>(t.wall);
+    const double ring = 0.5 * static_cast<double>(t.diameter) - rim, half = 0.5 * static_cast<double>(t.width);
+    const int steps = 2 * ((std::max)(t.segments / 8, 3));  // even: one point lies on the widest circle
+    std::vector<outline_point> outline;
+    const auto add_arc = [&](double radial, double axial, bool upwards) {
+        for (int i = 0; i <= steps; ++i) {
+            const double turns = (upwards ? 1 : -1) * (0.5 * i / steps - 0.25);
+            auto [sine, cosine] = numeric::sin_cos_turns(turns);
+            if (i == 0 || i == steps) cosine = 0;
+            const double out = cosine > 0 ? numeric::pow(cosine, 2 / 3.2) : 0.0;
+            const double up = numeric::pow(std::abs(sine), 2 / 3.2);
+            outline.push_back({rim + radial * out, half + (sine < 0 ? -up : up) * axial, 1, 0});
+        }
+    };
+    add_arc(ring, half, true);
+    add_arc(ring - wall, half - wall, false);
+    outline.push_back(outline.front());
+    mesh body = revolve(outline, t.segments);
+
+    if (t.fill > 0) {
+        // Sediment reaches into the ring, whose inside is that high a third of the way up.
+        const double inner = 0.9 * (half - wall), bottom = half - inner, reach = rim + 0.3 * (ring - wall);
+        const double surface = bottom + 2 * inner * static_cast<double>(t.fill);
+        const std::vector<outline_point> sediment = {
+            {0, bottom, 0, -1}, {reach, bottom, 1, 0}, {reach, surface, 1, 0}, {0, surface, 0, 1}};
+        detail::append(body, revolve(sediment, t.segments));
+    }
+    body.normals.clear();
+    return with_creases(body);
+}
+
+/// Fewest segments with which the tread is nowhere farther than `deviation` from its circle.
+/// @throws invalid_input as `segments_for(radius, chord_error)`
+inline int segments_for(const tyre& t, float deviation) {
+    return (std::max)(segments_for(0.5f * t.diameter, deviation), 6);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,103 @@
+// Scour around what has lain long: a moat along its outline, and down-current a mound of what was dug.
+//
+// Sources: Richard J. S. Whitehouse. Scour at Marine Structures: A Manual for Practical Applications, 1998 (scour is
+// deepest up-current, and half of that in the lee). G. F. Caston. Wreck marks: indicators of net sand transport. Marine
+// Geology 33, 1979 (tails of sand down-current of wrecks). Around piles in sand the depth reaches 1.38 diameters (R. J.
+// S. Whitehouse and others. The nature of scour development and scour protection at offshore windfarm foundations.
+// Marine Pollution Bulletin 62, 2011).
+#pragma once
+
+#include <insonify/seabed/area.hpp>
+
+#include <algorithm>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// Scour around a footprint of any outline; `scour` is the same around a round one. The ground below the middle of the
+/// footprint stays, so that what lies on it keeps standing on it.
+struct moat {
+    std::vector<glm::dvec2> outline{
+        {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  ///< of the target on the ground, 3 to 4096 corners
+    float depth = 0.3f;                       ///< metres, >= 0, where the current arrives; half of it in the lee
+    float width = 1.5f;                       ///< metres, > 0: from the outline to where the moat ends
+    float current = 0;                        ///< radians from +x: where it flows to
+    float mound = 0.15f;                      ///< height of the deposit down-current, metres, >= 0
+    float tail = 6;                           ///< its length, metres, >= 0; 0: none
+};
+
+namespace detail {
+
+inline void validate(const moat& m) {
+    validate_points(m.outline, "moat.outline", 3);
+    require(m.outline.size() <= 4096, "moat.outline.size()", m.outline.size(), "at most 4096");
+    for (const glm::dvec2& p : m.outline) {
+        require(p.x >= -1e9 && p.x <= 1e9, "moat.outline", p.x, "within 1e9 metres");
+        require(p.y >= -1e9 && p.y <= 1e9, "moat.outline", p.y, "within 1e9 metres");
+    }
+    require(m.depth >= 0 && m.depth < 1e6f, "moat.depth", m.depth, "metres, at least 0");
+    require(m.width > 0 && m.width < 1e6f, "moat.width", m.width, "metres above 0");
+    require(m.mound >= 0 && m.mound < 1e6f, "moat.mound", m.mound, "metres, at least 0");
+    require(m.tail >= 0 && m.tail < 1e6f, "moat.tail", m.tail, "metres, at least 0");
+    require(numeric::is_finite(m.current), "moat.current", m.current, "a finite angle");
+}
+
+/// (1 - t^2)^2: 1 at 0, and 0 with its slope from 1 on.
+constexpr double soft_edge(double t) {
+    const double inside = t * t < 1 ? 1 - t * t : 0.0;
+    return inside * inside;
+}
+
+/// How far from its outline's corners a moat reaches, at most.
+inline double moat_reach(const moat& m) {
+    // The tail is as wide as the outline, whose corners may all lie to one side of it.
+    double square = 0;
+    for (const glm::dvec2& p : m.outline) {
+        const glm::dvec2 off = p - m.outline.front();
+        square = (std::max)(square, off.x * off.x + off.y * off.y);
+    }
+    return numeric::square_root(square) + static_cast<double>(m.width) + static_cast<double>(m.tail);
+}
+
+/// How much a moat raises (or, negative, lowers) the ground at a position.
+inline double moat_change(const moat& m, const glm::dvec2& p) {
+    const numeric::sine_cosine flow = numeric::sin_cos(static_cast<double>(m.current));
+    // Along the current and across it, of the outline and of the position, from the outline's mean corner.
+    glm::dvec2 centre(0, 0);
+    for (const glm::dvec2& c : m.outline) centre += c / static_cast<double>(m.outline.size());
+    const auto turned = [&](const glm::dvec2& q) {
+        const glm::dvec2 off = q - centre;
+        return glm::dvec2(off.x * flow.cosine + off.y * flow.sine, off.y * flow.cosine - off.x * flow.sine);
+    };
+    double lee_end = 0, left = 0, right = 0;
+    for (const glm::dvec2& c : m.outline) {
+        const glm::dvec2 q = turned(c);
+        lee_end = (std::max)(lee_end, q.x);
+        left = (std::min)(left, q.y);
+        right = (std::max)(right, q.y);
+    }
+
+    const double width = static_cast<double>(m.width), outside = -inside(polygon{m.outline}, p);
+    const glm::dvec2 at = turned(p);
+    const double away = numeric::square_root(at.x * at.x + at.y * at.y);
+    const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;
+    double change =
+        -static_cast<double>(m.depth) * facing * soft_edge(outside > 0 ? outside / width : 2 * outside / width);
+
+    if (m.tail > 0) {
+        // A ridge behind the moat, as wide as the outline is across the current.
+        const double length = static_cast<double>(m.tail), along = (at.x - lee_end - 0.5 * width) / length;
+        const double half = 0.5 * (right - left), side = std::abs(at.y - 0.5 * (left + right));
+        if (along > 0 && along < 1)
+            change += static_cast<double>(m.mound) * 6.75 * along * (1 - along) * (1 - along) *
+                      soft_edge(side / (half + 0.5 * width));
+    }
+    return change;
+}
+
+}  // namespace detail
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END
