@@ -34,9 +34,11 @@ inline in::scene bare(const in::mesh& m, in::pose placement = {.position = {0.01
     return s;
 }
 
-inline in::scene on_ground(const in::mesh& m, in::pose placement = {.position = {0.0123, 0.0457, 0}, .yaw = 0.3f}) {
+/// @param level  of the ground, metres above the datum
+inline in::scene on_ground(const in::mesh& m, in::pose placement = {.position = {0.0123, 0.0457, 0}, .yaw = 0.3f},
+                           double level = 0) {
     const in::mesh ground{{{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}}, {}, {{0, 1, 2}, {0, 2, 3}}};
-    in::scene s = bare(ground, {.position = {0.0311, -0.0173, -0.01}, .yaw = 0.1f});
+    in::scene s = bare(ground, {.position = {0.0311, -0.0173, level}, .yaw = 0.1f});
     s.add(m, placement, "mesh");
     return s;
 }
@@ -64,6 +66,7 @@ inline std::vector<foreign_scene> all(bool dense = true) {
     const in::mesh figure = shapes::statue(56, 40), relief = shapes::relief();
     add("tilted quad", bare(shapes::tilted_quad()));
     add("tilted sheet", on_ground(shapes::tilted_quad(24)));
+    add("sunken ground", on_ground(shapes::tilted_quad(24), raised(0), -0.01));
     add("bowl", on_ground(shapes::bowl()));
     add("scroll", on_ground(shapes::scroll()));
     add("moebius strip", on_ground(shapes::moebius_strip()));

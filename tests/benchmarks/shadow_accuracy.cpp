@@ -36,7 +36,7 @@ struct options {
     std::vector<std::string> policies, scenes, objs;
     std::vector<double> sizes{64, 128, 256, 512}, elevations{0.5, 2, 6, 20, 33, 45, 70, 89}, azimuths{0, 23.7, 160};
     double distance = 0;
-    int threads = 2;
+    int threads = 2, bits = 0;
     bool each = false, builtin = true;
 };
 
@@ -50,6 +50,7 @@ constexpr const char* help =
     "  --elevations a,b    of the light, degrees (0.5,2,6,20,33,45,70,89)\n"
     "  --azimuths a,b      degrees (0,23.7,160)\n"
     "  --distance d        of the light, metres; 0: infinitely far (0)\n"
+    "  --bits n            sub-pixel bits, 4 to 16; 0: the policy's own (0)\n"
     "  --each              a line for each picture with a wrong pixel, too\n"
     "  --threads n         (2)\n"
     "wrong: dark that should be lit + lit that should be dark, where the pixel's centre lies in the triangle shown;\n"
@@ -106,6 +107,8 @@ options parse(int argc, char** argv) {
             o.azimuths = numbers(value);
         } else if (name == "--distance") {
             o.distance = numbers(value).at(0);
+        } else if (name == "--bits") {
+            o.bits = static_cast<int>(numbers(value).at(0));
         } else if (name == "--threads") {
             o.threads = static_cast<int>(numbers(value).at(0));
         } else {
@@ -155,7 +158,8 @@ judge::tally measure(const named_policy<Policy>& p, const foreign_scenes::foreig
             for (const double azimuth : o.azimuths) {
                 in::overhead rig = foreign_scenes::rig(azimuth, elevation, static_cast<int>(size));
                 if (o.distance > 0) rig.light_distance = static_cast<float>(o.distance);
-                const in::render_options<Policy> how{.shadow = p.policy};
+                in::render_options<Policy> how{.shadow = p.policy};
+                if (o.bits > 0) how.subpixel_bits = o.bits;
                 const auto frame = in::render(s.scene, rig, how, pool);
                 const auto shown = judge::shown_by(s.scene, rig, how, pool);
                 if (!(shown.instance == frame.labels.instance)) {
