@@ -35,7 +35,8 @@ struct vector {
 
     vector() = default;
     vector(real right, real forward, real up) : x(right), y(forward), z(up) {}
-    explicit vector(const glm::dvec3& p) : x(p.x), y(p.y), z(p.z) {}
+    explicit vector(const glm::dvec3& p)
+        : x(static_cast<real>(p.x)), y(static_cast<real>(p.y)), z(static_cast<real>(p.z)) {}
 
     friend vector operator+(const vector& a, const vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
     friend vector operator-(const vector& a, const vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
@@ -112,7 +113,8 @@ class oracle {
             for (int x = 0; x < rig.size.x; ++x) {
                 const std::uint32_t triangle = shown.triangle(x, y);
                 if (triangle == shown_triangles::none) continue;
-                const vector ray(step * (x + 0.5 - 0.5 * rig.size.x), step * (0.5 * rig.size.y - y - 0.5), -1);
+                const vector ray(
+                    glm::dvec3(step * (x + 0.5 - 0.5 * rig.size.x), step * (0.5 * rig.size.y - y - 0.5), -1));
                 all(x, y) = judge_one(light, ray, first_[shown.instance(x, y)] + triangle);
             }
         });
@@ -126,14 +128,14 @@ class oracle {
         vector at;
     };
     static source light_of(const in::overhead& rig) {
-        const real azimuth = rig.light_azimuth, elevation = rig.grazing;
+        const auto azimuth = static_cast<real>(rig.light_azimuth), elevation = static_cast<real>(rig.grazing);
         const vector toward(-std::cos(azimuth) * std::cos(elevation), -std::sin(azimuth) * std::cos(elevation),
                             std::sin(elevation));
         if (!std::isfinite(rig.light_distance)) return {false, toward};
         return {true, static_cast<real>(rig.light_distance) * toward};
     }
 
-    vector eye() const { return {0, 0, unit_}; }
+    vector eye() const { return {0, 0, static_cast<real>(unit_)}; }
 
     static constexpr real tiny = 1e-12L;
 
