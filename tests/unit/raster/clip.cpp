@@ -1,7 +1,9 @@
 // Triangles that are cut: what is left is what a ray would meet, and neighbours agree where their common edge is cut.
 #include <insonify/core/random.hpp>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "../../catch.hpp"
 #include "pixel_space.hpp"
@@ -92,4 +94,39 @@ TEST_CASE("Depth 0 and depth 1 are still visible, far corners or not") {
     CHECK(stats.drawn == 1);
     CHECK(stats.clipped == 0);
     for (const float d : depth.pixels()) CHECK(d == z);
+}
+
+namespace {
+
+/// The pixels of a triangle of which each corner's depth is a multiple of w.
+in::image<int> covered(const glm::vec3 (&corners)[3], float depth) {
+    const in::mesh m{{corners[0], corners[1], corners[2]}, {}, {{0, 1, 2}}};
+    return hits(m, 24, 20, [=](const in::vertex& v) {
+        const glm::vec3& p = v.position;
+        return glm::vec4(p.x, p.y, depth * p.z, p.z);
+    });
+}
+
+}  // namespace
+
+TEST_CASE("A triangle across the camera's plane covers the same pixels at any depth, the ends included") {
+    const glm::vec3 known[] = {{-0x1.66cc54p-5f, 0x1.a1030ap-4f, 0x1.425f8ap-1f},
+                               {0x1.a7418p-4f, 0x1.86626ep-1f, 0x1.1a9606p-3f},
+                               {-0x1.543be6p+0f, -0x1.98572cp-2f, -0x1.ace2b2p-2f}};
+    for (const float depth : {0.0f, 0.25f, 0.5f, 1.0f}) CHECK(total(covered(known, depth)) == 114);
+
+    in::random_sequence random(8);
+    int crossing = 0, different = 0;
+    for (int n = 0; n < 3000; ++n) {
+        glm::vec3 corners[3];
+        for (glm::vec3& c : corners)
+            for (int i = 0; i < 3; ++i) c[i] = static_cast<float>(random.uniform(-1, 1));
+        const auto [least, most] = std::minmax({corners[0].z, corners[1].z, corners[2].z});
+        if (least >= 0 || most <= 0) continue;
+        const in::image<int> expected = covered(corners, 0.5f);
+        crossing += total(expected) > 0;
+        for (const float depth : {0.0f, 0.25f, 1.0f}) different += !(covered(corners, depth) == expected);
+    }
+    CHECK(crossing > 1000);
+    CHECK(different == 0);
 }
