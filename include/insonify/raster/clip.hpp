@@ -36,7 +36,8 @@ struct clip_polygon {
 /// From clip space to the fixed-point grid.
 class projection {
   public:
-    /// @param exact  divides by w, to the nearest; else multiplies by 1 / w, which is as good but for the last bit
+    /// @param exact  divides by w; else multiplies by 1 / w, which is as good but for the last bit. Exact places are
+    ///               the nearest on the grid up to 2^27 sub-pixels from its middle; beyond, but for 2^-52 of the way
     projection(const pixel_grid& grid, keep_depth keep, bool exact = true)
         : grid_(grid),
           half_width_(0.5 * grid.width),

@@ -130,3 +130,38 @@ TEST_CASE("A triangle across the camera's plane covers the same pixels at any de
     CHECK(crossing > 1000);
     CHECK(different == 0);
 }
+
+TEST_CASE("Corners are rounded to nearest up to 2^27 sub-pixels, and beyond but for the roundings of doubles") {
+    __extension__ using wide = __int128;
+    in::random_sequence random(4);
+    for (const int width : {64, 2047, 4194303}) {
+        const in::detail::projection exact(in::detail::pixel_grid{8, width, 64}, in::keep_depth::smaller);
+        int near_ties = 0;
+        for (int n = 0; n < 200000; ++n) {
+            // x / w, in sub-pixels, as close beside the middle between two of them as such floats come: of several
+            // candidates the best.
+            const auto w = static_cast<std::int64_t>(random.below(1u << 23) + (1u << 23));
+            const auto from = static_cast<std::int64_t>(random.below(1u << 23));
+            const int scale = static_cast<int>(random.below(36));
+            const std::int64_t unit = std::int64_t{width} << 7;  // half of the picture
+            std::int64_t x = 0;
+            wide closest = wide{1} << 120;
+            for (std::int64_t candidate = from; candidate < from + 20; ++candidate) {
+                const wide twice = 2 * ((wide{candidate} * unit) << scale);
+                const wide off = twice % (2 * w) - w, size = off < 0 ? -off : off;
+                if (size == 0 || size >= closest) continue;
+                closest = size;
+                x = candidate;
+            }
+            const wide units = (wide{x} * unit) << scale;
+            if (closest == wide{1} << 120 || units / w >= wide{1} << 50) continue;
+            const auto clip_x = std::ldexp(static_cast<double>(x), scale);
+            const std::int64_t at = exact.to_screen({clip_x, 0, 0, static_cast<double>(w)}).x - unit;
+            const wide off = units - wide{at} * w, size = off < 0 ? -off : off;  // in sub-pixels over w
+            const wide allowed = units < (w * (wide{1} << 27)) ? 0 : (units >> 52) + 1;
+            near_ties += 2 * closest < w / 4;
+            if (2 * size > w + 2 * allowed) FAIL("corner " << x << " * 2^" << scale << " / " << w << " of " << width);
+        }
+        CHECK(near_ties > 1000);
+    }
+}
