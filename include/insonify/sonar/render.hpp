@@ -57,6 +57,7 @@ class overhead_painter {
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
         : scene_(s), view_(rig), options_(options), depth_(rig.size.x, rig.size.y, unfilled{}) {
+        validate(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y, unfilled{});  // the first draw fills it, and the depths
         validate(options.shadow);
@@ -264,7 +265,7 @@ class overhead_painter {
 /// @param options  types of shadow, labels and backscatter law, and how finely the seabed is sampled
 /// @param ex       who runs it; the result is the same bytes for any executor
 /// @returns a picture of rig.size pixels, linear in [0, 1], with labels of the same size and what was drawn
-/// @throws invalid_input for a rig, a seabed, a pose or an option that can't be right
+/// @throws invalid_input for a rig, a seabed, a material, a pose or an option that can't be right
 template <shadow::policy Shadow = shadow::refined, class Labels = labels, backscatter_law Law = lambert,
           executor_argument E = serial_executor>
 frame<Labels> render(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options = {},
