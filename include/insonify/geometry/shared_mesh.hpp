@@ -3,17 +3,16 @@
 
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/normals.hpp>
-#include <insonify/geometry/regular_grid.hpp>
+#include <insonify/geometry/surface_kind.hpp>
 
 #include <memory>
-#include <optional>
 #include <utility>
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// An immutable mesh: copies refer to the same triangles. What renderers need of it is found once, when it is made: its
-/// bounds, smooth normals if it brings none, and the regular grid that its vertices lie on, if they do.
+/// bounds, smooth normals if it brings none, and whether it is closed or a heightfield.
 class shared_mesh {
   public:
     /// No triangles.
@@ -27,21 +26,20 @@ class shared_mesh {
 
     /// Around all finite positions, in the mesh's own frame.
     const bounding_box& box() const { return state_->box; }
-    /// How the vertices lie, if they are a regular grid; null otherwise.
-    const regular_grid* grid() const { return state_->grid ? &*state_->grid : nullptr; }
+    surface_kind kind() const { return state_->kind; }
 
   private:
     struct state {
         mesh shape;
         bounding_box box;
-        std::optional<regular_grid> grid;
+        surface_kind kind = surface_kind::open;
 
         state() = default;
         explicit state(mesh m) : shape(std::move(m)) {
             validate(shape);
             if (shape.normals.empty()) shape.normals = smooth_normals(shape);
             box = bounds(shape);
-            grid = regular_grid_of(shape);
+            kind = kind_of(shape);
         }
     };
     static std::shared_ptr<const state> empty() { return std::make_shared<const state>(); }

@@ -36,7 +36,8 @@ struct clip_polygon {
 /// From clip space to the fixed-point grid.
 class projection {
   public:
-    /// @param exact  divides by w, to the nearest; else multiplies by 1 / w, which is as good but for the last bit
+    /// @param exact  divides by w; else multiplies by 1 / w, which is as good but for the last bit. Exact places are
+    ///               the nearest on the grid up to 2^27 sub-pixels from its middle; beyond, but for 2^-52 of the way
     projection(const pixel_grid& grid, keep_depth keep, bool exact = true)
         : grid_(grid),
           half_width_(0.5 * grid.width),
@@ -168,7 +169,7 @@ class projection {
             kept.cut |= !here_inside;
             if (here_inside == next_inside) continue;
             clip_corner crossed = crossing(here, d_here, next, d_next);
-            if (plane == 0) crossed.position.w = smallest_w;  // not what is left of two large numbers
+            if (plane == 0) crossed.position = next_to_eye(here.position, next.position);
             keep(crossed);
         }
         return kept;
@@ -179,6 +180,19 @@ class projection {
     static clip_corner crossing(const clip_corner& a, double d_a, const clip_corner& b, double d_b) {
         const double share_a = d_b / (d_b - d_a), share_b = d_a / (d_a - d_b);
         return {share_a * a.position + share_b * b.position, share_a * a.shares + share_b * b.shares};
+    }
+
+    /// Where an edge crosses w = smallest_w. Interpolated, x, y and z would be what rounding leaves of two large
+    /// numbers, and nothing beside it. Products of floats are exact in doubles, so here an edge with z = w, or one
+    /// through the eye, keeps its proportions. Exchanging the ends changes no bit.
+    static glm::dvec4 next_to_eye(const glm::dvec4& a, const glm::dvec4& b) {
+        const double run = b.w - a.w;
+        glm::dvec4 p(0, 0, 0, smallest_w);
+        for (int i = 0; i < 3; ++i) p[i] = ((a[i] * b.w - b[i] * a.w) + smallest_w * (b[i] - a[i])) / run;
+        // What both ends are inside of, everything between them is.
+        if (a.z >= 0 && b.z >= 0) p.z = (std::max)(p.z, 0.0);
+        if (a.z <= a.w && b.z <= b.w) p.z = (std::min)(p.z, smallest_w);
+        return p;
     }
 
     pixel_grid grid_;

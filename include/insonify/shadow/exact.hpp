@@ -6,7 +6,7 @@
 // (detail/occlusion_kernel.hpp). The cost is linear in both, and there is no resolution and no bias.
 //
 // Every answer is that of one rule in doubles (detail/blocking.hpp), whatever the mesh: open, closed, self-intersecting,
-// inside out. Nothing is culled.
+// inside out. Triangles are left out where a proof allows it (shadow::skip).
 #pragma once
 
 #include <insonify/shadow/detail/blocking.hpp>
@@ -27,7 +27,7 @@ class exact_occlusion {
     /// @throws invalid_input for an index without a position, or a light as light_frame refuses it
     template <executor E>
     exact_occlusion(std::span<const caster> casters, const any_light& light, const bounding_box& bounds, E& ex)
-        : casters_(casters.begin(), casters.end()), light_(light), rays_(light, reach_of(casters, bounds)) {
+        : casters_(casters.begin(), casters.end()), light_(light), rays_(light, reach_of(bounds)) {
         std::size_t triangles = 0;
         for (const caster& c : casters_) {
             insonify::detail::require_indices(c.mesh, ex);
@@ -36,7 +36,7 @@ class exact_occlusion {
         if (triangles == 0 || bounds.empty()) return;
         int side = 4;
         while (side < 64 && static_cast<std::size_t>(side * side) * 1024 < triangles) side *= 2;
-        const double reach = reach_of(casters, bounds);
+        const double reach = reach_of(bounds);
         if (const auto* parallel = std::get_if<directional_light>(&light)) {
             const light_frame frame(*parallel);
             const detail::light_plane plane(frame);
@@ -91,14 +91,18 @@ class exact_occlusion {
         });
         bulk_ranges(ex, tile_count(), 4, [&](std::size_t first, std::size_t last) {
             detail::receiver_cells cells;
-            std::vector<detail::receiver> own;
+            receivers_of own;
             for (std::size_t tile = first; tile < last; ++tile) {
-                own.clear();
+                std::size_t size = 0;
+                for (const sorted_points& run : runs) size += run.in(all, tile).size();
+                if (size == 0) continue;
+                own.resize(size);
+                auto to = own.begin();
                 for (const sorted_points& run : runs) {
                     const auto some = run.in(all, tile);
-                    own.insert(own.end(), some.begin(), some.end());
+                    to = std::copy(some.begin(), some.end(), to);
                 }
-                if (!own.empty()) test_tile(tile, own, cells, at, into);
+                test_tile(tile, own, cells, at, into);
             }
         });
     }
@@ -126,17 +130,11 @@ class exact_occlusion {
         }
     };
 
-    static double reach_of(std::span<const caster> casters, const bounding_box& bounds) {
+    /// No coordinate of a point is larger. Casters may reach farther; what they block does not.
+    static double reach_of(const bounding_box& bounds) {
         double reach = 0;
-        const auto include = [&](const glm::dvec3& p) {
-            for (int i = 0; i < 3; ++i)
-                if (numeric::is_finite(p[i])) reach = (std::max)(reach, numeric::magnitude(p[i]));
-        };
-        for (int i = 0; i < 8; ++i) {
-            if (!bounds.empty()) include(bounds.corner(i));
-            for (const caster& c : casters)
-                if (!c.box.empty()) include(transform_point(c.placement, c.box.corner(i)));
-        }
+        for (int i = 0; i < 3 && !bounds.empty(); ++i)
+            reach = (std::max)({reach, -bounds.lower[i], bounds.upper[i]});
         return reach;
     }
     /// Whether anything within a box may lie over a plane of a near light.
@@ -188,17 +186,15 @@ class exact_occlusion {
             plane_start[i] = tiles;
             tiles += planes_[i].casters.empty() ? 0 : planes_[i].tiles.count();
         }
-        std::vector<detail::receiver> found;
-        std::vector<std::uint32_t> keys;
-        std::size_t most = 0;
+        std::size_t most = 0, count = 0;
         for (std::size_t part = first; part < last; ++part) {
             std::fill(into[part].lit.begin(), into[part].lit.end(), 1.0f);
             std::fill(into[part].caster.begin(), into[part].caster.end(), invalid_id);
             most += at[part].size();
         }
         if (tiles == 0) return;
-        found.reserve(most);
-        keys.reserve(most);
+        receivers_of found(most);
+        insonify::detail::unfilled_vector<std::uint32_t> keys(most);
         out.starts.assign(tiles + 1, 0);
         const auto* const near_light = std::get_if<point_light>(&light_);
         for (std::size_t part = first; part < last; ++part) {
@@ -216,16 +212,17 @@ class exact_occlusion {
                           row = hold(from.y * state.scale.y, state.tiles.rows);
                 const auto tile = static_cast<std::size_t>(row * state.tiles.columns + column);
                 if (!state.is_occupied[tile]) continue;
-                found.push_back({static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(seen.z),
-                                 static_cast<std::uint32_t>(part << 16 | i), some.mesh[i], some.triangle[i],
-                                 some.casters});
-                keys.push_back(static_cast<std::uint32_t>(plane_start[which] + tile));
-                ++out.starts[keys.back() + 1];
+                found[count] = {static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(seen.z),
+                                static_cast<std::uint32_t>(part << 16 | i), some.mesh[i], some.triangle[i],
+                                some.casters};
+                keys[count] = static_cast<std::uint32_t>(plane_start[which] + tile);
+                ++out.starts[keys[count] + 1];
+                ++count;
             }
         }
         for (std::size_t tile = 0; tile < tiles; ++tile) out.starts[tile + 1] += out.starts[tile];
         std::vector<std::uint32_t> next(out.starts.begin(), out.starts.end() - 1);
-        for (std::size_t i = 0; i < found.size(); ++i) all[out.first + next[keys[i]]++] = found[i];
+        for (std::size_t i = 0; i < count; ++i) all[out.first + next[keys[i]]++] = found[i];
     }
     static int hold(double at, int count) {
         return static_cast<int>((std::min)((std::max)(at, 0.0), count - 1.0));
@@ -251,7 +248,8 @@ class exact_occlusion {
             };
             insonify::detail::dispatch(
                 detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{
-                    caster, caster.bin(tile), static_cast<std::uint32_t>(i), state->error, cells, decide},
+                    caster, caster.bin(tile), static_cast<std::uint32_t>(i), c.may_skip, is_turned(c, *state), state->error,
+                    cells, decide},
                 best_isa());
         }
         for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -260,6 +258,11 @@ class exact_occlusion {
             to.lit[cells.point[i] & 0xFFFFu] = 0;
             to.caster[cells.point[i] & 0xFFFFu] = static_cast<std::uint32_t>(cells.caster[i]);
         }
+    }
+
+    /// Whether a triangle that faces the light is clockwise on the plane.
+    static bool is_turned(const caster& c, const plane_state& state) {
+        return (numeric::determinant(c.placement.linear) < 0) != state.plane.is_mirrored();
     }
 
     std::vector<caster> casters_;

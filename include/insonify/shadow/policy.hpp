@@ -7,7 +7,6 @@
 
 #include <insonify/core/executor.hpp>
 #include <insonify/geometry/bounds.hpp>
-#include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/transform.hpp>
 #include <insonify/shadow/light.hpp>
 
@@ -24,13 +23,20 @@ namespace shadow {
 /// Where there is no caster, no mesh or no triangle.
 inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
 
+/// Which triangles of a caster a test may leave out, because others block the same points.
+enum class skip {
+    nothing,          ///< both sides of all triangles block
+    facing,           ///< those whose front the light meets: the mesh is closed, and no point lies inside of it
+    facing_its_own,   ///< the same for points on the caster itself: it is a heightfield, lit and seen from above
+};
+
 /// A mesh that blocks light, in the frame in which the light is described. Both sides of its triangles block.
 /// Triangles with a corner that is not finite block nothing.
 struct caster {
     mesh_view mesh;
-    affine placement;                    ///< from the mesh's frame to the light's
-    bounding_box box;                    ///< around the mesh, in its own frame
-    const regular_grid* grid = nullptr;  ///< how the vertices lie, if they are a regular grid
+    affine placement;  ///< from the mesh's frame to the light's
+    bounding_box box;  ///< around the mesh, in its own frame
+    skip may_skip = skip::nothing;
 };
 
 /// Points to test, as arrays of equal length.

@@ -20,8 +20,30 @@ inline shadow::any_light light_of(const overhead_geometry& view) {
                                      static_cast<double>(view.rig().grazing)};
 }
 
-inline shadow::caster as_caster(const placed_mesh& m) {
-    return {m.shape, m.to_rig, m.box, m.grid};
+/// A mesh as a caster, with what the camera's place proves.
+///
+/// A ray from a point outside of a closed surface crosses it inwards as often as outwards on its way to the light, and
+/// inwards means through a triangle that faces away from the light: if anything blocks it, such a one does. What a
+/// camera outside of the surface sees lies outside. Of a heightfield the same holds for its own points if camera and
+/// light are above it, because over a convex ground a ray leaves it at most through the air.
+inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
+    surface seen;
+    seen.to_rig = m.to_rig;
+    const point_finder from(view, seen);
+    const auto is_outside = [&](const glm::dvec3& p) {
+        bool outside = false;
+        for (int i = 0; i < 3; ++i) outside = outside || p[i] < m.box.lower[i] || p[i] > m.box.upper[i];
+        return outside;
+    };
+    const auto is_above = [&](const glm::dvec3& p) { return p.z > m.box.upper.z; };
+    const bool is_lit_from_above = view.has_near_light() ? is_above(from.light) : from.light.z > 0;
+    const bool is_lit_from_outside = !view.has_near_light() || is_outside(from.light);
+    shadow::skip may_skip = shadow::skip::nothing;
+    if (m.kind == surface_kind::closed && is_outside(from.eye) && is_lit_from_outside)
+        may_skip = shadow::skip::facing;
+    if (m.kind == surface_kind::heightfield && is_above(from.eye) && is_lit_from_above)
+        may_skip = shadow::skip::facing_its_own;
+    return {m.shape, m.to_rig, m.box, may_skip};
 }
 
 /// Room for what becomes of points.

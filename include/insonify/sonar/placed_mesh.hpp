@@ -2,7 +2,7 @@
 #pragma once
 
 #include <insonify/geometry/bounds.hpp>
-#include <insonify/geometry/regular_grid.hpp>
+#include <insonify/geometry/surface_kind.hpp>
 #include <insonify/raster/assembly.hpp>
 #include <insonify/sonar/rig.hpp>
 
@@ -18,7 +18,7 @@ struct placed_mesh {
     mesh_view shape;
     bounding_box box;  ///< of the shape, in its own frame
     affine to_rig;
-    const regular_grid* grid = nullptr;  ///< of the shape's vertices, or null
+    surface_kind kind = surface_kind::open;
 };
 
 /// Which pixels may show an object, or something in its shadow that lies no lower than `lowest`, in the rig's frame:

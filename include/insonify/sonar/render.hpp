@@ -53,6 +53,14 @@ struct frame {
     render_stats stats;
 };
 
+/// Which triangle each pixel of a picture shows.
+struct visibility {
+    static constexpr std::uint32_t no_triangle = shadow::invalid_id;
+
+    image<std::uint16_t> instance;  ///< as in labels::instance
+    image<std::uint32_t> triangle;  ///< of the target's mesh, or of the bottom's; no_triangle where nothing is shown
+};
+
 namespace detail {
 
 /// A picture under construction, in the rig's frame.
@@ -62,13 +70,14 @@ class overhead_painter {
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
         : scene_(s), view_(rig), options_(options) {
+        validate(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y, unfilled{});  // the first draw fills it, and the depths
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y, ex);
         for (const target& t : s.targets) {
-            targets_.push_back({t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.grid()});
+            targets_.push_back({t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.kind()});
             target_pixels_.push_back(shown_pixels(view_, targets_.back()));
         }
         if (has_bottom()) sample_seabed(ex);
@@ -80,8 +89,8 @@ class overhead_painter {
         draw_all(ex);
         if constexpr (casts) {
             std::vector<shadow::caster> casters;
-            for (const placed_mesh& t : targets_) casters.push_back(as_caster(t));
-            if (has_bottom()) casters.push_back(as_caster(bottom_in_rig_));
+            for (const placed_mesh& t : targets_) casters.push_back(as_caster(view_, t));
+            if (has_bottom()) casters.push_back(as_caster(view_, bottom_in_rig_));
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling()};
             cast_shadows(options_.shadow.build(std::span<const shadow::caster>(casters), light_of(view_), bounds, ex),
                          ex);
@@ -91,6 +100,22 @@ class overhead_painter {
             describe_targets(out_.labels, scene_.targets);
         }
         return std::move(out_);
+    }
+
+    /// Triangles alone.
+    template <executor E>
+    visibility see(E& ex) {
+        place_objects();
+        draw_all(ex);
+        visibility shown{image<std::uint16_t>(ids_.width(), ids_.height(), labels::no_instance), std::move(ids_)};
+        for (std::size_t i = 0; i < shown.triangle.size(); ++i) {
+            std::uint32_t& id = shown.triangle.pixels()[i];
+            if (id == visibility::no_triangle) continue;
+            const surface& s = surface_of(id);
+            shown.instance.pixels()[i] = s.instance;
+            id -= s.first_id;
+        }
+        return shown;
     }
 
   private:
@@ -119,7 +144,10 @@ class overhead_painter {
         out_.stats.seabed_samples = field_.heights.size();
         model_seabed(ex);
         for (const float height : field_.heights.pixels()) {
-            if (!numeric::is_finite(height)) continue;
+            if (!numeric::is_finite(height)) {
+                has_gaps_ = true;
+                continue;
+            }
             lowest_ = (std::min)(lowest_, height);
             highest_ = (std::max)(highest_, height);
         }
@@ -176,7 +204,7 @@ class overhead_painter {
         return {bottom_,
                 {{field_.spacing * glm::dvec2(bottom_first_), lowest_}, {field_.spacing * glm::dvec2(last), highest_}},
                 under_rig,
-                nullptr};
+                has_gaps_ ? surface_kind::open : surface_kind::heightfield};
     }
 
     /// All that the picture may show.
@@ -406,6 +434,7 @@ class overhead_painter {
     float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum
     placed_mesh bottom_in_rig_;
     std::vector<surface> surfaces_;
+    bool has_gaps_ = false;  ///< the bottom lacks data somewhere
     std::vector<placed_mesh> targets_;
     std::vector<pixel_box> target_pixels_;  ///< which may show them
 };
@@ -419,12 +448,29 @@ class overhead_painter {
 /// @param options  types of shadow, labels and backscatter law, and how finely the seabed is sampled
 /// @param ex       who runs it; the result is the same bytes for any executor
 /// @returns a picture of rig.size pixels, linear in [0, 1], with labels of the same size and what was drawn
-/// @throws invalid_input for a rig, a seabed, a pose or an option that can't be right
+/// @throws invalid_input for a rig, a seabed, a material, a pose or an option that can't be right
 template <shadow::policy Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert,
           executor_argument E = serial_executor>
 frame<Labels> render(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options = {},
                      E&& ex = {}) {
     return detail::overhead_painter<Shadow, Labels, Law>(s, rig, options, ex).paint(ex);
+}
+
+/// The triangles that `render` shows with the same options.
+/// @throws invalid_input as `render` does
+template <class Shadow = shadow::exact, class Labels = labels, class Law = lambert,
+          executor_argument E = serial_executor>
+visibility visible_triangles(const scene& s, const overhead& rig,
+                             const render_options<Shadow, Labels, Law>& options = {}, E&& ex = {}) {
+    const render_options<shadow::none, labels, Law> seen{.law = options.law,
+                                                         .cells = options.cells,
+                                                         .reach = options.reach,
+                                                         .edge_error = options.edge_error,
+                                                         .slope_error = options.slope_error,
+                                                         .subpixel_bits = options.subpixel_bits,
+                                                         .tile = options.tile,
+                                                         .level = options.level};
+    return detail::overhead_painter<shadow::none, labels, Law>(s, rig, seen, ex).see(ex);
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

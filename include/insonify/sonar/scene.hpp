@@ -51,6 +51,18 @@ struct scene {
     const material& bottom_of(insonify::seabed::type type) const { return bottom[static_cast<std::size_t>(type)]; }
 };
 
+/// @throws invalid_input for a material whose reflectivity is negative or not finite. Poses, meshes and seabeds are
+///         checked by what draws them
+inline void validate(const scene& s) {
+    const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
+        if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
+        detail::refuse(list + ("[" + detail::to_text(i)) + member, m.reflectivity, "0 or more, finite");
+    };
+    for (std::size_t i = 0; i < s.bottom.size(); ++i) check(s.bottom[i], "scene.bottom", i, "].reflectivity");
+    for (std::size_t i = 0; i < s.targets.size(); ++i)
+        check(s.targets[i].surface, "scene.targets", i, "].surface.reflectivity");
+}
+
 /// The same pose lowered or raised until the shape just touches the seabed: no vertex is below it, one is on it.
 /// `burial` then sinks it from there.
 /// @param shape  of at least one position

@@ -71,6 +71,7 @@ class recorder {
     recorder(const scene& s, std::span<const ping> track, const Rig& rig, const options_type& options, E& ex)
         : scene_(s), track_(track), rig_(rig), options_(options) {
         validate(rig);
+        validate(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "metres, or 0");
         for (const ping& p : track)
@@ -267,7 +268,7 @@ image<T> rows_of(const image<T>& source, int first, int count) {
 /// @param rig      ranges, side and ping spacing; its own track isn't used
 /// @param options  types of labels, law and sonar equation, and how finely the seabed is sampled
 /// @param ex       who runs it; the result is the same bytes for any executor
-/// @throws invalid_input for a rig, a ping, a seabed, a pose or an option that can't be right
+/// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option that can't be right
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 recording<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,

@@ -1,7 +1,9 @@
 // Triangles that are cut: what is left is what a ray would meet, and neighbours agree where their common edge is cut.
 #include <insonify/core/random.hpp>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "../../catch.hpp"
 #include "pixel_space.hpp"
@@ -92,4 +94,74 @@ TEST_CASE("Depth 0 and depth 1 are still visible, far corners or not") {
     CHECK(stats.drawn == 1);
     CHECK(stats.clipped == 0);
     for (const float d : depth.pixels()) CHECK(d == z);
+}
+
+namespace {
+
+/// The pixels of a triangle of which each corner's depth is a multiple of w.
+in::image<int> covered(const glm::vec3 (&corners)[3], float depth) {
+    const in::mesh m{{corners[0], corners[1], corners[2]}, {}, {{0, 1, 2}}};
+    return hits(m, 24, 20, [=](const in::vertex& v) {
+        const glm::vec3& p = v.position;
+        return glm::vec4(p.x, p.y, depth * p.z, p.z);
+    });
+}
+
+}  // namespace
+
+TEST_CASE("A triangle across the camera's plane covers the same pixels at any depth, the ends included") {
+    const glm::vec3 known[] = {{-0x1.66cc54p-5f, 0x1.a1030ap-4f, 0x1.425f8ap-1f},
+                               {0x1.a7418p-4f, 0x1.86626ep-1f, 0x1.1a9606p-3f},
+                               {-0x1.543be6p+0f, -0x1.98572cp-2f, -0x1.ace2b2p-2f}};
+    for (const float depth : {0.0f, 0.25f, 0.5f, 1.0f}) CHECK(total(covered(known, depth)) == 114);
+
+    in::random_sequence random(8);
+    int crossing = 0, different = 0;
+    for (int n = 0; n < 3000; ++n) {
+        glm::vec3 corners[3];
+        for (glm::vec3& c : corners)
+            for (int i = 0; i < 3; ++i) c[i] = static_cast<float>(random.uniform(-1, 1));
+        const auto [least, most] = std::minmax({corners[0].z, corners[1].z, corners[2].z});
+        if (least >= 0 || most <= 0) continue;
+        const in::image<int> expected = covered(corners, 0.5f);
+        crossing += total(expected) > 0;
+        for (const float depth : {0.0f, 0.25f, 1.0f}) different += !(covered(corners, depth) == expected);
+    }
+    CHECK(crossing > 1000);
+    CHECK(different == 0);
+}
+
+TEST_CASE("Corners are rounded to nearest up to 2^27 sub-pixels, and beyond but for the roundings of doubles") {
+    __extension__ using wide = __int128;
+    in::random_sequence random(4);
+    for (const int width : {64, 2047, 4194303}) {
+        const in::detail::projection exact(in::detail::pixel_grid{8, width, 64}, in::keep_depth::smaller);
+        int near_ties = 0;
+        for (int n = 0; n < 200000; ++n) {
+            // x / w, in sub-pixels, as close beside the middle between two of them as such floats come: of several
+            // candidates the best.
+            const auto w = static_cast<std::int64_t>(random.below(1u << 23) + (1u << 23));
+            const auto from = static_cast<std::int64_t>(random.below(1u << 23));
+            const int scale = static_cast<int>(random.below(36));
+            const std::int64_t unit = std::int64_t{width} << 7;  // half of the picture
+            std::int64_t x = 0;
+            wide closest = wide{1} << 120;
+            for (std::int64_t candidate = from; candidate < from + 20; ++candidate) {
+                const wide twice = 2 * ((wide{candidate} * unit) << scale);
+                const wide off = twice % (2 * w) - w, size = off < 0 ? -off : off;
+                if (size == 0 || size >= closest) continue;
+                closest = size;
+                x = candidate;
+            }
+            const wide units = (wide{x} * unit) << scale;
+            if (closest == wide{1} << 120 || units / w >= wide{1} << 50) continue;
+            const auto clip_x = std::ldexp(static_cast<double>(x), scale);
+            const std::int64_t at = exact.to_screen({clip_x, 0, 0, static_cast<double>(w)}).x - unit;
+            const wide off = units - wide{at} * w, size = off < 0 ? -off : off;  // in sub-pixels over w
+            const wide allowed = units < (w * (wide{1} << 27)) ? 0 : (units >> 52) + 1;
+            near_ties += 2 * closest < w / 4;
+            if (2 * size > w + 2 * allowed) FAIL("corner " << x << " * 2^" << scale << " / " << w << " of " << width);
+        }
+        CHECK(near_ties > 1000);
+    }
 }

@@ -21,7 +21,7 @@ namespace shadow::detail {
 /// A light's rays: parallel, or to a point.
 class light_rays {
   public:
-    /// @param reach  no coordinate of what is tested is larger, metres
+    /// @param reach  no coordinate of a point that is tested is larger, metres
     light_rays(const any_light& light, double reach) : reach_(reach) {
         if (const auto* parallel = std::get_if<directional_light>(&light)) {
             source_ = light_frame(*parallel).to_light();
@@ -45,11 +45,14 @@ class light_rays {
         const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
         if (!is_left && !is_right) return false;
         const glm::dvec3 normal = numeric::cross(b - a, c - a);
-        const double along = numeric::dot(normal, to_light), behind = numeric::dot(normal, a);
+        // From the corner that is nearest: another may lie so far off that its distance rounds away the point's.
+        const auto size = [](const glm::dvec3& v) {
+            return numeric::magnitude(v.x) + numeric::magnitude(v.y) + numeric::magnitude(v.z);
+        };
+        const glm::dvec3& some = size(a) <= size(b) ? a : b;
+        const double along = numeric::dot(normal, to_light), behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
         const double sign = is_left ? 1 : -1;
-        const double tolerance =
-            0x1p-40 * reach_ *
-            (numeric::magnitude(normal.x) + numeric::magnitude(normal.y) + numeric::magnitude(normal.z));
+        const double tolerance = 0x1p-40 * reach_ * size(normal);
         if (!(sign * along > 0 && sign * behind > tolerance)) return false;
         return !is_near_ || sign * (along - behind) > tolerance;  // what the light itself touches does not block it
     }

@@ -31,6 +31,10 @@ class light_plane {
     }
 
     bool is_near() const { return is_near_; }
+    /// Whether what is counter-clockwise from the light is clockwise here.
+    bool is_mirrored() const {
+        return is_near_ == (numeric::dot(rows_[0], numeric::cross(rows_[1], rows_[2])) > 0);
+    }
 
     /// (u, v, height) of a point; of a near light before the division, (u d, v d, d) with the depth d.
     glm::dvec3 operator()(const glm::dvec3& p) const {

@@ -24,6 +24,8 @@ struct occlusion_kernel {
     const plane_caster& caster;
     std::span<const insonify::detail::triangle_run> runs;
     std::uint32_t number;  ///< of the caster
+    skip may_skip;
+    bool is_turned;        ///< triangles that face the light are clockwise
     float error;           ///< of coordinates on the plane, beside what rounding to float adds
     receiver_cells& receivers;
     const Decide& decide;
@@ -80,15 +82,19 @@ struct occlusion_kernel {
         t.range(low, high, 2);
         const floats height_off = 0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + height_error_of_receivers();
         missed |= ints(high + 2.0f * height_off < receivers.lowest()) & ints(t.state == 0.0f);  // below all receivers
-        const unsigned open = ~set_lanes<N>(missed) & ((2u << (count - 1)) - 1);
-        if (open == 0) return;
-
         floats ab[3], ac[3];
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
             ab[axis] = t.b[axis] - t.a[axis];
             ac[axis] = t.c[axis] - t.a[axis];
         });
         floats area = ab[0] * ac[1] - ab[1] * ac[0];
+        const floats area_off = 0x1p-20f * (size + receivers.largest()) * (extent[0] + extent[1]);
+        const ints facing = ints((is_turned ? 0.0f - area : area) > area_off) & ints(t.state == 0.0f);
+        const bool skips_own = may_skip == skip::facing_its_own;
+        if (may_skip == skip::facing || (skips_own && !receivers.has_others(number))) missed |= facing;
+        const unsigned open = ~set_lanes<N>(missed) & ((2u << (count - 1)) - 1);
+        if (open == 0) return;
+        const unsigned for_others = skips_own ? set_lanes<N>(facing) : 0;
         // Counter-clockwise on the plane.
         const ints turned = ints(area < 0.0f);
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
@@ -125,14 +131,17 @@ struct occlusion_kernel {
             const auto k = static_cast<std::size_t>(std::countr_zero(left));
             const float one[12] = {values[0][k], values[1][k], values[2][k], values[3][k], values[4][k],  values[5][k],
                                    values[6][k], values[7][k], values[8][k], values[9][k], values[10][k], values[11][k]};
+            const bool is_for_others = (for_others >> k & 1) != 0;
             for (int row = cells[1][k]; row <= cells[3][k]; ++row)
-                compare<N>(one, ids[k], receivers.start(row, cells[0][k]), receivers.start(row, cells[2][k] + 1));
+                compare<N>(one, ids[k], is_for_others, receivers.start(row, cells[0][k]),
+                           receivers.start(row, cells[2][k] + 1));
         }
     }
 
     /// One triangle with the receivers [first, last).
     template <int N>
-    INSONIFY_INLINE void compare(const float (&t)[12], std::uint32_t id, std::uint32_t first, std::uint32_t last) const {
+    INSONIFY_INLINE void compare(const float (&t)[12], std::uint32_t id, bool is_for_others,
+                                 std::uint32_t first, std::uint32_t last) const {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
@@ -160,7 +169,8 @@ struct occlusion_kernel {
             if (!any(open)) continue;
             load(mesh, receivers.mesh.data() + i);
             load(triangle, receivers.triangle.data() + i);
-            const ints own = ints(mesh == static_cast<std::int32_t>(number)) & ints(triangle == static_cast<std::int32_t>(id));
+            ints own = ints(mesh == static_cast<std::int32_t>(number));
+            if (!is_for_others) own = own & ints(triangle == static_cast<std::int32_t>(id));
             const ints asked = open & ~own;
             const ints certain = asked & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) &
                                  ints(above < 0.0f - doubt);

@@ -53,6 +53,7 @@ class receiver_cells {
         for (auto* array : {&u, &v, &height}) array->resize(room);
         for (auto* array : {&point, &mesh, &triangle, &limit_}) array->resize(room);
         is_limited_ = false;
+        is_one_mesh_ = true;
         next_.assign(starts_.begin(), starts_.end() - 1);
         for (std::size_t i = 0; i < count; ++i) {
             const receiver& r = from[i];
@@ -64,6 +65,7 @@ class receiver_cells {
             mesh[at] = r.mesh;
             triangle[at] = r.triangle;
             limit_[at] = r.casters;
+            is_one_mesh_ = is_one_mesh_ && r.mesh == from.front().mesh;
             is_limited_ = is_limited_ || r.casters != invalid_id;
         }
         for (std::size_t i = count; i < room; ++i) u[i] = v[i] = height[i] = 0;
@@ -80,6 +82,8 @@ class receiver_cells {
     std::size_t size() const { return keys_.size(); }
     /// No coordinate u or v is larger.
     float largest() const { return largest_; }
+    /// Whether any lies on something else than a caster.
+    bool has_others(std::uint32_t number) const { return !is_one_mesh_ || mesh.front() != number; }
     /// Receivers that are tested for the first casters alone take no more from now on.
     void close(std::uint32_t casters) {
         if (!is_limited_) return;
@@ -110,7 +114,7 @@ class receiver_cells {
     int columns_ = 1, rows_ = 1;
     glm::vec2 lower_{0}, scale_{1}, cell_{1};
     float lowest_ = 0, highest_ = 0, largest_ = 0;
-    bool is_limited_ = false;
+    bool is_limited_ = false, is_one_mesh_ = true;
     std::vector<std::uint32_t> starts_, next_, limit_;
     std::vector<std::uint16_t> keys_;
 };

@@ -1,0 +1,111 @@
+// What a mesh is as a surface, as far as it is proved: renderers leave out triangles only where that changes nothing.
+#pragma once
+
+#include <insonify/geometry/mesh.hpp>
+#include <insonify/geometry/topology.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+enum class surface_kind {
+    open,         ///< nothing is known
+    closed,       ///< each edge is run along as often one way as the other: a ray that comes from outside and ends
+                  ///< outside crosses as many triangles from behind as from the front, whatever the surface intersects
+    heightfield,  ///< z over a convex part of the xy plane, all triangles counter-clockwise from above
+};
+
+namespace detail {
+
+/// Net directed edges of a mesh: those that triangles run along more often one way than the other.
+inline std::vector<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(const mesh& m) {
+    const std::vector<std::uint32_t> first = weld(m.positions);
+    // Edges under their lower vertex, counted, then placed.
+    struct half_edge {
+        std::uint32_t other;
+        std::int32_t way;  ///< 1 upwards in numbers, -1 downwards
+    };
+    std::vector<std::uint32_t> starts(m.positions.size() + 1, 0);
+    const auto each = [&](const auto& visit) {
+        for (const glm::uvec3& t : m.triangles)
+            for (int i = 0; i < 3; ++i) {
+                const std::uint32_t a = first[t[i]], b = first[t[(i + 1) % 3]];
+                if (a < b) visit(a, half_edge{b, 1});
+                if (b < a) visit(b, half_edge{a, -1});
+            }
+    };
+    each([&](std::uint32_t low, const half_edge&) { ++starts[low + 1]; });
+    for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
+    std::vector<half_edge> edges(starts.back());
+    std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+    each([&](std::uint32_t low, const half_edge& e) { edges[next[low]++] = e; });
+
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> open;
+    for (std::uint32_t low = 0; low < m.positions.size(); ++low) {
+        const auto begin = edges.begin() + starts[low], end = edges.begin() + starts[low + 1];
+        std::sort(begin, end, [](const half_edge& a, const half_edge& b) { return a.other < b.other; });
+        for (auto e = begin; e != end;) {
+            std::int32_t sum = 0;
+            const std::uint32_t other = e->other;
+            for (; e != end && e->other == other; ++e) sum += e->way;
+            for (; sum > 0; --sum) open.emplace_back(low, other);
+            for (; sum < 0; ++sum) open.emplace_back(other, low);
+        }
+    }
+    return open;
+}
+
+/// Whether directed edges make one loop that goes once around a convex polygon, seen from above.
+inline bool is_convex_loop(const mesh& m, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& edges) {
+    std::vector<std::uint32_t> after(m.positions.size(), 0xFFFFFFFFu);
+    for (const auto& [from, to] : edges) {
+        if (after[from] != 0xFFFFFFFFu) return false;
+        after[from] = to;
+    }
+    const auto way = [&](std::uint32_t from) {
+        const glm::vec3 &a = m.positions[from], &b = m.positions[after[from]];
+        return glm::dvec2(static_cast<double>(b.x) - static_cast<double>(a.x),
+                          static_cast<double>(b.y) - static_cast<double>(a.y));
+    };
+    const std::uint32_t start = edges.front().first;
+    std::size_t count = 0;
+    int turns = 0;
+    for (std::uint32_t at = start; count == 0 || at != start; at = after[at], ++count) {
+        if (count > edges.size() || after[at] == 0xFFFFFFFFu || after[after[at]] == 0xFFFFFFFFu) return false;
+        const glm::dvec2 now = way(at), then = way(after[at]);
+        const double turn = now.x * then.y - now.y * then.x;
+        if (turn < 0 || (turn == 0 && now.x * then.x + now.y * then.y <= 0)) return false;
+        turns += now.y < 0 && then.y >= 0;
+    }
+    return count == edges.size() && turns == 1;
+}
+
+}  // namespace detail
+
+/// Finds out what a mesh is. Linear in its triangles, but for sorting positions.
+/// @param m  its indices have positions
+inline surface_kind kind_of(const mesh& m) {
+    if (m.triangles.empty()) return surface_kind::open;
+    bool is_finite = true, is_upward = true;
+    for (const glm::uvec3& t : m.triangles) {
+        const glm::dvec3 a(m.positions[t.x]), b(m.positions[t.y]), c(m.positions[t.z]);
+        const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        is_upward = is_upward && area > 0;
+        is_finite = is_finite && numeric::is_finite(a.x + a.y + a.z) && numeric::is_finite(b.x + b.y + b.z) &&
+                    numeric::is_finite(c.x + c.y + c.z);
+    }
+    if (!is_finite) return surface_kind::open;
+    const auto edges = detail::unbalanced_edges(m);
+    if (edges.empty()) return surface_kind::closed;
+    return is_upward && detail::is_convex_loop(m, edges) ? surface_kind::heightfield : surface_kind::open;
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
