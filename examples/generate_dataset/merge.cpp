@@ -99,6 +99,9 @@ int main(int argc, char** argv) try {
     generator::sync_folder(root);
     std::printf("%s: %llu images\n", out.c_str(), static_cast<unsigned long long>(images));
     return 0;
+} catch (const json::exception&) {
+    std::fprintf(stderr, "merge_dataset: config.json, shards.json or a record is damaged; run the shards again\n");
+    return 1;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "merge_dataset: %s\n", error.what());
     return 1;

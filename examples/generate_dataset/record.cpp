@@ -73,6 +73,12 @@ json parse_record(const std::string& text, const std::string& name) {
     json record = whole ? json::parse(text, nullptr, false) : json();
     if (!record.is_object())
         throw insonify::io_error(name + ": is torn or changed; the command that made the image makes it again");
+    // The paths of a record are within its folder, whoever wrote it.
+    for (const json& entry : record.value("files", json::array())) {
+        const std::string path = entry.value("path", "");
+        if (!(path.starts_with("images/") || path.starts_with("masks/")) || path.find("..") != std::string::npos)
+            throw insonify::io_error(name + ": names the file '" + path + "', which is none of a data set; remove it");
+    }
     return record;
 }
 

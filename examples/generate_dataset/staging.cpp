@@ -68,7 +68,7 @@ void staged_file::write(std::string_view bytes) {
 }
 
 void staged_file::read_back(const std::function<void(std::string_view)>& visit) {
-    if (stream_ == nullptr) raise_io(path_, "another process removed it in the making; run the command again");
+    if (stream_ == nullptr) throw lost_file(path_);
     errno = 0;
     if (std::fseek(stream_, 0, SEEK_SET) != 0) raise_io(path_, "can't write", errno);
     std::vector<char> bytes(1 << 20);
@@ -110,7 +110,7 @@ staging::staging(const fs::path& root, const std::string& unit)
     : root_(root), folder_(root / ".partial" / unit), process_(process_name()) {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
-    make_folder(folder_);
+    fs::create_directories(folder_, ignored);  // where that fails, so does the first file, with the reason
 }
 
 staging::~staging() {
@@ -158,9 +158,16 @@ bool staging::put_group(const std::vector<file>& group) {
 
 void staging::put(const std::vector<std::vector<file>>& groups) {
     for (const std::vector<file>& group : groups)
-        for (int attempt = 0; !group.empty() && !put_group(group); ++attempt) {
-            if (attempt == 100)
-                raise_io((root_ / group.front().path).string(), "another process removes it again and again");
+        until_kept([&] {
+            if (!put_group(group)) throw lost_file((root_ / group.front().path).string());
+        });
+}
+
+void staging::until_kept(const std::function<void()>& write) {
+    for (int attempt = 1;; ++attempt) try {
+            return write();
+        } catch (const lost_file&) {
+            if (attempt == 100) throw;
             restore();
         }
 }
@@ -168,25 +175,25 @@ void staging::put(const std::vector<std::vector<file>>& groups) {
 void staging::restore() {
     const std::lock_guard lock(mutex_);
     folders_.clear();
-    std::error_code ignored;
-    fs::create_directories(folder_, ignored);
+    std::error_code failed;
+    fs::create_directories(folder_, failed);
+    if (failed && failed != std::errc::no_such_file_or_directory)
+        throw insonify::io_error(folder_.string() + ": can't make this folder: " + failed.message());
 }
 
 bool staging::put_first(const file& f) {
     const std::string path = (root_ / f.path).string();
-    for (int attempt = 0; attempt < 100; ++attempt) {
+    bool first = false;
+    until_kept([&] {
         staged_file staged(temporary_name(), path);
         staged.write(f.bytes);
         staged.finish();
         const staged_file::outcome found = staged.place_first();
-        if (found == staged_file::outcome::lost) {
-            restore();
-            continue;
-        }
-        sync_folder(root_);
-        return found == staged_file::outcome::placed;
-    }
-    raise_io(path, "another process removes it again and again");
+        if (found == staged_file::outcome::lost) throw lost_file(path);
+        first = found == staged_file::outcome::placed;
+    });
+    sync_folder(root_);
+    return first;
 }
 
 staged_file staging::open(const std::string& path) {
@@ -195,8 +202,7 @@ staged_file staging::open(const std::string& path) {
 
 void staging::put(staged_file& f, const std::string& path) {
     f.finish();
-    if (!f.place())
-        raise_io((root_ / path).string(), "another process removed it in the making; run the command again");
+    if (!f.place()) throw lost_file((root_ / path).string());
     sync_folder((root_ / path).parent_path());
 }
 

@@ -6,6 +6,8 @@
 // that finds its files removed by another one that took them for leftovers writes them again.
 #pragma once
 
+#include <insonify/core/error.hpp>
+
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
@@ -18,6 +20,12 @@
 #include "layout.hpp"
 
 namespace generator {
+
+/// Another process took a file in the making for a leftover: to be written again.
+struct lost_file : insonify::io_error {
+    explicit lost_file(const std::string& path)
+        : io_error(path + ": another process removes it in the making; run the command again when that has ended") {}
+};
 
 /// A file in the making whose bytes come in pieces.
 class staged_file {
@@ -61,7 +69,11 @@ class staging {
 
     /// A file to be written piece by piece, and to be given to `put`.
     staged_file open(const std::string& path);
+    /// @throws lost_file
     void put(staged_file& f, const std::string& path);
+
+    /// Calls `write` until it throws no `lost_file`.
+    void until_kept(const std::function<void()>& write);
 
   private:
     void make_folder(const std::filesystem::path& folder);

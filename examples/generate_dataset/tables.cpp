@@ -70,7 +70,9 @@ std::string csv_cell(std::string_view text) {
     return quoted + '"';
 }
 
-std::uint64_t write_tables(const fs::path& root, const std::vector<std::string>& classes, staging& into) {
+namespace {
+
+std::uint64_t write_once(const fs::path& root, const std::vector<std::string>& classes, staging& into) {
     table coco(into, "annotations.json"), manifest(into, "manifest.csv");
     json categories = json::array();
     std::map<std::string, std::size_t> category_ids;
@@ -121,6 +123,14 @@ std::uint64_t write_tables(const fs::path& root, const std::vector<std::string>&
     sums += sha256(insonify::read_file((root / "config.json").string())) + "  config.json\n";
     sums += manifest.close();
     into.put({{{"SHA256SUMS", sums}}});
+    return images;
+}
+
+}  // namespace
+
+std::uint64_t write_tables(const fs::path& root, const std::vector<std::string>& classes, staging& into) {
+    std::uint64_t images = 0;
+    into.until_kept([&] { images = write_once(root, classes, into); });
     return images;
 }
 
