@@ -35,8 +35,8 @@ void keep_freed_memory() {
 #endif
 }
 
-/// Calls `fn(i, worker)` for each index of a range on all threads until a signal arrives; `make_worker()` makes one for
-/// each thread. The first exception stops all.
+/// Calls `fn(next)` once on each thread, where `next()` is the next index of the range that no thread has, and
+/// `work.last` at the end or after a signal. The first exception stops all.
 void for_each_index(insonify::thread_pool& pool, const generator::index_range& work, const auto& fn) {
     std::atomic<std::uint64_t> next = work.first;
     pool.bulk(static_cast<std::size_t>(pool.threads()), [&](std::size_t) {
