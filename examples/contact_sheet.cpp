@@ -27,10 +27,20 @@ struct entry {
     auto order() const { return std::tie(referenced, seabed, file); }
 };
 
+/// The cells of a line of a CSV table (RFC 4180), whose cells hold no line break.
 std::vector<std::string> cells(const std::string& line) {
-    std::vector<std::string> result;
-    std::istringstream stream(line);
-    for (std::string cell; std::getline(stream, cell, ',');) result.push_back(cell);
+    std::vector<std::string> result(1);
+    bool quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] == '"' && quoted && line.substr(i + 1, 1) == "\"")
+            result.back() += line[i++];
+        else if (line[i] == '"')
+            quoted = !quoted;
+        else if (line[i] == ',' && !quoted)
+            result.emplace_back();
+        else if (line[i] != '\r')
+            result.back() += line[i];
+    }
     return result;
 }
 

@@ -17,6 +17,7 @@ catch2        header:catch2/catch_all.hpp|catch2/catch.hpp  catch2          catc
 stb           header:stb/stb_image_write.h|stb_image_write.h  libstb-dev    stb-devel           stb
 cli11         header:CLI/CLI.hpp                      libcli11-dev          cli11-devel         cli11
 json          header:nlohmann/json.hpp                nlohmann-json3-dev    json-devel          nlohmann-json
+openssl       header:openssl/evp.h                    libssl-dev            openssl-devel       openssl
 deflate       header:libdeflate.h                     libdeflate-dev        libdeflate-devel    libdeflate
 opencv        header:opencv4/opencv2/ml.hpp|opencv2/ml.hpp  libopencv-dev   opencv-devel        opencv
 clang         command:clang++                         clang                 clang               llvm

@@ -1,4 +1,5 @@
-// Reading people's pictures as gray values from 0 to 1: PGM and PFM by insonify, everything else by stb_image.
+// Reading people's pictures as gray values from 0 to 1: PGM, PPM and PFM by insonify; PNG, JPEG and BMP by stb_image.
+// The content decides which, not the file's name.
 #pragma once
 
 #include <insonify/filter/gray.hpp>
@@ -13,24 +14,58 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
+
+#include "input_file.hpp"
 
 namespace examples {
 
-/// @throws insonify::io_error, naming the file, if it can't be read as a picture
-inline insonify::image<float> read_gray(const std::string& path) {
-    const auto ends_with = [&](const char* end) { return path.ends_with(end); };
-    if (ends_with(".pgm") || ends_with(".pfm")) return insonify::read_netpbm<float>(path);
+/// Whether bytes begin as a picture does that `parse_gray` reads.
+inline bool is_netpbm(std::string_view bytes) {
+    return bytes.size() >= 3 && bytes[0] == 'P' &&
+           std::string_view("2356Ff").find(bytes[1]) != std::string_view::npos &&
+           std::string_view(" \t\r\n#").find(bytes[2]) != std::string_view::npos;
+}
+inline bool is_picture(std::string_view bytes) {
+    return is_netpbm(bytes) || bytes.starts_with("\x89PNG\r\n\x1A\n") || bytes.starts_with("\xFF\xD8\xFF") ||
+           bytes.starts_with("BM");
+}
 
+/// @param limit  bytes that the decoded picture may take, three samples of 16 bits a pixel
+/// @throws insonify::io_error, with the name, for bytes that are no picture
+inline insonify::image<float> parse_gray(std::string_view bytes, const std::string& name,
+                                         std::uint64_t limit = 6 * usual_input_limit) {
+    const auto fail = [&](const std::string& reason) { throw insonify::io_error(name + ": " + reason); };
+    if (is_netpbm(bytes)) {
+        const bool is_color = std::string_view("36F").find(bytes[1]) != std::string_view::npos;
+        if (!is_color) return insonify::parse_netpbm<float>(bytes, name);
+        return insonify::parse_netpbm<insonify::rgb<float>>(bytes, name) | insonify::to_gray{};
+    }
+    if (!is_picture(bytes)) fail("is not a PNG, JPEG, BMP, PGM, PPM or PFM");
+
+    const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());
+    if (bytes.size() > 0x7FFFFFFF) fail("is larger than 2 GiB");
+    const int size = static_cast<int>(bytes.size());
     int width = 0, height = 0, channels = 0;
-    const std::unique_ptr<stbi_us, void (*)(void*)> pixels(stbi_load_16(path.c_str(), &width, &height, &channels, 3),
-                                                           stbi_image_free);
-    if (!pixels) throw insonify::io_error(path + ": " + stbi_failure_reason());
+    if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) fail(stbi_failure_reason());
+    const auto decoded = 6 * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    if (decoded > limit)
+        fail(std::to_string(width) + " x " + std::to_string(height) + " pixels are more than " + std::to_string(limit) +
+             " bytes");
+    const std::unique_ptr<stbi_us, void (*)(void*)> pixels(
+        stbi_load_16_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
+    if (!pixels) fail(stbi_failure_reason());
     insonify::image<insonify::rgb<float>> color(width, height);
     for (std::size_t i = 0; i < color.size(); ++i) {
         const stbi_us* const p = pixels.get() + 3 * i;
         color.pixels()[i] = {insonify::dequantize(p[0]), insonify::dequantize(p[1]), insonify::dequantize(p[2])};
     }
     return color | insonify::to_gray{};
+}
+
+/// @throws insonify::io_error, naming the file, if it can't be read as a picture
+inline insonify::image<float> read_gray(const std::string& path) {
+    return parse_gray(read_input(path), path);
 }
 
 }  // namespace examples

@@ -19,6 +19,11 @@ static unsigned char* packed(unsigned char* bytes, int count, int* packed_count,
 #define STBIW_ZLIB_COMPRESS packed
 #endif
 
+// Formats that are known by their first bytes; stb takes nearly anything for a TGA, and reads 16-bit PNM beyond its
+// buffer.
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_BMP
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_IMPLEMENTATION
 #if __has_include(<stb_image_write.h>)

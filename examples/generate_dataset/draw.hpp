@@ -3,87 +3,13 @@
 
 #include <insonify/insonify.hpp>
 
-#include <filesystem>
-#include <map>
-
-#include "../common/pictures.hpp"
 #include "facts.hpp"
 #include "plan.hpp"
+#include "stock.hpp"
 
 namespace generator {
 
 namespace in = insonify;
-
-/// What all images share: meshes, heightmap and references, read once.
-class stock {
-  public:
-    /// @throws io_error for a file that can't be read
-    explicit stock(const options& o) {
-        for (const std::string& mesh : o.meshes) {
-            const std::size_t equals = mesh.find('=');
-            meshes_[mesh.substr(0, equals)] = upright(in::load_obj(mesh.substr(equals + 1)), o.mesh_up == "y");
-        }
-        if (!o.heightmap.empty()) {
-            const in::image<float> picture = examples::read_gray(o.heightmap);
-            heightmap_ = in::seabed::from_image(picture, o.heightmap_spacing, static_cast<float>(o.heightmap_scale));
-        }
-        for (const std::string& path : picture_paths(o))
-            references_.push_back(in::match_histogram(examples::read_gray(path)));
-        if (references_.empty() && o.demo) references_.push_back(in::match_histogram(made_up_reference()));
-    }
-
-    std::size_t references() const { return references_.size(); }
-    const in::match_histogram& reference(std::size_t i) const { return references_[i]; }
-    const in::seabed::heightfield& heightmap() const { return heightmap_; }
-
-    /// The target of a plan in its own frame, of the size that the plan says.
-    in::mesh target(const plan& p) const {
-        const auto s = static_cast<float>(p.size), a = static_cast<float>(p.aspect);
-        if (p.class_name == "cylinder") return to_mesh(in::cylinder{.radius = s / 2, .length = 3 * s * a});
-        if (p.class_name == "cube") return to_mesh(in::cube{.size = {s, s * a, s}});
-        if (p.class_name == "cone") return to_mesh(in::cone{.radius = 0.6f * s * a, .height = 1.2f * s});
-        if (p.class_name == "sphere") return to_mesh(in::sphere{.radius = s / 2, .aspect = {a, 1, 1}});
-        const in::mesh& unit = meshes_.at(p.class_name);
-        return in::transformed(unit, {glm::dmat3(2 * p.size), {}});
-    }
-
-  private:
-    /// Turned so that z is up, moved to its middle, and scaled to a largest extent of 1.
-    static in::mesh upright(in::mesh m, bool y_up) {
-        if (y_up) m = in::transformed(std::move(m), in::to_world({.roll = in::literals::operator""_deg(90ull)}));
-        const in::bounding_box box = in::bounds(m);
-        const glm::dvec3 size = box.size();
-        const double largest = (std::max)({size.x, size.y, size.z, 1e-9});
-        return in::transformed(std::move(m), {glm::dmat3(1 / largest), -box.centre() / largest});
-    }
-
-    /// The pictures among the references, folders opened, in the order of their names.
-    static std::vector<std::string> picture_paths(const options& o) {
-        std::vector<std::string> paths;
-        for (const std::string& given : o.references) {
-            if (!std::filesystem::is_directory(given)) {
-                paths.push_back(given);
-                continue;
-            }
-            std::vector<std::string> inside;
-            for (const auto& entry : std::filesystem::directory_iterator(given)) {
-                const std::string extension = entry.path().extension().string();
-                if (extension == ".png" || extension == ".pgm" || extension == ".pfm" || extension == ".jpg")
-                    inside.push_back(entry.path().string());
-            }
-            std::sort(inside.begin(), inside.end());
-            paths.insert(paths.end(), inside.begin(), inside.end());
-        }
-        return paths;
-    }
-
-    /// Gray values as a sonar's: Rayleigh amplitudes around a quarter of full scale.
-    static in::image<float> made_up_reference() { return in::image<float>(256, 256, 0.25f) | in::rayleigh{.seed = 1}; }
-
-    std::map<std::string, in::mesh> meshes_;
-    in::seabed::heightfield heightmap_;
-    std::vector<in::match_histogram> references_;
-};
 
 inline in::seabed::any seabed_of(const plan& p, const stock& shared) {
     const auto relief = static_cast<float>(p.relief);
@@ -111,6 +37,7 @@ struct drawn {
     in::image<in::rgb8> color;
     in::image<std::uint8_t> gray;  ///< used where the colour map is gray
     in::pose placement;
+    glm::dvec2 rig{0, 0};  ///< of the camera, or of a sonar at the first ping
     facts known;
 };
 
@@ -142,6 +69,7 @@ inline in::image<float> photograph(const options& o, const plan& p, const stock&
                      .intensity = static_cast<float>(o.intensity),
                      .sky = static_cast<float>(o.sky)};
     if (o.chip > 0) rig.field_of_view = static_cast<float>(2 * in::numeric::atan2(0.5 * o.chip, p.altitude));
+    d.rig = rig.position;
     const in::overhead_geometry view(rig);
     const glm::dvec2 half = view.half_extent(0);
     const auto [sine, cosine] = in::numeric::sin_cos(p.rig_yaw);
@@ -180,6 +108,7 @@ in::image<float> recording_of(const options& o, const plan& p, const stock& shar
     // The target lies at the place, and the track beside it.
     const glm::dvec2 ground = place_of(p, shared);
     rig.position = ground - in::ping_frame(in::ping_of(rig, 0), rig.side).world(ground_range, p.halfway * o.chip);
+    d.rig = rig.position;
     const in::mesh shape = shared.target(p);
     d.placement = laid_down(p, scene, shape, ground);
     scene.add(shape, d.placement, p.class_name, {static_cast<float>(o.reflectivity)});

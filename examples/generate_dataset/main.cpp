@@ -3,18 +3,24 @@
 
 #include <atomic>
 #include <csignal>
-#include <future>
 
 #if __has_include(<malloc.h>)
 #include <malloc.h>
 #endif
 
 #include "../common/progress.hpp"
+#include "configuration.hpp"
 #include "folder.hpp"
+#include "lock.hpp"
+#include "pictures.hpp"
+#include "record.hpp"
+#include "tables.hpp"
+#include "writer.hpp"
 
 namespace {
 
-volatile std::sig_atomic_t stop_signal = 0;
+std::atomic<int> stop_signal = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
 
 void request_stop(int signal) {
     stop_signal = signal;
@@ -29,15 +35,96 @@ void keep_freed_memory() {
 #endif
 }
 
-/// What is left to make, in index order.
-std::vector<generator::plan> unfinished(const generator::options& o, const generator::stock& shared,
-                                        const generator::dataset_folder& folder) {
-    std::vector<generator::plan> plans;
-    for (std::size_t i = o.first; i < o.first + o.count; ++i) {
-        generator::plan p = generator::plan_image(o, i, shared.references());
-        if (!folder.has(p)) plans.push_back(std::move(p));
+/// Calls `fn(next)` once on each thread, where `next()` is the next index of the range that no thread has, and
+/// `work.last` at the end or after a signal. The first exception stops all.
+void for_each_index(insonify::thread_pool& pool, const generator::index_range& work, const auto& fn) {
+    std::atomic<std::uint64_t> next = work.first;
+    pool.bulk(static_cast<std::size_t>(pool.threads()), [&](std::size_t) {
+        try {
+            fn([&] {
+                const std::uint64_t i = stop_signal == 0 ? next++ : work.last;
+                return i < work.last ? i : work.last;
+            });
+        } catch (...) {
+            next = work.last;
+            throw;
+        }
+    });
+}
+
+/// Checks each file of the set, and changes nothing.
+int verify(const generator::options& o, const generator::stock& shared, insonify::thread_pool& pool) {
+    const std::filesystem::path root = generator::folder_path(o.out);
+    const generator::json before = generator::pinned(root, "config.json");
+    if (before.is_null()) throw insonify::io_error(o.out + ": --verify: holds no data set");
+    generator::check_pinned(root, before, generator::configuration_of(o, shared.inputs()));
+    const generator::index_range work = generator::range_of(o.first, o.count, o.shard);
+    examples::progress bar(work.size());
+    std::mutex mutex;
+    std::uint64_t faults = 0;
+    const auto report = [&](const std::string& fault) {
+        const std::lock_guard lock(mutex);
+        if (++faults <= 100) std::fprintf(stderr, "%s\n", fault.c_str());
+    };
+    for_each_index(pool, work, [&](const auto& next) {
+        for (std::uint64_t i = next(); i < work.last; i = next()) {
+            if (const auto fault = generator::fault_of(root, i, true)) report(*fault);
+            bar.finished_one();
+        }
+    });
+    if (!o.shard.given)
+        for (const std::string& fault : generator::table_faults(root)) report(fault);
+    if (stop_signal != 0) return 128 + stop_signal;
+    std::printf("%s: %llu images checked, %llu faults\n", o.out.c_str(), static_cast<unsigned long long>(work.size()),
+                static_cast<unsigned long long>(faults));
+    if (faults > 0) std::fprintf(stderr, "The same command without --verify repairs them.\n");
+    return faults > 0 ? 1 : 0;
+}
+
+int generate(const generator::options& o, const generator::stock& shared, insonify::thread_pool& pool) {
+    const std::filesystem::path root = generator::opened(o.out);
+    const generator::folder_lock lock(root, o.shard.given ? static_cast<std::int64_t>(o.shard.number) : -1);
+    if (!lock.without().empty())
+        std::fprintf(stderr, "%s: has no locks (%s); two runs that make the same images do them twice\n", o.out.c_str(),
+                     lock.without().c_str());
+    generator::staging into(root, o.shard.given ? "shard" + std::to_string(o.shard.number) : "all");
+    generator::pin(root, "config.json", generator::configuration_of(o, shared.inputs()), into);
+    if (o.shard.given)
+        generator::pin(root, "shards.json", generator::shards_of(o), into);
+    else if (std::filesystem::exists(root / "shards.json"))
+        throw insonify::io_error(o.out + ": is made by shards: go on with --shard, or join them with tools/merge");
+
+    // Whole images run side by side, each by itself on one thread: encoding a PNG is as long as drawing it, and serial.
+    const generator::index_range work = generator::range_of(o.first, o.count, o.shard);
+    examples::progress bar(work.size());
+    std::atomic<std::uint64_t> made = 0, repaired = 0;
+    for_each_index(pool, work, [&](const auto& next) {
+        generator::writer files(into);
+        for (std::uint64_t i = next(); i < work.last; i = next()) {
+            if (const auto fault = generator::fault_of(root, i, false)) {
+                files.add(generator::files_of(o, generator::plan_image(o, i, shared.references()), shared));
+                ++made;
+                if (std::filesystem::exists(root / generator::record_path(i)) && ++repaired <= 100)
+                    std::fprintf(stderr, "%s; made again\n", fault->c_str());
+            }
+            bar.finished_one();
+        }
+        files.finish();
+    });
+
+    const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+    if (o.shard.given)
+        std::printf("%s, shard %llu of %llu: %llu images", o.out.c_str(), number(o.shard.number), number(o.shard.of),
+                    number(bar.done()));
+    else
+        std::printf("%s: %llu images", o.out.c_str(),
+                    number(generator::write_tables(root, generator::class_names(o), into)));
+    std::printf(", %llu of them new, %.2f images/s\n", number(made), static_cast<double>(made) / bar.elapsed());
+    if (stop_signal != 0 && bar.done() < work.size()) {
+        std::fprintf(stderr, "Stopped; the same command goes on from here.\n");
+        return 128 + stop_signal;
     }
-    return plans;
+    return 0;
 }
 
 }  // namespace
@@ -45,52 +132,14 @@ std::vector<generator::plan> unfinished(const generator::options& o, const gener
 int main(int argc, char** argv) try {
     const generator::options o = generator::parse(argc, argv);
     const generator::stock shared(o);
-    generator::dataset_folder folder(o);
-    const std::vector<generator::plan> plans = unfinished(o, shared, folder);
     std::signal(SIGINT, request_stop);
     std::signal(SIGTERM, request_stop);
-
-    // Noise and flat masks pack no worse as they are than filtered any of PNG's ways, which to try takes twice as long,
-    // and no better for longer looking.
-    stbi_write_force_png_filter = 0;
-    stbi_write_png_compression_level = 1;
+    generator::set_packing();
     keep_freed_memory();
-
-    // Whole images run side by side, each by itself on one thread: encoding a PNG is as long as drawing it, and serial.
-    // While the disk takes an image, its thread draws the next.
     insonify::thread_pool pool(o.threads);
-    examples::progress bar(plans.size());
-    std::atomic<std::size_t> next = 0;
-    const auto make_some = [&] {
-        insonify::serial_executor alone;
-        std::future<void> written;
-        for (std::size_t i = next++; i < plans.size() && stop_signal == 0; i = next++) {
-            auto files = folder.files_of(o, plans[i], generator::draw(o, plans[i], shared, alone));
-            if (written.valid()) written.get();
-            written = std::async(std::launch::async, [&bar, files = std::move(files)] {
-                for (const generator::file& f : files) insonify::write_file(f.path, f.bytes);
-                bar.finished_one();
-            });
-        }
-        if (written.valid()) written.get();
-    };
-    pool.bulk(static_cast<std::size_t>(pool.threads()), [&](std::size_t) {
-        try {
-            make_some();
-        } catch (...) {
-            next = plans.size();  // nobody begins another
-            throw;
-        }
-    });
-    const std::size_t listed = folder.write_tables();
-
-    std::printf("%s: %zu images, %zu of them new, %.2f images/s\n", o.out.c_str(), listed, bar.done(),
-                static_cast<double>(bar.done()) / bar.elapsed());
-    if (stop_signal != 0 && bar.done() < plans.size()) {
-        std::fprintf(stderr, "Stopped; the same command goes on from here.\n");
-        return 128 + stop_signal;
-    }
-    return 0;
+    if (pool.threads() < o.threads)
+        std::fprintf(stderr, "--threads %d: the system started %d of them\n", o.threads, pool.threads());
+    return o.verify ? verify(o, shared, pool) : generate(o, shared, pool);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "generate_dataset: %s\n", error.what());
     return 1;

@@ -10,7 +10,7 @@
 namespace generator {
 
 struct plan {
-    std::size_t index;
+    std::uint64_t index;
     std::string class_name, seabed;
     bool referenced;
     std::size_t reference;  ///< which of the references, if any
@@ -25,11 +25,6 @@ struct plan {
     bool port;                             ///< which side of a sonar's track it is on
     double third, halfway;                 ///< where a chip has the target, in chips from its left and lower edges
     double noise, white;                   ///< of a sonar: what is heard in a shadow, and what is shown as white
-
-    std::string id() const {
-        std::string digits = std::to_string(index);
-        return std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
-    }
 };
 
 /// The classes of a data set, in the order of their category numbers (from 1).
@@ -41,10 +36,10 @@ inline std::vector<std::string> class_names(const options& o) {
 
 /// Classes and seabeds take turns, so that every run of targets x seabeds images is balanced; the rest is random.
 /// The demonstration shows the same scenes twice: as they are, and with the look of a reference.
-inline plan plan_image(const options& o, std::size_t index, std::size_t references) {
+inline plan plan_image(const options& o, std::uint64_t index, std::size_t references) {
     const std::vector<std::string> classes = class_names(o);
-    const std::size_t scenes = classes.size() * o.seabeds.size();
-    const std::size_t scene = o.demo ? index % scenes : index;
+    const std::uint64_t scenes = classes.size() * o.seabeds.size();
+    const std::uint64_t scene = o.demo ? index % scenes : index;
 
     insonify::random_sequence random(o.seed, 1, scene);
     const auto from = [&](const range& r) { return random.uniform(r.low, r.high); };

@@ -1,13 +1,19 @@
 #!/usr/bin/env python3
-"""Runs the generator as a user would, and worse: test.py <generate_dataset>"""
+"""Runs the generator as a user would, and worse: test.py <generate_dataset> <merge_dataset>
 
-import hashlib
+INSONIFY_KILLS: how many runs are killed in the middle (8).
+"""
+
 import csv
+import errno
+import hashlib
 import json
 import math
 import os
 import pathlib
 import random
+import shutil
+import struct
 import signal
 import subprocess
 import sys
@@ -15,13 +21,22 @@ import tempfile
 import time
 import unittest
 
-GENERATOR = sys.argv.pop(1)
+GENERATOR, MERGE = sys.argv.pop(1), sys.argv.pop(1)
+KILLS = int(os.environ.get("INSONIFY_KILLS", "8"))
 SMALL = ["--size", "96", "--count", "8", "--seed", "5", "--noise", "speckle:0.1,poisson:200"]
 
 
-def run(*options, expect=0):
-    result = subprocess.run([GENERATOR, *map(str, options)], capture_output=True, text=True, timeout=300)
-    assert result.returncode == expect, f"exit {result.returncode}, expected {expect}:\n{result.stdout}{result.stderr}"
+def run(*options, expect=0, program=GENERATOR, **environment):
+    result = subprocess.run([program, *map(str, options)], capture_output=True, text=True, timeout=300,
+                            env=os.environ | environment)
+    assert expect in (None, result.returncode), f"exit {result.returncode}, expected {expect}:\n{result.stdout}{result.stderr}"
+    return result.stdout + result.stderr
+
+
+def refusal(*options):
+    """What a run says that is refused, with an exit code of 1 or 2, before it has made anything."""
+    result = subprocess.run([GENERATOR, *map(str, options)], capture_output=True, text=True, timeout=20)
+    assert result.returncode in (1, 2), result
     return result.stdout + result.stderr
 
 
@@ -29,6 +44,14 @@ def digest(folder):
     """What every file of a data set holds, by its path."""
     return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
             for path in sorted(pathlib.Path(folder).rglob("*")) if path.is_file() and path.name != ".lock"}
+
+
+def pgm(path, maxval=255, name="P5"):
+    """Writes a picture of 40 x 40 with many gray values."""
+    size = 2 if maxval > 255 else 1
+    samples = b"".join((maxval * (x * y % 97) // 97).to_bytes(size, "big") for y in range(40) for x in range(40))
+    path.write_bytes(b"P5 40 40 %d\n" % maxval + samples)
+    return path
 
 
 class Generator(unittest.TestCase):
@@ -51,23 +74,26 @@ class Generator(unittest.TestCase):
 
     def test_a_killed_run_goes_on_to_the_same_bytes(self):
         run("--out", self.folder / "whole", *SMALL)
-        chance = random.Random(1)
-        for _ in range(8):
-            process = subprocess.Popen([GENERATOR, "--out", self.folder / "killed", *SMALL, "--threads", "2"],
+        whole = digest(self.folder / "whole")
+        chance, killed = random.Random(1), self.folder / "killed"
+        for number in range(KILLS):
+            process = subprocess.Popen([GENERATOR, "--out", killed, *SMALL, "--threads", "2"],
                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             time.sleep(chance.uniform(0.0, 0.25))
             process.kill()
             process.wait()
-            for record in (self.folder / "killed" / "records").glob("*.json"):
-                image = self.folder / "killed" / json.loads(record.read_text())["file"]
-                self.assertTrue(image.read_bytes().endswith(b"IEND\xaeB`\x82"))
-        run("--out", self.folder / "killed", *SMALL)
-        self.assertEqual(digest(self.folder / "whole"), digest(self.folder / "killed"))
+            for record in (killed / "records").rglob("*.json"):
+                for file in json.loads(record.read_text())["files"]:
+                    self.assertEqual(hashlib.sha256((killed / file["path"]).read_bytes()).hexdigest(), file["sha256"])
+            if number % 8 == 7:
+                run("--out", killed, *SMALL)
+                self.assertEqual(whole, digest(killed))
+                shutil.rmtree(killed)
 
     def test_an_interrupted_run_keeps_what_is_finished(self):
         options = ["--out", self.folder / "a", "--size", "256", "--count", "400"]
         process = subprocess.Popen([GENERATOR, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        while not list((self.folder / "a").glob("records/*.json")) and process.poll() is None:
+        while not list((self.folder / "a").rglob("records/*/*.json")) and process.poll() is None:
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
@@ -98,9 +124,9 @@ class Generator(unittest.TestCase):
                 at += count
             xs, ys = [p // height for p in inside], [p % height for p in inside]
             self.assertEqual(a["bbox"], [min(xs), min(ys), max(xs) - min(xs) + 1, max(ys) - min(ys) + 1])
-        rows = (self.folder / "a" / "manifest.csv").read_text().splitlines()
+        rows = list(csv.reader((self.folder / "a" / "manifest.csv").read_text().splitlines()))
         self.assertEqual(len(rows), 9)
-        self.assertEqual({len(row.split(",")) for row in rows}, {len(rows[0].split(","))})
+        self.assertEqual({len(row) for row in rows}, {len(rows[0])})
 
     def test_a_mesh_is_a_class_and_a_heightmap_a_seabed(self):
         (self.folder / "tetra.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
@@ -109,7 +135,7 @@ class Generator(unittest.TestCase):
         run("--out", self.folder / "a", "--size", 64, "--count", 4, "--targets", "cube", "--mesh",
             f"tetra={self.folder / 'tetra.obj'}", "--heightmap", self.folder / "map.pgm", "--heightmap-spacing", 0.1,
             "--heightmap-scale", 0.2)
-        self.assertEqual(len(list((self.folder / "a" / "images" / "tetra").glob("*.png"))), 2)
+        self.assertEqual(len(list((self.folder / "a" / "images" / "tetra").rglob("*.png"))), 2)
 
     def read_labels(self, folder):
         """The manifest's rows, with the boxes of the target and of its shadow."""
@@ -117,7 +143,7 @@ class Generator(unittest.TestCase):
         kinds = {c["id"]: c["supercategory"] for c in coco["categories"]}
         boxes = {(a["image_id"], kinds[a["category_id"]]): a["bbox"] for a in coco["annotations"]}
         for row in csv.DictReader((folder / "manifest.csv").read_text().splitlines()):
-            values = {name: value if name in ("file", "class", "seabed", "mode", "shadow_is_cut") else float(value)
+            values = {name: float(value) if name.endswith(("_m", "_deg", "_per_pixel")) and value else value
                       for name, value in row.items()}
             index = int(row["index"])
             yield values, boxes.get((index, "target")), boxes.get((index, "shadow"))
@@ -168,12 +194,12 @@ class Generator(unittest.TestCase):
             run("--out", self.folder / f"{mode}3", "--threads", 3, *options)
             self.assertEqual(digest(self.folder / f"{mode}1"), digest(self.folder / f"{mode}3"))
             for kind in "target", "shadow", "seabed":
-                self.assertEqual(len(list((self.folder / f"{mode}1" / "masks").glob(f"*_{kind}.png"))), 6)
+                self.assertEqual(len(list((self.folder / f"{mode}1" / "masks").rglob(f"*_{kind}.png"))), 6)
 
     def test_options_come_from_a_file_too(self):
         (self.folder / "set.toml").write_text('size = 64\ncount = 2\nseed = 9\ntargets = ["cone"]\n')
         run("--config", self.folder / "set.toml", "--out", self.folder / "a")
-        self.assertEqual(len(list((self.folder / "a" / "images" / "cone").glob("*.png"))), 2)
+        self.assertEqual(len(list((self.folder / "a" / "images" / "cone").rglob("*.png"))), 2)
 
     def test_what_cannot_be_is_refused_with_a_reason(self):
         def refused(text, *options, expect=2):
@@ -189,6 +215,23 @@ class Generator(unittest.TestCase):
         refused("for the sonar's modes", *out, "--noise", "seabed")
         refused("sideways", *out, "--mode", "sideways")
         refused("is not CLASS=FILE", *out, "--mesh", "wreck.obj")
+        refused("--count: '-1' is not a whole number", *out, "--count", "-1")
+        refused("from 1 to 1000000000", *out, "--count", 10**12)
+        refused("--first: '-1'", *out, "--first", "-1")
+        refused("ids have nine digits", *out, "--first", 10**9 - 1, "--count", 2)
+        refused("--seed: '-1'", *out, "--seed", "-1")
+        refused("neither a number nor a range", *out, "--altitude", "nan")
+        refused("--heightmap-scale: '1e38'", *out, "--heightmap-scale", "1e38")
+        refused("--intensity: 'inf'", *out, "--intensity", "inf")
+        refused("--chip: 10000 m from an --altitude", *out, "--chip", "10000", "--altitude", "0.01")
+        refused("--distance: 1000 times an --altitude", *out, "--mode", "slant_range", "--distance", 1000, "--altitude",
+                "1000")
+        refused("is there twice", *out, "--targets", "cylinder,cylinder,cube")
+        for taken in "shadow", "cylinder", "Cube":
+            refused(f"the class {taken} is taken", *out, "--mesh", f"{taken}=f.obj")
+        refused("the class wreck is taken", *out, "--mesh", "wreck=f.obj", "--mesh", "wreck=g.obj")
+        for name in 'a,b', 'a"b', "a/b", "", "..", "a b":
+            refused("is not CLASS=FILE", *out, "--mesh", f"{name}=f.obj")
         refused("does not exist", *out, "--reference", self.folder / "nowhere")
         self.assertFalse((self.folder / "a").exists())
         (self.folder / "other").mkdir()
@@ -196,13 +239,370 @@ class Generator(unittest.TestCase):
         refused("is not empty", "--out", self.folder / "other", expect=1)
         run(*out, *SMALL)
         refused("seed was 5, is 6", *out, *SMALL, "--seed", "6", expect=1)
+        # The library's own words for an argument are put into options.
+        refused("pings in the beam (--beam, --chip, --size)", "--out", self.folder / "b", "--mode", "slant_range",
+                "--beam", 20, "--chip", 0.5, "--size", 4096, "--count", 1, expect=1)
 
-    @unittest.skipUnless(os.path.exists("/dev/full"), "needs a full disk")
+    def test_a_configuration_is_options_and_nothing_else(self):
+        config, out = self.folder / "set.toml", self.folder / "a"
+        for text, reason in ((b"size = 64\nfoo = 3\n", "line 2: 'foo' is no option"),
+                             (b"[scene]\nsize = 64\n", "line 1: '[scene]' is a section"),
+                             (b"size = 64\nhello\n", "line 2: 'hello' is not `option = value`"),
+                             (b"\x7fELF\x02\x01\0\0\n", "line 1: this is not a text file"),
+                             (b"count = -1\n", "--count: '-1'"), (b"count =\n", "'count' has no value"),
+                             (b"targets = [\n\"cone\",\n]\n", "begin the list on this line"),
+                             (b"targets = [\"cone\",\n\"cube\"\n", "']' is missing")):
+            config.write_bytes(text)
+            self.assertIn(reason, refusal("--config", config, "--out", out))
+            self.assertFalse(out.exists())
+        config.write_text('# a set\nsize = 64  # small\ncount = 2\ntargets = ["cone",\n  "cube"]\n')
+        run("--config", config, "--out", out)
+        self.assertEqual(len(digest(out / "images")), 2)
+
+    @unittest.skipUnless(hasattr(os, "mkfifo"), "needs pipes")
+    def test_what_has_no_end_is_no_input(self):
+        os.mkfifo(self.folder / "pipe")
+        for path in self.folder / "pipe", "/dev/zero":
+            for option in ("--reference", "--heightmap", "--config"):
+                self.assertIn("is a folder, pipe or device", refusal("--out", self.folder / "a", option, path))
+            self.assertIn("is a folder, pipe or device", refusal("--out", self.folder / "a", "--mesh", f"a={path}"))
+        with open(self.folder / "large.pgm", "wb") as file:
+            file.truncate(2 << 20)
+        self.assertIn("raise --input-limit", refusal("--out", self.folder / "a", "--input-limit", 1, "--reference",
+                                                     self.folder / "large.pgm"))
+        (self.folder / "empty").mkdir()
+        (self.folder / "empty" / "notes.txt").write_text("none yet")
+        self.assertIn("holds no PNG", refusal("--out", self.folder / "a", "--reference", self.folder / "empty"))
+        self.assertFalse((self.folder / "a").exists())
+
+    def test_pictures_are_known_by_their_content(self):
+        # 16 bits under a name that is not .pgm.
+        images = set()
+        for name in "x.pgm", "x.PGM", "x", "x.png":
+            path = pgm(self.folder / name, 65535)
+            run("--out", self.folder / f"set_{name}", *SMALL, "--reference", path)
+            images.add(json.dumps(digest(self.folder / f"set_{name}" / "images")))
+        self.assertEqual(len(images), 1)
+        (self.folder / "p6.jpg").write_bytes(b"P6 2 2 65535\n" + bytes(range(24)))
+        run("--out", self.folder / "color", *SMALL, "--reference", self.folder / "p6.jpg")
+        (self.folder / "not.png").write_text("hello")
+        self.assertIn("is not a PNG", refusal("--out", self.folder / "a", "--reference", self.folder / "not.png"))
+
+    def test_heights_stay_within_what_a_float_can_square(self):
+        heights = b"".join(struct.pack("<f", 1e30) for _ in range(16))
+        (self.folder / "map.pfm").write_bytes(b"Pf\n4 4\n-1.0\n" + heights)
+        self.assertIn("--heightmap-scale", refusal("--out", self.folder / "a", "--heightmap", self.folder / "map.pfm"))
+
     def test_a_file_that_cannot_be_written_is_named(self):
         run("--out", self.folder / "a", *SMALL, "--count", "1")
         (self.folder / "a" / "annotations.json").unlink()
         (self.folder / "a" / "annotations.json").mkdir()
         self.assertIn("annotations.json", run("--out", self.folder / "a", *SMALL, expect=1))
+
+    def test_the_folder_holds_a_million_images_in_order(self):
+        options = ["--size", 32, "--count", 3, "--targets", "cube", "--seabeds", "sand"]
+        run("--out", self.folder / "a", *options, "--first", 999_999)
+        run("--out", self.folder / "a", *options, "--first", 999_999_000)
+        names = sorted(path.relative_to(self.folder / "a" / "images").as_posix()
+                       for path in (self.folder / "a" / "images").rglob("*.png"))
+        self.assertEqual(names, ["cube/000999/000999999.png", "cube/001000/001000000.png", "cube/001000/001000001.png",
+                                 *(f"cube/999999/{i}.png" for i in (999999000, 999999001, 999999002))])
+        with open(self.folder / "a" / "manifest.csv", newline="") as file:
+            self.assertEqual([row["file"] for row in csv.DictReader(file)], [f"images/{name}" for name in names])
+
+    def test_the_manifest_has_every_file_and_parameter(self):
+        references = self.folder / "references"
+        references.mkdir()
+        pgm(references / 'a,"b".pgm')
+        out = self.folder / "a"
+        run("--out", out, "--mode", "slant_range", "--pixels", 64, "--count", 12, "--reference", references)
+        with open(out / "manifest.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 12)
+        for row in rows:
+            self.assertEqual(row["reference_name"], 'a,"b".pgm')
+            for of in "file", "target_mask", "shadow_mask", "seabed_mask":
+                data = (out / row[of]).read_bytes()
+                self.assertEqual((len(data), hashlib.sha256(data).hexdigest()),
+                                 (int(row[f"{of}_bytes"]), row[f"{of}_sha256"]))
+            self.assertIn(row["side"], ("port", "starboard"))
+            self.assertTrue(0.2 <= float(row["beam_deg"]) <= 0.5)
+            self.assertTrue(0.003 <= float(row["noise_floor"]) <= 0.03)
+            self.assertEqual(row["ripple_wavelength_m"] != "", row["seabed"] == "ripples")
+            # The rig's own position: at the target's distance, across the track and at most a chip along it.
+            away = math.hypot(float(row["rig_x_m"]) - float(row["target_x_m"]),
+                              float(row["rig_y_m"]) - float(row["target_y_m"]))
+            self.assertAlmostEqual(away, float(row["ground_range_m"]), delta=3)
+        self.assertEqual({path.relative_to(out).as_posix() for path in out.rglob("*.png")},
+                         {row[of] for row in rows for of in ("file", "target_mask", "shadow_mask", "seabed_mask")})
+        for line in (out / "SHA256SUMS").read_text().splitlines():
+            sum_, name = line.split()
+            self.assertEqual(hashlib.sha256((out / name).read_bytes()).hexdigest(), sum_)
+
+    def test_a_folder_is_taken_whose_first_run_was_killed_at_once(self):
+        run("--out", self.folder / "whole", *SMALL)
+        for leftover in "config.json.tmp0", ".partial/all/somewhere-1-0":
+            out = self.folder / leftover.replace("/", "_")
+            (out / leftover).parent.mkdir(parents=True)
+            (out / leftover).write_text("{")
+            run("--out", out, *SMALL)
+            self.assertEqual(digest(self.folder / "whole"), digest(out))
+
+    def test_a_run_repairs_what_is_not_what_it_was(self):
+        out, chance = self.folder / "a", random.Random(3)
+        run("--out", out, *SMALL)
+        whole = digest(out)
+        def flipped(data):
+            at = chance.randrange(len(data))
+            return data[:at] + bytes([data[at] ^ 1 << chance.randrange(8)]) + data[at + 1:]
+        for damage in (None, lambda data: data[:len(data) // 2], lambda data: bytes(len(data)), flipped, lambda data: b"",
+                       lambda data: b"{}\n"):
+            for name in chance.sample(sorted(set(whole) - {"config.json"}), 12):
+                if damage is None:
+                    (out / name).unlink()
+                else:
+                    (out / name).write_bytes(damage((out / name).read_bytes()))
+            self.assertIn("repairs them", run("--out", out, *SMALL, "--verify", expect=1))
+            run("--out", out, *SMALL)
+            self.assertEqual(whole, digest(out))
+            self.assertIn("8 images checked, 0 faults", run("--out", out, *SMALL, "--verify"))
+        (out / "config.json").write_text("{")
+        self.assertIn("config.json: is damaged", run("--out", out, *SMALL, expect=1))
+
+    def test_tables_name_a_record_that_is_torn(self):
+        out = self.folder / "a"
+        run("--out", out, *SMALL)
+        for text in "{}", "", '{"id": 7', "null\n":
+            (out / "records" / "000000" / "000000007.json").write_text(text)
+            self.assertRegex(run("--out", out, *SMALL, "--count", 4, expect=1), "000000007.json: is torn or changed")
+
+    def test_verify_compares_masks_with_annotations(self):
+        # A record that is whole, but not what the mask shows.
+        out = self.folder / "a"
+        run("--out", out, *SMALL)
+        path = out / "records" / "000000" / "000000002.json"
+        record = json.loads(path.read_text())
+        counts = record["annotations"][0]["segmentation"]["counts"]
+        counts[0], counts[-1] = counts[0] + 1, counts[-1] - 1
+        del record["sha256"]
+        text = json.dumps(record, separators=(",", ":"))[:-1]
+        path.write_text(f'{text},"sha256":"{hashlib.sha256(text.encode()).hexdigest()}"}}\n')
+        self.assertIn("is not what the annotation says", run("--out", out, *SMALL, "--verify", expect=1))
+
+    def test_inputs_are_pinned_by_content(self):
+        options = ["--out", self.folder / "a", *SMALL, "--reference", self.folder / "r.pgm"]
+        before = hashlib.sha256(pgm(self.folder / "r.pgm").read_bytes()).hexdigest()
+        run(*options)
+        (self.folder / "moved").mkdir()
+        (self.folder / "r.pgm").rename(self.folder / "moved" / "r.pgm")
+        options[-1] = self.folder / "moved" / "r.pgm"
+        self.assertIn("0 of them new", run(*options))
+        after = hashlib.sha256(pgm(self.folder / "moved" / "r.pgm", 254).read_bytes()).hexdigest()
+        self.assertRegex(run(*options, expect=1), f"--reference r.pgm was .*{before}.*, is .*{after}")
+        pgm(self.folder / "moved" / "r.pgm")
+        config = self.folder / "a" / "config.json"
+        config.write_text(config.read_text().replace('"version": "insonify ', '"version": "insonify 9'))
+        self.assertRegex(run(*options, expect=1), r'version was "insonify 9[\d.]+", is "insonify \d')
+
+    def test_a_billion_images_are_planned_as_they_come(self):
+        process = subprocess.Popen([GENERATOR, "--out", self.folder / "a", "--size", "32", "--count", "1000000000"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not list((self.folder / "a").rglob("records/*/*.json")) and process.poll() is None:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        process.returncode = 130  # waited for here
+        _, status, usage = os.wait4(process.pid, 0)
+        self.assertEqual(os.waitstatus_to_exitcode(status), 130)
+        self.assertLess(usage.ru_maxrss, 300 << 10)
+
+
+@unittest.skipUnless(shutil.which("cc") and sys.platform == "linux", "needs a C compiler and a preloaded library")
+class Shimmed(unittest.TestCase):
+    """The generator on a system that refuses some of its calls."""
+
+    SHIM = r"""
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdarg.h>
+#include <stdlib.h>
+static int left(const char* name) { const char* text = getenv(name); return text ? atoi(text) : 1 << 30; }
+static int refuse_lock(int command) { return command == F_SETLK && left("SHIM_LOCK") != 1 << 30; }
+int fcntl(int file, int command, ...) {
+    va_list list; va_start(list, command); void* argument = va_arg(list, void*); va_end(list);
+    if (refuse_lock(command)) { errno = left("SHIM_LOCK"); return -1; }
+    return ((int (*)(int, int, ...))dlsym(RTLD_NEXT, "fcntl"))(file, command, argument);
+}
+int fcntl64(int file, int command, ...) {
+    va_list list; va_start(list, command); void* argument = va_arg(list, void*); va_end(list);
+    if (refuse_lock(command)) { errno = left("SHIM_LOCK"); return -1; }
+    return ((int (*)(int, int, ...))dlsym(RTLD_NEXT, "fcntl"))(file, command, argument);
+}
+int fsync(int file) {
+    static int calls = 0;
+    if (__sync_fetch_and_add(&calls, 1) >= left("SHIM_SYNCS")) { errno = ENOSPC; return -1; }
+    return ((int (*)(int))dlsym(RTLD_NEXT, "fsync"))(file);
+}
+int rename(const char* from, const char* to) {
+    static int calls = 0;
+    if (__sync_fetch_and_add(&calls, 1) >= left("SHIM_RENAMES")) { errno = EROFS; return -1; }
+    return ((int (*)(const char*, const char*))dlsym(RTLD_NEXT, "rename"))(from, to);
+}
+int pthread_create(pthread_t* t, const pthread_attr_t* a, void* (*f)(void*), void* x) {
+    static int calls = 0;
+    if (__sync_fetch_and_add(&calls, 1) >= left("SHIM_THREADS")) return EAGAIN;
+    return ((int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*))dlsym(RTLD_NEXT, "pthread_create"))(
+        t, a, f, x);
+}
+"""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.home = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.home.cleanup)
+        source, cls.shim = pathlib.Path(cls.home.name) / "shim.c", pathlib.Path(cls.home.name) / "shim.so"
+        source.write_text(cls.SHIM)
+        subprocess.run(["cc", "-shared", "-fPIC", "-o", cls.shim, source, "-ldl"], check=True)
+        run("--out", pathlib.Path(cls.home.name) / "whole", *SMALL)
+        cls.whole = digest(pathlib.Path(cls.home.name) / "whole")
+
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = pathlib.Path(self.scratch.name)
+
+    def preloaded(self, *options, expect=0, **limits):
+        return run(*options, expect=expect, LD_PRELOAD=str(self.shim),
+                   **{f"SHIM_{name.upper()}": str(value) for name, value in limits.items()})
+
+    def test_threads_that_cannot_be_started_are_done_without(self):
+        for threads in 0, 3, 20:
+            out = self.folder / str(threads)
+            self.assertIn("--threads 64: the system started",
+                          self.preloaded("--out", out, *SMALL, "--threads", 64, threads=threads))
+            self.assertEqual(self.whole, digest(out))
+
+    def test_a_lock_that_fails_says_why(self):
+        self.assertIn("another generator is at work",
+                      self.preloaded("--out", self.folder / "a", *SMALL, expect=1, lock=errno.EAGAIN))
+        for reason in errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS:
+            text = self.preloaded("--out", self.folder / str(reason), *SMALL, lock=reason)
+            self.assertIn(f"has no locks ({os.strerror(reason)})", text)
+            self.assertEqual(self.whole, digest(self.folder / str(reason)))
+
+    def test_without_locks_the_same_runs_at_the_same_time_leave_the_same_bytes(self):
+        environment = os.environ | {"LD_PRELOAD": str(self.shim), "SHIM_LOCK": str(errno.ENOLCK)}
+        for round_ in range(max(4, KILLS // 4)):
+            out = self.folder / str(round_)
+            processes = [subprocess.Popen([GENERATOR, "--out", out, *SMALL], env=environment, stderr=subprocess.PIPE,
+                                          stdout=subprocess.DEVNULL, text=True) for _ in range(4)]
+            for process in processes:
+                _, errors = process.communicate(timeout=300)
+                self.assertEqual(process.returncode, 0, errors)
+            self.assertEqual(self.whole, digest(out))
+
+    @unittest.skipIf(os.name != "posix" or os.geteuid() == 0, "needs a user whom permissions stop")
+    def test_a_folder_that_takes_no_file_is_named(self):
+        (self.folder / "a").mkdir(mode=0o500)
+        self.assertIn("Permission denied", run("--out", self.folder / "a", *SMALL, expect=1))
+
+    def test_a_disk_that_fails_is_named_and_the_next_run_goes_on(self):
+        for calls in 0, 1, 5, 12, 30, 45:
+            for limit, reason in (("syncs", errno.ENOSPC), ("renames", errno.EROFS)):
+                out = self.folder / f"{limit}{calls}"
+                result = self.preloaded("--out", out, *SMALL, "--threads", 2, expect=None, **{limit: calls})
+                if limit == "syncs":
+                    self.assertIn(os.strerror(reason), result)
+                run("--out", out, *SMALL)
+                self.assertEqual(self.whole, digest(out))
+
+
+class Shards(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = pathlib.Path(self.scratch.name)
+        run("--out", self.folder / "whole", *SMALL)
+        self.whole = digest(self.folder / "whole")
+
+    def test_shards_that_write_to_one_folder_at_once_are_one_run(self):
+        out = self.folder / "a"
+        processes = [subprocess.Popen([GENERATOR, "--out", out, *SMALL, "--shard", f"{k}/3"], stdout=subprocess.DEVNULL)
+                     for k in (2, 0, 1)]
+        self.assertEqual([process.wait() for process in processes], [0] * 3)
+        run("--out", out, *SMALL, "--shard", "1/3")  # submitted again
+        run(out, program=MERGE)
+        self.assertEqual(self.whole, digest(out))
+
+    def test_shards_in_folders_of_their_own_are_joined(self):
+        for k in range(8):
+            run("--out", self.folder / f"s{k}", *SMALL, "--shard", f"{k}/8")
+            self.assertEqual(len(list((self.folder / f"s{k}" / "images").rglob("*.png"))), 1)
+        folders = [self.folder / f"s{k}" for k in range(8)]
+        text = run(self.folder / "a", *folders[:3], *folders[4:7], program=MERGE, expect=1)
+        self.assertIn("2 of 8 images are missing", text)
+        self.assertIn("shard 3/8 lacks 1 images, the first is 000000003", text)
+        self.assertFalse((self.folder / "a" / "annotations.json").exists())
+        image = next((self.folder / "s3" / "images").rglob("*.png"))
+        good = image.read_bytes()
+        image.write_bytes(good[:-1])
+        self.assertIn("run the shard again", run(self.folder / "a", *folders, program=MERGE, expect=1))
+        image.write_bytes(good)
+        run(self.folder / "a", *folders, program=MERGE)
+        self.assertEqual(self.whole, digest(self.folder / "a"))
+
+    def test_a_hostile_shard_writes_nothing_outside(self):
+        run("--out", self.folder / "a", *SMALL)
+        record = self.folder / "a" / "records" / "000000" / "000000000.json"
+        (self.folder / "a" / "evil").write_text("evil")
+        text = record.read_text()
+        text = text[:text.rindex(',"sha256"')].replace(json.loads(text)["files"][0]["path"], "images/../evil")
+        record.write_text(f'{text},"sha256":"{hashlib.sha256(text.encode()).hexdigest()}"}}\n')
+        self.assertIn("which is none of a data set",
+                      run(self.folder / "joined", self.folder / "a", program=MERGE, expect=1))
+        self.assertFalse((self.folder / "joined" / "evil").exists())
+        for text in "{", "[]", "{}", '{"targets": 3, "meshes": []}':
+            (self.folder / "a" / "config.json").write_text(text)
+            self.assertIn("is damaged", run(self.folder / "a", program=MERGE, expect=1))
+
+    def test_the_number_of_a_shard_comes_from_the_job_array(self):
+        out = ["--out", self.folder / "a", *SMALL, "--shard"]
+        run(*out, "3", SLURM_ARRAY_TASK_ID="0")
+        run(*out, "3", JOB_COMPLETION_INDEX="2")
+        run(*out, "1/3", SLURM_ARRAY_TASK_ID="0")
+        run(self.folder / "a", program=MERGE)
+        self.assertEqual(self.whole, digest(self.folder / "a"))
+        self.assertIn("SLURM_ARRAY_TASK_ID is 3, but 3 shards count from 0 to 2",
+                      run(*out, "3", expect=2, SLURM_ARRAY_TASK_ID="3"))
+        self.assertIn("neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX is set", run(*out, "3", expect=2))
+        self.assertIn("which of them counts", run(*out, "3", expect=2, SLURM_ARRAY_TASK_ID="0", JOB_COMPLETION_INDEX="1"))
+        for text in "3/3", "-1/3", "1/0", "a/3", "1/", "/", "1.5/3", "0/9":
+            self.assertIn("--shard: ", run(*out, text, expect=2))
+
+    def test_the_count_of_shards_is_pinned(self):
+        run("--out", self.folder / "a", *SMALL, "--shard", "0/3")
+        self.assertIn("shards was 3, is 4", run("--out", self.folder / "a", *SMALL, "--shard", "0/4", expect=1))
+        self.assertIn("count was 8, is 6",
+                      run("--out", self.folder / "a", *SMALL, "--count", 6, "--shard", "0/3", expect=1))
+        self.assertIn("is made by shards", run("--out", self.folder / "a", *SMALL, expect=1))
+        self.assertIn("seed was 5, is 6",
+                      run("--out", self.folder / "a", *SMALL, "--seed", 6, "--shard", "1/3", expect=1))
+
+    def test_a_killed_shard_is_run_again(self):
+        chance, out = random.Random(7), self.folder / "a"
+        for k in range(3):
+            for _ in range(max(1, KILLS // 3)):
+                process = subprocess.Popen([GENERATOR, "--out", out, *SMALL, "--shard", f"{k}/3"],
+                                           stdout=subprocess.DEVNULL)
+                time.sleep(chance.uniform(0.0, 0.2))
+                process.kill()
+                process.wait()
+        for k in range(3):
+            run("--out", out, *SMALL, "--shard", f"{k}/3")
+        run(out, program=MERGE)
+        self.assertEqual(self.whole, digest(out))
 
 
 if __name__ == "__main__":

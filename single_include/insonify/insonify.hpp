@@ -18838,6 +18838,7 @@ INSONIFY_ARITHMETIC_END
 // Whole files: read at once, and written so that a reader finds the old file or the new one, never half of one.
 
 #if defined(__unix__) || defined(__APPLE__)
+#include <fcntl.h>
 #include <unistd.h>
 #endif
 
@@ -18885,6 +18886,21 @@ inline bool sync_to_disk(std::FILE* stream) {
     return ::fsync(::fileno(stream)) == 0;
 #else
     return true;
+#endif
+}
+
+/// Brings the names in the folder of `path` to disk. A folder that can't be opened or synced, as on some network file
+/// systems, is left to the system: the file itself is on disk.
+inline void sync_folder_of(const std::string& path) {
+#if defined(__unix__) || defined(__APPLE__)
+    const std::size_t slash = path.find_last_of('/');
+    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    const int handle = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
+    if (handle < 0) return;
+    static_cast<void>(::fsync(handle));
+    ::close(handle);
+#else
+    static_cast<void>(path);
 #endif
 }
 
@@ -18959,6 +18975,7 @@ class replacement_file {
         if (!(file_.close() && written)) detail::raise_io(path_, "can't write", error_ != 0 ? error_ : errno);
         if (!detail::rename_over(temporary_, path_)) detail::raise_io(path_, "can't replace", errno);
         temporary_.clear();
+        detail::sync_folder_of(path_);
     }
 
   private:
@@ -19350,10 +19367,13 @@ class survey_reader {
 
     /// The next word, of lines further down too; empty at the end. Commas and semicolons part words like blanks.
     std::string_view word() {
-        while (at_ < text_.size() && is_blank(text_[at_])) line_ += text_[at_++] == '\n' ? 1u : 0u;
-        const std::size_t begin = at_;
-        while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
-        return text_.substr(begin, at_ - begin);
+        for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) line_ += ends_line(at_) ? 1u : 0u;
+        return word_here();
+    }
+    /// The next word of this line; empty at its end.
+    std::string_view word_of_line() {
+        while (at_ < text_.size() && is_blank(text_[at_]) && !is_line_break(text_[at_])) ++at_;
+        return word_here();
     }
     std::string_view peek() {
         const std::size_t at = at_, line = line_;
@@ -19362,13 +19382,14 @@ class survey_reader {
         return next;
     }
     void skip_line() {
-        while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+        while (at_ < text_.size() && !is_line_break(text_[at_])) ++at_;
     }
 
     /// @param what  for the error
     double number(const char* what) { return number(word(), what); }
     double number(std::string_view digits, const char* what) const {
-        if (digits.empty()) fail(std::string("the text ends before ") + what);
+        if (digits.empty())
+            fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
         const bool plus = digits[0] == '+' && digits.substr(1, 1) != "-";
         double value = 0;
         const auto [end, status] =
@@ -19390,6 +19411,16 @@ class survey_reader {
     }
 
   private:
+    std::string_view word_here() {
+        const std::size_t begin = at_;
+        while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
+        return text_.substr(begin, at_ - begin);
+    }
+    static bool is_line_break(char c) { return c == '\n' || c == '\r'; }
+    /// LF, CR LF and CR each end one line.
+    bool ends_line(std::size_t at) const {
+        return text_[at] == '\n' || (text_[at] == '\r' && text_.substr(at + 1, 1) != "\n");
+    }
     static bool is_blank(char c) { return (c >= '\t' && c <= '\r') || c == ' ' || c == ',' || c == ';'; }
     static std::string quoted(std::string_view word) {
         return "'" + std::string(word.substr(0, 40)) + (word.size() > 40 ? "...'" : "'");
@@ -19473,12 +19504,13 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 }
 
 /// Reads soundings, an `x y z` on each line, onto a grid: each vertex has the mean of the soundings that are nearest to
-/// it, or NaN if there is none. Lines that don't begin with a number are passed over, and so is what follows the z.
+/// it, or NaN if there is none. Lines end with LF, CR LF or CR. Lines that don't begin with a number are passed over,
+/// and so is what follows the z.
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
-/// @throws io_error for a text without soundings, or whose soundings are so far apart that they make less than one in
-/// 1024 vertices, or that there are more than 2^26
+/// @throws io_error for a text without soundings, with a line of fewer than three numbers, or whose soundings are so
+/// far apart that they make less than one in 1024 vertices, or that there are more than 2^26
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
     detail::require(spacing > 0 && spacing < 1e6, "spacing", spacing, "metres above 0");
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
@@ -19493,7 +19525,8 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
         const bool is_number =
             (first[0] >= '0' && first[0] <= '9') || first[0] == '-' || first[0] == '+' || first[0] == '.';
         if (!is_number) continue;
-        const double x = in.number(first, "an x"), y = in.finite("a y"), z = in.number("a z");
+        const double x = in.number(first, "an x"), y = in.number(in.word_of_line(), "a y"),
+                     z = in.number(in.word_of_line(), "a z");
         detail::require_place(in, x, y);
         const std::int64_t column = numeric::floor_to_int(x / spacing + 0.5),
                            row = numeric::floor_to_int(y / spacing + 0.5);

@@ -18,6 +18,8 @@ namespace insonify::inline INSONIFY_ABI {
 /// thread instead of waiting: nesting can't deadlock, however pools are mixed.
 class thread_pool {
   public:
+    /// Where the system starts fewer threads than that (a limit on processes or memory), the pool works with those:
+    /// `threads()` says how many.
     /// @param threads  how many threads share the work, the caller included; 0 means one per hardware thread
     /// @throws invalid_input above 4096
     explicit thread_pool(int threads = 0) {
@@ -25,7 +27,7 @@ class thread_pool {
         const unsigned hardware = std::thread::hardware_concurrency();
         const int total = threads > 0 ? threads : hardware > 0 ? static_cast<int>(hardware) : 1;
         workers_.reserve(static_cast<std::size_t>(total - 1));
-        for (int i = 1; i < total; ++i) workers_.emplace_back([this] { serve(); });
+        start(total - 1);
     }
 
     ~thread_pool() {
@@ -103,6 +105,18 @@ class thread_pool {
         for (int i = 0; i < 2000 && !has_come(); ++i) __builtin_ia32_pause();
 #else
         (void)has_come;
+#endif
+    }
+
+    /// An exception past this point would destroy members that running workers use.
+    void start(int workers) {
+#if defined(__cpp_exceptions)
+        try {
+            for (int i = 0; i < workers; ++i) workers_.emplace_back([this] { serve(); });
+        } catch (...) {  // std::system_error or std::bad_alloc
+        }
+#else
+        for (int i = 0; i < workers; ++i) workers_.emplace_back([this] { serve(); });
 #endif
     }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #if defined(__unix__) || defined(__APPLE__)
+#include <fcntl.h>
 #include <unistd.h>
 #endif
 
@@ -59,6 +60,21 @@ inline bool sync_to_disk(std::FILE* stream) {
     return ::fsync(::fileno(stream)) == 0;
 #else
     return true;
+#endif
+}
+
+/// Brings the names in the folder of `path` to disk. A folder that can't be opened or synced, as on some network file
+/// systems, is left to the system: the file itself is on disk.
+inline void sync_folder_of(const std::string& path) {
+#if defined(__unix__) || defined(__APPLE__)
+    const std::size_t slash = path.find_last_of('/');
+    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    const int handle = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
+    if (handle < 0) return;
+    static_cast<void>(::fsync(handle));
+    ::close(handle);
+#else
+    static_cast<void>(path);
 #endif
 }
 
@@ -133,6 +149,7 @@ class replacement_file {
         if (!(file_.close() && written)) detail::raise_io(path_, "can't write", error_ != 0 ? error_ : errno);
         if (!detail::rename_over(temporary_, path_)) detail::raise_io(path_, "can't replace", errno);
         temporary_.clear();
+        detail::sync_folder_of(path_);
     }
 
   private:

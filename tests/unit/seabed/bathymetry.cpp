@@ -81,6 +81,21 @@ TEST_CASE("Soundings come onto a grid in any order, averaged where there are sev
     CHECK(missing(field.heights(0, 2)));
 }
 
+TEST_CASE("Soundings stay within their lines, however lines end") {
+    CHECK_THROWS_WITH(sb::parse_xyz("0 0 1\n1 0\n2 0 3\n", 1, 1, "bottom.xyz"),
+                      ContainsSubstring("bottom.xyz:2: the line ends before a z"));
+    CHECK_THROWS_WITH(sb::parse_xyz("0 0 1\r1\r2 0 3\r", 1, 1, "bottom.xyz"),
+                      ContainsSubstring("bottom.xyz:2: the line ends before a y"));
+    CHECK_THROWS_WITH(sb::parse_xyz("0 0 1\r\n\r\n1 0\r\n2 0 3", 1, 1, "bottom.xyz"),
+                      ContainsSubstring("bottom.xyz:3:"));
+    const std::string line_end = GENERATE("\n", "\r\n", "\r");
+    std::string text = "x y z" + line_end;
+    for (int i = 0; i < 100; ++i) text += std::to_string(i) + " 0 " + std::to_string(2 * i) + " note" + line_end;
+    const sb::heightfield field = sb::parse_xyz(text, 1);
+    REQUIRE(field.heights.width() == 100);
+    for (int i = 0; i < 100; ++i) CHECK(field.heights(i, 0) == 2.0f * static_cast<float>(i));
+}
+
 TEST_CASE("What are no soundings is refused") {
     CHECK_THROWS_WITH(sb::parse_xyz("", 1), ContainsSubstring("no soundings"));
     CHECK_THROWS_WITH(sb::parse_xyz("1 2", 1), ContainsSubstring("ends before a z"));

@@ -1,0 +1,78 @@
+// The file of --config: lines `option = value`, and nothing else. CLI11 passes over what it does not understand.
+#pragma once
+
+#include <sstream>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace generator {
+
+class strict_config : public CLI::ConfigTOML {
+  public:
+    explicit strict_config(const CLI::App& app) : app_(app) {}
+
+    std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
+        std::ostringstream all;
+        all << input.rdbuf();
+        check(all.str());
+        std::istringstream text(all.str());
+        return CLI::ConfigTOML::from_config(text);
+    }
+
+  private:
+    [[noreturn]] static void refuse(std::size_t line, const std::string& reason) {
+        throw CLI::ConfigError("--config: line " + std::to_string(line) + ": " + reason, CLI::ExitCodes::ConfigError);
+    }
+
+    void check(const std::string& text) const {
+        std::istringstream lines(text);
+        std::string line;
+        bool in_array = false;
+        for (std::size_t number = 1; std::getline(lines, line); ++number) {
+            for (const char c : line)
+                if ((c >= '\0' && c < ' ' && c != '\t' && c != '\r') || c == '\x7F')
+                    refuse(number, "this is not a text file; write lines like `count = 24`");
+            CLI::detail::trim(line);
+            if (in_array) {
+                in_array = !line.ends_with(']');
+                continue;
+            }
+            if (line.empty() || line[0] == '#' || line[0] == ';') continue;
+            const std::size_t equals = line.find('=');
+            if (line[0] == '[') refuse(number, "'" + shortened(line) + "' is a section; options have none, remove it");
+            if (equals == std::string::npos) refuse(number, "'" + shortened(line) + "' is not `option = value`");
+            std::string name = CLI::detail::trim_copy(line.substr(0, equals)),
+                        value = CLI::detail::trim_copy(line.substr(equals + 1));
+            if (app_.get_option_no_throw("--" + name) == nullptr || name == "config" || name == "help")
+                refuse(number, "'" + shortened(name) + "' is no option; --help lists them");
+            if (value.empty()) refuse(number, "'" + name + "' has no value");
+            value = CLI::detail::trim_copy(value.substr(0, value.find('#')));
+            if (value == "[") refuse(number, "'" + name + " = [': begin the list on this line");
+            in_array = value.starts_with('[') && !value.ends_with(']');
+        }
+        if (in_array) refuse(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), "']' is missing");
+    }
+
+    static std::string shortened(const std::string& text) {
+        return text.size() > 40 ? text.substr(0, 40) + "..." : text;
+    }
+
+    const CLI::App& app_;
+};
+
+/// A plain file of at most a mebibyte.
+inline CLI::Validator config_file() {
+    return CLI::Validator(
+        [](std::string& path) -> std::string {
+            try {
+                examples::read_input(path, 1 << 20, "a configuration is shorter");
+            } catch (const insonify::io_error& error) {
+                return error.what();
+            }
+            return "";
+        },
+        "", "configuration");
+}
+
+}  // namespace generator

@@ -1,0 +1,34 @@
+#include "folder.hpp"
+
+#include <insonify/core/error.hpp>
+
+namespace generator {
+
+namespace fs = std::filesystem;
+
+fs::path folder_path(const std::string& out) {
+    const fs::path path = fs::path(out).lexically_normal();
+    return path.has_filename() || !path.has_parent_path() ? path : path.parent_path();
+}
+
+fs::path opened(const std::string& out) {
+    const fs::path root = folder_path(out);
+    std::error_code failed;
+    fs::create_directories(root, failed);
+    if (failed) throw insonify::io_error(out + ": can't make this folder: " + failed.message());
+    // What a run leaves that was killed before it wrote config.json; `config.json.tmp0` is of an older version.
+    std::string foreign;
+    for (const auto& entry : fs::directory_iterator(root)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with("config.json.tmp"))
+            fs::remove(entry.path(), failed);
+        else if (name != ".lock" && name != ".partial" && !name.starts_with(".nfs"))
+            foreign = name;
+    }
+    // In this order: another process may begin the set in between.
+    if (!foreign.empty() && !fs::exists(root / "config.json"))
+        throw insonify::io_error(out + ": is not empty and holds no data set (" + foreign + "); name another folder");
+    return root;
+}
+
+}  // namespace generator

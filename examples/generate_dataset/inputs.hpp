@@ -1,0 +1,75 @@
+// The files that a data set is made from, read once: what is drawn from and what is pinned are the same bytes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "../common/pictures.hpp"
+#include "checksum.hpp"
+
+namespace generator {
+
+/// What config.json pins of an input. The folder it lies in doesn't count.
+struct input {
+    std::string option, name;  ///< `--mesh wreck`, `wreck.obj`
+    std::uint64_t bytes;
+    std::string sha256;
+};
+
+/// Reads inputs, and keeps account of them.
+class input_reader {
+  public:
+    /// @param limit  bytes of the largest input
+    explicit input_reader(std::uint64_t limit) : limit_(limit) {}
+
+    /// @throws io_error, with the option, for a file that can't be read
+    std::string read(const std::string& option, const std::string& path) {
+        std::string bytes;
+        try {
+            bytes = examples::read_input(path, limit_, "raise --input-limit");
+        } catch (const insonify::io_error& error) {
+            throw insonify::io_error(option + " " + error.what());
+        }
+        list_.push_back({option, std::filesystem::path(path).filename().string(), bytes.size(), sha256(bytes)});
+        return bytes;
+    }
+
+    insonify::image<float> read_picture(const std::string& option, const std::string& path) {
+        return examples::parse_gray(read(option, path), option + " " + path, 6 * limit_);
+    }
+
+    std::vector<input> list() && { return std::move(list_); }
+
+  private:
+    std::uint64_t limit_;
+    std::vector<input> list_;
+};
+
+/// The pictures that `--reference` names, folders opened, in the order of their names.
+/// @throws io_error for a folder without pictures
+inline std::vector<std::string> picture_paths(const std::vector<std::string>& references) {
+    namespace fs = std::filesystem;
+    std::vector<std::string> paths;
+    for (const std::string& given : references) {
+        if (!fs::is_directory(given)) {
+            paths.push_back(given);
+            continue;
+        }
+        std::vector<std::string> inside;
+        for (const auto& entry : fs::directory_iterator(given)) {
+            if (!entry.is_regular_file()) continue;
+            char head[16] = {};
+            const insonify::detail::file_handle file(entry.path().string(), "rb");
+            const std::size_t size = file.get() == nullptr ? 0 : std::fread(head, 1, sizeof head, file.get());
+            if (examples::is_picture({head, size})) inside.push_back(entry.path().string());
+        }
+        if (inside.empty())
+            throw insonify::io_error("--reference " + given + ": this folder holds no PNG, JPEG, BMP, PGM, PPM or PFM");
+        std::sort(inside.begin(), inside.end());
+        paths.insert(paths.end(), inside.begin(), inside.end());
+    }
+    return paths;
+}
+
+}  // namespace generator

@@ -1,0 +1,108 @@
+// merge_dataset: joins the shards of a data set, that lie in one folder or in several. See --help, and tools/merge.
+#include <cstdio>
+
+#include "configuration.hpp"
+#include "folder.hpp"
+#include "lock.hpp"
+#include "record.hpp"
+#include "tables.hpp"
+#include "writer.hpp"
+#include <CLI/CLI.hpp>
+
+namespace {
+
+namespace fs = std::filesystem;
+using generator::json;
+using insonify::io_error;
+
+/// The files of an image, and last its record.
+/// @throws io_error if the image is not complete
+std::vector<generator::file> read_image(const fs::path& from, std::uint64_t index) {
+    if (const auto fault = generator::fault_of(from, index, false))
+        throw io_error(from.string() + "/" + *fault + "; run the shard again");
+    const std::string path = generator::record_path(index), text = insonify::read_file((from / path).string());
+    std::vector<generator::file> files;
+    const json record = generator::parse_record(text, path);
+    for (const json& entry : record.at("files")) {
+        const std::string name = entry.at("path").get<std::string>();
+        files.push_back({name, insonify::read_file((from / name).string())});
+    }
+    files.push_back({path, text});
+    return files;
+}
+
+/// Copies what `root` lacks of another folder.
+void take(const fs::path& root, const fs::path& from, generator::staging& into) {
+    if (!fs::exists(from / "config.json")) throw io_error(from.string() + ": holds no data set");
+    for (const char* const name : {"config.json", "shards.json"}) {
+        const json theirs = generator::pinned(from, name);
+        if (theirs.is_null() && generator::pinned(root, name).is_null()) continue;
+        generator::pin(root, name, theirs, into);
+    }
+    generator::writer files(into);
+    generator::for_each_record(from, [&](const std::string&, std::uint64_t index) {
+        if (generator::fault_of(root, index, false)) files.add(read_image(from, index));
+    });
+    files.finish();
+}
+
+/// @throws io_error that names what the shards have not made yet
+void check_complete(const fs::path& root, const json& shards) {
+    const auto first = shards.at("first").get<std::uint64_t>(), count = shards.at("count").get<std::uint64_t>(),
+               of = shards.at("shards").get<std::uint64_t>();
+    std::uint64_t expected = first, missing = 0;
+    std::string text;
+    for (std::uint64_t k = 0; k < of; ++k) {
+        const generator::index_range range = generator::range_of(first, count, {k, of});
+        std::uint64_t lacking = 0, example = 0;
+        for (expected = range.first; expected < range.last; ++expected)
+            if (!fs::exists(root / generator::record_path(expected)) && lacking++ == 0) example = expected;
+        if (lacking > 0 && missing < 1'000'000 && text.size() < 2000)
+            text += "\n  shard " + std::to_string(k) + "/" + std::to_string(of) + " lacks " + std::to_string(lacking) +
+                    " images, the first is " + generator::id_of(example);
+        missing += lacking;
+    }
+    if (missing > 0)
+        throw io_error(root.string() + ": " + std::to_string(missing) + " of " + std::to_string(count) +
+                       " images are missing; run these shards again, then merge:" + text);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    std::string out;
+    std::vector<std::string> folders;
+    CLI::App app{
+        "Joins the shards of a data set: checks that all images are there, and writes the tables. Afterwards the "
+        "folder "
+        "has\nthe same bytes as one that was made without shards.",
+        "merge_dataset"};
+    app.add_option("out", out, "Folder of the joined set; that of the shards, if they all wrote to one")->required();
+    app.add_option("folders", folders, "Folders of the shards, if they wrote to several");
+    CLI11_PARSE(app, argc, argv);
+
+    const fs::path root = generator::opened(out);
+    const generator::folder_lock lock(root, -1);
+    std::uint64_t images = 0;
+    {
+        generator::staging into(root, "all");
+        for (const std::string& folder : folders) take(root, generator::folder_path(folder), into);
+        const json config = generator::pinned(root, "config.json");
+        if (config.is_null()) throw io_error(out + ": holds no data set; name the folders of its shards, too");
+        if (const json shards = generator::pinned(root, "shards.json"); !shards.is_null()) check_complete(root, shards);
+        auto classes = config.at("targets").get<std::vector<std::string>>();
+        for (const json& name : config.at("meshes")) classes.push_back(name.get<std::string>());
+        images = generator::write_tables(root, classes, into);
+    }
+    fs::remove(root / "shards.json");
+    fs::remove_all(root / ".partial");
+    generator::sync_folder(root);
+    std::printf("%s: %llu images\n", out.c_str(), static_cast<unsigned long long>(images));
+    return 0;
+} catch (const json::exception&) {
+    std::fprintf(stderr, "merge_dataset: config.json, shards.json or a record is damaged; run the shards again\n");
+    return 1;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "merge_dataset: %s\n", error.what());
+    return 1;
+}

@@ -1,0 +1,132 @@
+// The one unit that draws: what is generic in the library is compiled here, for minutes, and nowhere else.
+#include "pictures.hpp"
+
+#include "../common/png_bytes.hpp"
+#include "draw.hpp"
+#include "record.hpp"
+#include "run_lengths.hpp"
+
+namespace generator {
+
+namespace {
+
+double degrees(double radians) {
+    return in::numeric::to_degrees(radians);
+}
+
+/// What was drawn from the ranges, what follows from it, and what was measured: a column of manifest.csv each. What has
+/// no meaning in this image is null.
+json parameters_of(const options& o, const plan& p, const stock& shared, const drawn& d) {
+    const in::target_label& label = d.labels.targets.front();
+    const bool sonar = !o.is_overhead(), rippled = p.seabed == "ripples" || p.seabed == "mixed";
+    const auto only = [](bool known, const json& value) { return known ? value : json(); };
+    return {{"class", p.class_name},
+            {"seabed", p.seabed},
+            {"seed", o.seed},
+            {"reference", p.referenced ? static_cast<int>(p.reference) : -1},
+            {"reference_name", only(p.referenced, p.referenced ? shared.reference_name(p.reference) : "")},
+            {"target_size_m", p.size},
+            {"aspect", p.aspect},
+            {"target_x_m", d.placement.position.x},
+            {"target_y_m", d.placement.position.y},
+            {"target_z_m", d.placement.position.z},
+            {"yaw_deg", degrees(p.yaw)},
+            {"pitch_deg", degrees(p.pitch)},
+            {"roll_deg", degrees(p.roll)},
+            {"burial_m", static_cast<double>(d.placement.burial)},
+            {"rig_x_m", d.rig.x},
+            {"rig_y_m", d.rig.y},
+            {"rig_yaw_deg", degrees(p.rig_yaw)},
+            {"altitude_m", p.altitude},
+            {"mode", o.mode},
+            {"side", only(sonar, p.port ? "port" : "starboard")},
+            {"beam_deg", only(sonar, degrees(p.beam))},
+            {"noise_floor", only(sonar, p.noise)},
+            {"white", only(sonar, p.white)},
+            {"metres_per_pixel", d.known.metres_per_pixel},
+            {"left_edge_m", d.known.left_edge},
+            {"ground_range_m", d.known.ground_range},
+            {"slant_range_m", d.known.slant_range},
+            {"grazing_deg", degrees(d.known.grazing)},
+            {"aspect_deg", degrees(d.known.aspect)},
+            {"target_height_m", d.known.height},
+            {"shadow_m", d.known.shadow},
+            {"shadow_measured_m", d.known.shadow_measured},
+            {"shadow_is_cut", d.known.shadow_is_cut},
+            {"relief", only(rippled || p.seabed == "rock", p.relief)},
+            {"ripple_wavelength_m", only(rippled, p.wavelength)},
+            {"ripple_direction_deg", only(rippled, degrees(p.direction))},
+            {"seabed_seed", p.seabed_seed},
+            {"noise_seed", p.noise_seed},
+            {"target_area_px", label.area},
+            {"shadow_area_px", label.shadow_area}};
+}
+
+/// What the library calls an argument, and the options that decide it.
+std::string in_words_of_options(std::string message) {
+    constexpr const char* names[][2] = {{"overhead.altitude", "--altitude"},
+                                        {"overhead.field_of_view", "the field of view (--chip over --altitude)"},
+                                        {"overhead.grazing", "--grazing"},
+                                        {"overhead.intensity", "--intensity"},
+                                        {"overhead.sky", "--sky"},
+                                        {"overhead.size", "--size"},
+                                        {"side_scan.altitude", "--altitude"},
+                                        {"side_scan.ping_spacing", "the ping spacing (--chip over --size)"},
+                                        {"side_scan.range", "the range (--distance, --altitude, --chip)"},
+                                        {"side_scan.first_range", "the range (--distance, --altitude, --chip)"},
+                                        {"pings in the horizontal beam", "pings in the beam (--beam, --chip, --size)"},
+                                        {"rays of a ping", "rays of a ping (--chip, --size)"},
+                                        {"seabed tiles", "tiles of the seabed (--chip, --size)"},
+                                        {"heightfield.spacing", "--heightmap-spacing"},
+                                        {"heightfield.", "--heightmap "}};
+    for (const auto& [from, to] : names)
+        if (const std::size_t at = message.find(from); at != std::string::npos)
+            return message.replace(at, std::string_view(from).size(), to);
+    return message;
+}
+
+}  // namespace
+
+std::vector<file> files_of(const options& o, const plan& p, const stock& shared) try {
+    in::serial_executor alone;
+    const drawn d = draw(o, p, shared, alone);
+    const in::target_label& label = d.labels.targets.front();
+    const auto target = in::target_mask(d.labels, label.instance);
+    const auto shadow = in::shadow_mask(d.labels, label.instance);
+    std::vector<file> files{{image_path(p.class_name, p.index),
+                             d.gray.empty() ? examples::png_bytes(d.color) : examples::png_bytes(d.gray)},
+                            {mask_path("target", p.index), examples::png_bytes(target)},
+                            {mask_path("shadow", p.index), examples::png_bytes(shadow)},
+                            {mask_path("seabed", p.index), examples::png_bytes(d.labels.seabed)}};
+
+    const double metres = d.known.metres_per_pixel;
+    const auto annotation = [&](const std::string& category, const char* of, const in::label_box& box,
+                                std::int64_t area, const auto& mask) {
+        return json{{"category", category},
+                    {"mask", of},
+                    {"bbox", {box.x, box.y, box.width, box.height}},
+                    {"bbox_m", {box.x * metres, box.y * metres, box.width * metres, box.height * metres}},
+                    {"area", area},
+                    {"segmentation", {{"size", {o.size, o.size}}, {"counts", run_lengths(mask, box)}}}};
+    };
+    json record{{"id", p.index}};
+    record["files"] = {entry_of("image", files[0]), entry_of("target_mask", files[1]),
+                       entry_of("shadow_mask", files[2]), entry_of("seabed_mask", files[3])};
+    record["size"] = o.size;
+    record["annotations"] = {annotation(p.class_name, "target_mask", label.box, label.area, target),
+                             annotation("shadow", "shadow_mask", label.shadow_box, label.shadow_area, shadow)};
+    record["parameters"] = parameters_of(o, p, shared, d);
+    files.push_back({record_path(p.index), sealed(record)});
+    return files;
+} catch (const in::invalid_input& error) {
+    throw in::io_error("image " + std::to_string(p.index) + ": " + in_words_of_options(error.what()));
+}
+
+void set_packing() {
+    // Noise and flat masks pack no worse as they are than filtered any of PNG's ways, which to try takes twice as long,
+    // and no better for longer looking.
+    stbi_write_force_png_filter = 0;
+    stbi_write_png_compression_level = 1;
+}
+
+}  // namespace generator

@@ -1,0 +1,112 @@
+#include "record.hpp"
+
+#include <insonify/io/file.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <vector>
+
+#include "checksum.hpp"
+#include "decode.hpp"
+
+namespace generator {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view seal = R"(,"sha256":")", tail = "\"}\n";
+constexpr std::size_t sum_digits = 64;
+
+/// What is wrong with one file of a record.
+std::optional<std::string> file_fault(const fs::path& root, const json& record, const json& entry, bool thorough) {
+    const std::string name = entry.at("path").get<std::string>();
+    const std::string path = (root / name).string();
+    std::error_code failed;
+    const std::uint64_t size = fs::file_size(path, failed);
+    if (failed) return name + ": is missing (" + failed.message() + ")";
+    const auto expected = entry.at("bytes").get<std::uint64_t>();
+    if (size != expected) return name + ": has " + std::to_string(size) + " bytes, had " + std::to_string(expected);
+    const std::string bytes = insonify::read_file(path);
+    const std::string sum = sha256(bytes);
+    if (sum != entry.at("sha256"))
+        return name + ": SHA-256 is " + sum + ", was " + entry.at("sha256").get<std::string>();
+    if (thorough) return decode_fault(bytes, name, record, entry);
+    return std::nullopt;
+}
+
+/// Sorted names in a folder.
+std::vector<std::string> names_in(const fs::path& folder) {
+    std::vector<std::string> names;
+    if (fs::is_directory(folder))
+        for (const auto& entry : fs::directory_iterator(folder)) {
+            const std::string name = entry.path().filename().string();
+            if (!name.starts_with('.')) names.push_back(name);
+        }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+}  // namespace
+
+json entry_of(const std::string& of, const file& f) {
+    return {{"of", of}, {"path", f.path}, {"bytes", f.bytes.size()}, {"sha256", sha256(f.bytes)}};
+}
+
+std::string sealed(const json& record) {
+    // A name of a file may be no UTF-8.
+    std::string text = record.dump(-1, ' ', false, json::error_handler_t::replace);
+    text.pop_back();  // the closing brace
+    const std::string sum = sha256(text);
+    text += seal;
+    text += sum;
+    text += tail;
+    return text;
+}
+
+json parse_record(const std::string& text, const std::string& name) {
+    const std::size_t end = seal.size() + sum_digits + tail.size();
+    const bool whole = text.size() > end && text.ends_with(tail) &&
+                       text.compare(text.size() - end, seal.size(), seal) == 0 &&
+                       text.compare(text.size() - end + seal.size(), sum_digits,
+                                    sha256(std::string_view(text).substr(0, text.size() - end))) == 0;
+    json record = whole ? json::parse(text, nullptr, false) : json();
+    if (!record.is_object())
+        throw insonify::io_error(name + ": is torn or changed; the command that made the image makes it again");
+    // The paths of a record are within its folder, whoever wrote it.
+    for (const json& entry : record.value("files", json::array())) {
+        const std::string path = entry.value("path", "");
+        if (!(path.starts_with("images/") || path.starts_with("masks/")) || path.find("..") != std::string::npos)
+            throw insonify::io_error(name + ": names the file '" + path + "', which is none of a data set; remove it");
+    }
+    return record;
+}
+
+std::optional<std::string> fault_of(const fs::path& root, std::uint64_t index, bool thorough) {
+    const std::string name = record_path(index);
+    const std::string path = (root / name).string();
+    if (!fs::exists(path)) return name + ": is missing";
+    try {
+        const json record = parse_record(insonify::read_file(path), name);
+        if (record.at("id") != index) return name + ": is the record of image " + record.at("id").dump();
+        for (const json& entry : record.at("files"))
+            if (auto fault = file_fault(root, record, entry, thorough)) return fault;
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return std::nullopt;
+}
+
+void for_each_record(const fs::path& root, const std::function<void(const std::string&, std::uint64_t)>& visit) {
+    for (const std::string& block : names_in(root / "records"))
+        for (const std::string& name : names_in(root / "records" / block)) {
+            std::uint64_t index = 0;
+            std::from_chars(name.data(), name.data() + name.size(), index);
+            const std::string path = "records/" + block + "/" + name;
+            if (path != record_path(index))
+                throw insonify::io_error((root / path).string() + ": is no record; remove it");
+            visit(path, index);
+        }
+}
+
+}  // namespace generator

@@ -1,0 +1,102 @@
+// What all images of a data set share: meshes, heightmap and references.
+#pragma once
+
+#include <insonify/insonify.hpp>
+
+#include <map>
+
+#include "inputs.hpp"
+#include "plan.hpp"
+
+namespace generator {
+
+namespace in = insonify;
+
+/// What all images share: meshes, heightmap and references, read once.
+class stock {
+  public:
+    /// @throws io_error for a file that can't be read
+    explicit stock(const options& o) {
+        input_reader reader(o.input_limit);
+        for (const std::string& mesh : o.meshes) {
+            const std::size_t equals = mesh.find('=');
+            const std::string name = mesh.substr(0, equals), path = mesh.substr(equals + 1);
+            in::mesh shape = in::read_obj(reader.read("--mesh " + name, path), "--mesh " + name + " " + path);
+            if (shape.triangles.empty()) throw in::io_error("--mesh " + name + " " + path + ": holds no polygon");
+            meshes_[name] = upright(std::move(shape), o.mesh_up == "y");
+        }
+        if (!o.heightmap.empty()) {
+            const in::image<float> picture = reader.read_picture("--heightmap", o.heightmap);
+            if (picture.width() < 2 || picture.height() < 2)
+                throw in::io_error("--heightmap " + o.heightmap + ": has fewer than 2 x 2 pixels");
+            heightmap_ = in::seabed::from_image(picture, o.heightmap_spacing, static_cast<float>(o.heightmap_scale));
+            check_heights(o);
+        }
+        for (const std::string& path : picture_paths(o.references)) {
+            names_.push_back(std::filesystem::path(path).filename().string());
+            references_.push_back(in::match_histogram(with_values(reader.read_picture("--reference", path), path)));
+        }
+        inputs_ = std::move(reader).list();
+        if (references_.empty() && o.demo) {
+            names_.push_back("");
+            references_.push_back(in::match_histogram(made_up_reference()));
+        }
+    }
+
+    std::size_t references() const { return references_.size(); }
+    const in::match_histogram& reference(std::size_t i) const { return references_[i]; }
+    const std::string& reference_name(std::size_t i) const { return names_[i]; }
+    const in::seabed::heightfield& heightmap() const { return heightmap_; }
+    const std::vector<input>& inputs() const { return inputs_; }
+
+    /// The target of a plan in its own frame, of the size that the plan says.
+    in::mesh target(const plan& p) const {
+        const auto s = static_cast<float>(p.size), a = static_cast<float>(p.aspect);
+        if (p.class_name == "cylinder") return to_mesh(in::cylinder{.radius = s / 2, .length = 3 * s * a});
+        if (p.class_name == "cube") return to_mesh(in::cube{.size = {s, s * a, s}});
+        if (p.class_name == "cone") return to_mesh(in::cone{.radius = 0.6f * s * a, .height = 1.2f * s});
+        if (p.class_name == "sphere") return to_mesh(in::sphere{.radius = s / 2, .aspect = {a, 1, 1}});
+        const in::mesh& unit = meshes_.at(p.class_name);
+        return in::transformed(unit, {glm::dmat3(2 * p.size), {}});
+    }
+
+  private:
+    /// Turned so that z is up, moved to its middle, and scaled to a largest extent of 1.
+    static in::mesh upright(in::mesh m, bool y_up) {
+        if (y_up) m = in::transformed(std::move(m), in::to_world({.roll = in::literals::operator""_deg(90ull)}));
+        const in::bounding_box box = in::bounds(m);
+        const glm::dvec3 size = box.size();
+        const double largest = (std::max)({size.x, size.y, size.z, 1e-9});
+        return in::transformed(std::move(m), {glm::dmat3(1 / largest), -box.centre() / largest});
+    }
+
+    void check_heights(const options& o) const {
+        bool any = false;
+        for (const float h : heightmap_.heights.pixels()) {
+            if (!in::numeric::is_finite(h)) continue;
+            any = true;
+            if (!(h >= -1e5f && h <= 1e5f))
+                throw in::io_error("--heightmap " + o.heightmap + ": has a height of " + in::detail::to_text(h) +
+                                   " m after --heightmap-scale " + in::detail::to_text(o.heightmap_scale) +
+                                   ", expected -100000 to 100000; take a smaller scale");
+        }
+        if (!any) throw in::io_error("--heightmap " + o.heightmap + ": holds no finite height");
+    }
+
+    static in::image<float> with_values(in::image<float> picture, const std::string& path) {
+        for (const float value : picture.pixels())
+            if (in::numeric::is_finite(value)) return picture;
+        throw in::io_error("--reference " + path + ": holds no finite value");
+    }
+
+    /// Gray values as a sonar's: Rayleigh amplitudes around a quarter of full scale.
+    static in::image<float> made_up_reference() { return in::image<float>(256, 256, 0.25f) | in::rayleigh{.seed = 1}; }
+
+    std::map<std::string, in::mesh> meshes_;
+    in::seabed::heightfield heightmap_;
+    std::vector<in::match_histogram> references_;
+    std::vector<std::string> names_;  ///< of the references
+    std::vector<input> inputs_;
+};
+
+}  // namespace generator

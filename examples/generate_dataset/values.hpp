@@ -1,0 +1,101 @@
+// Values of options: parsed strictly, refused with the option, the value and what to write instead.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "options.hpp"
+#include <CLI/CLI.hpp>
+
+namespace generator {
+
+/// Digits alone, in [low, high]: -1, 1e3 and 10^12 are refused, not wrapped or cut off.
+inline CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
+    return CLI::Validator(
+        [low, high](std::string& text) -> std::string {
+            std::uint64_t value = 0;
+            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (status == std::errc{} && end == text.data() + text.size() && value >= low && value <= high) return "";
+            return "'" + text + "' is not a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+        },
+        "", "whole number");
+}
+
+/// A number in [low, high]; not NaN.
+inline CLI::Validator number(double low, double high) {
+    return CLI::Validator(
+        [low, high](std::string& text) -> std::string {
+            double value = 0;
+            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (status == std::errc{} && end == text.data() + text.size() && value >= low && value <= high) return "";
+            return "'" + text + "' is not a number from " + insonify::detail::to_text(low) + " to " +
+                   insonify::detail::to_text(high);
+        },
+        "", "number");
+}
+
+/// `low:high`, or one number.
+inline range parse_range(const std::string& name, const std::string& text) {
+    const auto number = [&](const std::string& part) {
+        double value = 0;
+        const auto [end, status] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (status != std::errc{} || end != part.data() + part.size() || !std::isfinite(value))
+            throw CLI::ValidationError(name, "'" + text + "' is neither a number nor a range low:high");
+        return value;
+    };
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos) return {number(text), number(text)};
+    const range r{number(text.substr(0, colon)), number(text.substr(colon + 1))};
+    if (!(r.low <= r.high)) throw CLI::ValidationError(name, "'" + text + "': low is above high");
+    return r;
+}
+
+inline noise_step parse_noise(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const std::string kind = text.substr(0, colon);
+    const double usual = kind == "speckle" ? 0.05 : kind == "gaussian" ? 0.01 : kind == "poisson" ? 255 : -1;
+    if ((kind == "rayleigh" || kind == "seabed") && colon == std::string::npos) return {kind, 0};
+    if (usual < 0)
+        throw CLI::ValidationError("--noise", "'" + text +
+                                                  "' is not one of none, speckle:VARIANCE, gaussian:VARIANCE, "
+                                                  "poisson:PHOTONS, rayleigh, seabed");
+    if (colon == std::string::npos) return {kind, usual};
+    const range strength = parse_range("--noise", text.substr(colon + 1));
+    if (strength.low != strength.high || !(strength.low > 0 && strength.low <= 1e9))
+        throw CLI::ValidationError("--noise", "'" + text + "': the strength must be one number above 0, at most 1e9");
+    return {kind, strength.low};
+}
+
+/// The class of `--mesh CLASS=FILE`.
+inline std::string class_of(const std::string& mesh) {
+    return mesh.substr(0, mesh.find('='));
+}
+
+/// A class is a folder, a category and a cell of a table: the same name must not be two of them.
+inline void check_classes(const options& o) {
+    const auto lower = [](std::string text) {
+        for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        return text;
+    };
+    std::vector<std::string> taken{"cylinder", "cube", "cone", "sphere", "shadow"};
+    for (std::size_t i = 0; i < o.targets.size(); ++i)
+        if (std::count(o.targets.begin(), o.targets.end(), o.targets[i]) > 1)
+            throw CLI::ValidationError("--targets", "'" + o.targets[i] + "' is there twice; name each class once");
+    for (const std::string& mesh : o.meshes) {
+        const std::string name = class_of(mesh);
+        const bool plain = name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
+                           std::string::npos;
+        if (mesh.find('=') == std::string::npos || name.empty() || mesh.back() == '=' || !plain || name[0] == '-' ||
+            name.size() > 64)
+            throw CLI::ValidationError("--mesh", "'" + mesh +
+                                                     "' is not CLASS=FILE with a class of letters, digits, _ and -, 64 "
+                                                     "at most");
+        if (std::find(taken.begin(), taken.end(), lower(name)) != taken.end())
+            throw CLI::ValidationError("--mesh",
+                                       "'" + mesh + "': the class " + name + " is taken; choose another name");
+        taken.push_back(lower(name));
+    }
+}
+
+}  // namespace generator
