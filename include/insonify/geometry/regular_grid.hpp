@@ -120,10 +120,10 @@ struct cell_cut {
 
 }  // namespace detail
 
-/// How a mesh lies on a regular grid; nothing if it doesn't. Vertices may be off by a 256th of a step; all heights are
-/// finite.
+/// How a mesh lies on a regular grid; nothing if it doesn't. All heights are finite.
+/// @param off  by which share of a step vertices may lie beside the lattice
 template <executor_argument E = serial_executor>
-std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}) {
+std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
     if (m.triangles.size() < 2) return std::nullopt;
     const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
     const auto cut = detail::cell_cut::of(cell);
@@ -142,7 +142,7 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}) {
     if (!(cut->is_mirrored ? area < 0 : area > 0)) return std::nullopt;  // written so that NaN doesn't pass
     const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
     const double shorter = numeric::square_root((std::min)(square(grid.right), square(grid.up)));
-    const auto tolerance = static_cast<float>(shorter / 256);
+    const auto tolerance = static_cast<float>(shorter * off);
 
     std::atomic<bool> differs = false;
     bulk_ranges(ex, rows, 16, [&](std::size_t first, std::size_t last) {

@@ -2,17 +2,22 @@
 #pragma once
 
 #include <insonify/geometry/bounds.hpp>
+#include <insonify/geometry/coherent_order.hpp>
 #include <insonify/geometry/normals.hpp>
+#include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/surface_kind.hpp>
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// An immutable mesh: copies refer to the same triangles. What renderers need of it is found once, when it is made: its
-/// bounds, smooth normals if it brings none, and whether it is closed or a heightfield.
+/// An immutable mesh: copies refer to the same triangles. A mesh whose triangles follow one another without order, as
+/// those of a shuffled one, is renumbered, triangles and vertices: otherwise it keeps its numbers. What renderers need
+/// of it is found once, when it is made: its bounds, smooth normals if it brings none, whether it is closed or a
+/// heightfield, and the regular grid that a heightfield's vertices lie on, if they do.
 class shared_mesh {
   public:
     /// No triangles.
@@ -27,19 +32,25 @@ class shared_mesh {
     /// Around all finite positions, in the mesh's own frame.
     const bounding_box& box() const { return state_->box; }
     surface_kind kind() const { return state_->kind; }
+    /// The grid of a heightfield whose vertices lie on one, within `grid_error` steps; null otherwise.
+    const regular_grid* grid() const { return state_->grid ? &*state_->grid : nullptr; }
+    static constexpr double grid_error = 0x1p-12;
 
   private:
     struct state {
         mesh shape;
         bounding_box box;
         surface_kind kind = surface_kind::open;
+        std::optional<regular_grid> grid;
 
         state() = default;
         explicit state(mesh m) : shape(std::move(m)) {
             validate(shape);
-            if (shape.normals.empty()) shape.normals = smooth_normals(shape);
             box = bounds(shape);
+            if (detail::is_incoherent(shape)) detail::order_along_curve(shape, box);
+            if (shape.normals.empty()) shape.normals = smooth_normals(shape);
             kind = kind_of(shape);
+            if (kind == surface_kind::heightfield) grid = regular_grid_of(shape, serial_executor{}, grid_error);
         }
     };
     static std::shared_ptr<const state> empty() { return std::make_shared<const state>(); }

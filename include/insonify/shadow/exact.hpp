@@ -5,14 +5,16 @@
 // into the tiles' cells when they are tested, and each triangle walks over the points under it
 // (detail/occlusion_kernel.hpp). The cost is linear in both, and there is no resolution and no bias.
 //
-// Every answer is that of one rule in doubles (detail/blocking.hpp), whatever the mesh: open, closed, self-intersecting,
-// inside out. Triangles are left out where a proof allows it (shadow::skip).
+// Every answer is that of one rule in doubles (detail/blocking.hpp), whatever the mesh: open, closed,
+// self-intersecting, inside out. Triangles are left out where a proof allows it (shadow::skip).
 #pragma once
 
 #include <insonify/shadow/detail/blocking.hpp>
+#include <insonify/shadow/detail/horizon_bounds.hpp>
 #include <insonify/shadow/detail/occlusion_kernel.hpp>
 
 #include <array>
+#include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -27,7 +29,8 @@ class exact_occlusion {
     /// @throws invalid_input for an index without a position, or a light as light_frame refuses it
     template <executor E>
     exact_occlusion(std::span<const caster> casters, const any_light& light, const bounding_box& bounds, E& ex)
-        : casters_(casters.begin(), casters.end()), light_(light), rays_(light, reach_of(bounds)) {
+        : casters_(casters.begin(), casters.end()), rays_(light, reach_of(bounds)) {
+        if (const auto* point = std::get_if<point_light>(&light)) near_light_ = *point;
         std::size_t triangles = 0;
         for (const caster& c : casters_) {
             insonify::detail::require_indices(c.mesh, ex);
@@ -47,6 +50,7 @@ class exact_occlusion {
                 upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
             }
             add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach * (1 + frame.cot_elevation()), 0, ex);
+            for (const caster& c : casters_) add_horizon(c, frame, ex);
         } else {
             const auto& point = std::get<point_light>(light);
             for (int i = 0; i < 6; ++i) {
@@ -56,6 +60,34 @@ class exact_occlusion {
                     continue;
                 }
                 add_plane(plane, {glm::dvec2(-1), glm::dvec2(2), side, side}, 0x1p-30, 0x1p-20 * reach, ex);
+            }
+        }
+    }
+
+    /// See collective_occlusion.
+    void screen(const points& at, const shares& into) const {
+        std::fill(into.caster.begin(), into.caster.end(), invalid_id);
+        if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
+        const horizon_state* own = nullptr;
+        std::uint32_t mesh = invalid_id;
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            into.lit[i] = unknown;
+            if (at.mesh[i] != mesh) {
+                mesh = at.mesh[i];
+                own = at.face_light && mesh < horizons_.size() && horizons_[mesh].bounds ? &horizons_[mesh] : nullptr;
+            }
+            const glm::dvec3 p = at[i];
+            auto known = detail::horizon_bounds::answer::unknown;
+            if (own != nullptr) known = own->bounds->at(transform_point(own->to_mesh, p));
+            if (near_light_) continue;
+            const plane_state& state = planes_.front();
+            const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(p))];
+            if (occupant == no_caster) {
+                into.lit[i] = 1;
+            } else if (occupant == mesh && known != detail::horizon_bounds::answer::unknown) {
+                const bool is_dark = known == detail::horizon_bounds::answer::dark;
+                into.lit[i] = is_dark ? 0.0f : 1.0f;
+                if (is_dark) into.caster[i] = mesh;
             }
         }
     }
@@ -109,14 +141,21 @@ class exact_occlusion {
 
   private:
     static constexpr std::size_t most_points = 65536;
+    static constexpr std::uint32_t no_caster = invalid_id, several_casters = invalid_id - 1;
+    static constexpr double shared_mesh_grid_error = 0x1p-12;  ///< see shared_mesh::grid_error
 
     struct plane_state {
         detail::light_plane plane;
         detail::plane_tiles tiles;
         float error = 0;  ///< of coordinates on it
         std::vector<detail::plane_caster> casters;
-        glm::dvec2 scale{};                      ///< tiles a unit
-        std::vector<std::uint8_t> is_occupied{};  ///< whether triangles touch a tile
+        glm::dvec2 scale{};                     ///< tiles a unit
+        std::vector<std::uint32_t> occupant{};  ///< of each tile: the caster whose triangles alone touch it,
+                                                ///< or one of the following
+    };
+    struct horizon_state {
+        affine to_mesh;
+        std::optional<detail::horizon_bounds> bounds;
     };
     using receivers_of = insonify::detail::unfilled_vector<detail::receiver>;
     /// Points of a run of batches by tile.
@@ -133,8 +172,7 @@ class exact_occlusion {
     /// No coordinate of a point is larger. Casters may reach farther; what they block does not.
     static double reach_of(const bounding_box& bounds) {
         double reach = 0;
-        for (int i = 0; i < 3 && !bounds.empty(); ++i)
-            reach = (std::max)({reach, -bounds.lower[i], bounds.upper[i]});
+        for (int i = 0; i < 3 && !bounds.empty(); ++i) reach = (std::max)({reach, -bounds.lower[i], bounds.upper[i]});
         return reach;
     }
     /// Whether anything within a box may lie over a plane of a near light.
@@ -148,6 +186,15 @@ class exact_occlusion {
         return !(outside[0] || outside[1] || outside[2] || outside[3]);
     }
 
+    /// What is known beforehand of most points of a heightfield on a grid.
+    template <executor E>
+    void add_horizon(const caster& c, const light_frame& frame, E& ex) {
+        horizon_state& state = horizons_.emplace_back();
+        if (c.grid == nullptr || c.may_skip != skip::facing_its_own) return;
+        state.to_mesh = inverse(c.placement);
+        state.bounds.emplace(c.mesh, *c.grid, transform_direction(state.to_mesh, -frame.to_light()),
+                             shared_mesh_grid_error, ex);
+    }
     template <executor E>
     void add_plane(const detail::light_plane& plane, detail::plane_tiles tiles, double error, double least_depth,
                    E& ex) {
@@ -156,9 +203,12 @@ class exact_occlusion {
         tiles.size += 2 * margin;
         plane_state state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
         for (const caster& c : casters_) state.casters.emplace_back(c, plane, tiles, least_depth, ex);
+        state.occupant.assign(tiles.count(), no_caster);
         for (std::size_t tile = 0; tile < tiles.count(); ++tile)
-            state.is_occupied.push_back(std::any_of(state.casters.begin(), state.casters.end(),
-                                                    [&](const auto& c) { return !c.bin(tile).empty(); }));
+            for (std::size_t i = 0; i < state.casters.size(); ++i)
+                if (!state.casters[i].bin(tile).empty())
+                    state.occupant[tile] =
+                        state.occupant[tile] == no_caster ? static_cast<std::uint32_t>(i) : several_casters;
         planes_.push_back(std::move(state));
     }
 
@@ -196,24 +246,25 @@ class exact_occlusion {
         receivers_of found(most);
         insonify::detail::unfilled_vector<std::uint32_t> keys(most);
         out.starts.assign(tiles + 1, 0);
-        const auto* const near_light = std::get_if<point_light>(&light_);
         for (std::size_t part = first; part < last; ++part) {
             const points& some = at[part];
             for (std::size_t i = 0; i < some.size(); ++i) {
                 const glm::dvec3 p = some[i];
                 const auto which =
-                    near_light == nullptr ? 0 : static_cast<std::size_t>(detail::light_plane::side_of(*near_light, p));
+                    near_light_ ? static_cast<std::size_t>(detail::light_plane::side_of(*near_light_, p)) : 0;
                 const plane_state& state = planes_[which];
                 if (state.casters.empty()) continue;
                 glm::dvec3 seen = state.plane(p);
-                if (near_light != nullptr) seen = detail::light_plane::seen(seen);
+                if (near_light_) seen = detail::light_plane::seen(seen);
                 const glm::dvec2 from = glm::dvec2(seen) - state.tiles.lower;
-                const int column = hold(from.x * state.scale.x, state.tiles.columns),
-                          row = hold(from.y * state.scale.y, state.tiles.rows);
-                const auto tile = static_cast<std::size_t>(row * state.tiles.columns + column);
-                if (!state.is_occupied[tile]) continue;
-                found[count] = {static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(seen.z),
-                                static_cast<std::uint32_t>(part << 16 | i), some.mesh[i], some.triangle[i],
+                const std::size_t tile = tile_of(state, seen);
+                if (state.occupant[tile] == no_caster) continue;
+                found[count] = {static_cast<float>(from.x),
+                                static_cast<float>(from.y),
+                                static_cast<float>(seen.z),
+                                static_cast<std::uint32_t>(part << 16 | i),
+                                some.mesh[i],
+                                some.triangle[i],
                                 some.casters};
                 keys[count] = static_cast<std::uint32_t>(plane_start[which] + tile);
                 ++out.starts[keys[count] + 1];
@@ -224,9 +275,12 @@ class exact_occlusion {
         std::vector<std::uint32_t> next(out.starts.begin(), out.starts.end() - 1);
         for (std::size_t i = 0; i < count; ++i) all[out.first + next[keys[i]]++] = found[i];
     }
-    static int hold(double at, int count) {
-        return static_cast<int>((std::min)((std::max)(at, 0.0), count - 1.0));
+    static std::size_t tile_of(const plane_state& state, const glm::dvec3& seen) {
+        const int column = hold((seen.x - state.tiles.lower.x) * state.scale.x, state.tiles.columns),
+                  row = hold((seen.y - state.tiles.lower.y) * state.scale.y, state.tiles.rows);
+        return static_cast<std::size_t>(row * state.tiles.columns + column);
     }
+    static int hold(double at, int count) { return static_cast<int>((std::min)((std::max)(at, 0.0), count - 1.0)); }
 
     void test_tile(std::size_t number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
                    std::span<const points> at, std::span<const shares> into) const {
@@ -242,14 +296,16 @@ class exact_occlusion {
             const shadow::caster& c = casters_[i];
             const auto decide = [&](std::uint32_t triangle, std::size_t k) {
                 const glm::uvec3& t = c.mesh.triangles[triangle];
-                const auto corner = [&](int j) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]])); };
+                const auto corner = [&](int j) {
+                    return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]]));
+                };
                 return rays_.are_blocked(corner(0), corner(1), corner(2),
                                          at[cells.point[k] >> 16][cells.point[k] & 0xFFFFu]);
             };
             insonify::detail::dispatch(
                 detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{
-                    caster, caster.bin(tile), static_cast<std::uint32_t>(i), c.may_skip, is_turned(c, *state), state->error,
-                    cells, decide},
+                    caster, caster.bin(tile), static_cast<std::uint32_t>(i), c.may_skip, is_turned(c, *state),
+                    state->error, cells, decide},
                 best_isa());
         }
         for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -266,9 +322,10 @@ class exact_occlusion {
     }
 
     std::vector<caster> casters_;
-    any_light light_;
+    std::optional<point_light> near_light_;
     detail::light_rays rays_;
-    std::vector<plane_state> planes_;  ///< one, or six of which some are empty
+    std::vector<plane_state> planes_;      ///< one, or six of which some are empty
+    std::vector<horizon_state> horizons_;  ///< of the casters, under parallel light
 };
 
 /// Hard shadows, exact for every point: the default.

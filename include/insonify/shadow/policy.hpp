@@ -7,6 +7,7 @@
 
 #include <insonify/core/executor.hpp>
 #include <insonify/geometry/bounds.hpp>
+#include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/transform.hpp>
 #include <insonify/shadow/light.hpp>
 
@@ -25,9 +26,9 @@ inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
 
 /// Which triangles of a caster a test may leave out, because others block the same points.
 enum class skip {
-    nothing,          ///< both sides of all triangles block
-    facing,           ///< those whose front the light meets: the mesh is closed, and no point lies inside of it
-    facing_its_own,   ///< the same for points on the caster itself: it is a heightfield, lit and seen from above
+    nothing,         ///< both sides of all triangles block
+    facing,          ///< those whose front the light meets: the mesh is closed, and no point lies inside of it
+    facing_its_own,  ///< the same for points on the caster itself: it is a heightfield, lit and seen from above
 };
 
 /// A mesh that blocks light, in the frame in which the light is described. Both sides of its triangles block.
@@ -37,14 +38,16 @@ struct caster {
     affine placement;  ///< from the mesh's frame to the light's
     bounding_box box;  ///< around the mesh, in its own frame
     skip may_skip = skip::nothing;
+    const regular_grid* grid = nullptr;  ///< on which the vertices lie, see shared_mesh; or null
 };
 
 /// Points to test, as arrays of equal length.
 struct points {
-    std::span<const double> x, y, z;           ///< metres
-    std::span<const std::uint32_t> mesh;       ///< number of the caster that a point lies on, or invalid_id
-    std::span<const std::uint32_t> triangle;   ///< of that caster; it does not block its own points
-    std::uint32_t casters = invalid_id;        ///< casters numbered below this matter; others need not be tested
+    std::span<const double> x, y, z;          ///< metres
+    std::span<const std::uint32_t> mesh;      ///< number of the caster that a point lies on, or invalid_id
+    std::span<const std::uint32_t> triangle;  ///< of that caster; it does not block its own points
+    std::uint32_t casters = invalid_id;       ///< casters numbered below this matter; others need not be tested
+    bool face_light = true;                   ///< their own facets do; else only the caster's name matters
 
     std::size_t size() const { return x.size(); }
     glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
@@ -68,17 +71,18 @@ using any_light = std::variant<directional_light, point_light>;
 
 /// `structure.test(points, shares)` fills in all shares; it may be called for several batches at the same time.
 template <class S>
-concept occlusion = requires(const S& structure, const points& at, const shares& into) { structure.test(at, into); };
+concept occlusion = requires(const S& structure, const points& at, const shares& into) {
+    structure.test(at, into);
+};
 
 /// `policy.build(casters, light, bounds, executor)` gives an occlusion. All points that it will be asked about lie
 /// within `bounds`; the casters' meshes outlive it. Surfaces that face away from the light are dark under every policy:
 /// that is decided before, from the facet, and such a point is only tested for the name of its caster.
 template <class P>
-concept casting_policy =
-    requires(const P& policy, std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
-             serial_executor& ex) {
-        { policy.build(casters, light, bounds, ex) } -> occlusion;
-    };
+concept casting_policy = requires(const P& policy, std::span<const caster> casters, const any_light& light,
+                                  const point_bounds& bounds, serial_executor& ex) {
+    { policy.build(casters, light, bounds, ex) } -> occlusion;
+};
 
 /// No shadows: nothing is built, tested or compiled.
 struct none {};
@@ -95,12 +99,17 @@ double radius_of(const P& p) {
         return 0;
 }
 
-/// Occlusion that gains from seeing all points of a picture at once, batch by batch.
+/// Occlusion that gains from seeing all points of a picture at once. `structure.screen(points, shares)` answers what
+/// can be told of points one by one and leaves `unknown` where it cannot; `structure.test(batches, shares, executor)`
+/// answers the rest, of all batches together.
 template <class S>
-concept collective_occlusion = occlusion<S> && requires(const S& structure, std::span<const points> at,
-                                                        std::span<const shares> into, serial_executor& ex) {
-    structure.test(at, into, ex);
+concept collective_occlusion = occlusion<S> &&
+    requires(const S& structure, const points& at, const shares& into, std::span<const points> all_at,
+             std::span<const shares> all_into, serial_executor& ex) {
+    structure.screen(at, into);
+    structure.test(all_at, all_into, ex);
 };
+inline constexpr float unknown = -1;  ///< in shares::lit, between screening and testing
 
 }  // namespace shadow
 }  // namespace INSONIFY_ABI

@@ -39,11 +39,10 @@ inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh
     const bool is_lit_from_above = view.has_near_light() ? is_above(from.light) : from.light.z > 0;
     const bool is_lit_from_outside = !view.has_near_light() || is_outside(from.light);
     shadow::skip may_skip = shadow::skip::nothing;
-    if (m.kind == surface_kind::closed && is_outside(from.eye) && is_lit_from_outside)
-        may_skip = shadow::skip::facing;
+    if (m.kind == surface_kind::closed && is_outside(from.eye) && is_lit_from_outside) may_skip = shadow::skip::facing;
     if (m.kind == surface_kind::heightfield && is_above(from.eye) && is_lit_from_above)
         may_skip = shadow::skip::facing_its_own;
-    return {m.shape, m.to_rig, m.box, may_skip};
+    return {m.shape, m.to_rig, m.box, may_skip, m.grid};
 }
 
 /// Room for what becomes of points.
@@ -57,18 +56,19 @@ struct light_arrays {
     }
 };
 
-/// The batches of a tile, and where their answers go: points that face the light, which all casters concern, and those
+/// The batches of a list, and where their answers go: points that face the light, which all casters concern, and those
 /// that face away, whose shadows only name targets.
-struct tile_batches {
+struct point_batches {
     shadow::points at[2];
     shadow::shares into[2];
 
     /// @param targets  casters numbered below this are targets
-    tile_batches(const point_tile& points, const shadow::shares& all, std::uint32_t targets)
+    point_batches(const point_list& points, const shadow::shares& all, std::uint32_t targets)
         : at{points.facing_points(), points.averted_points()},
           into{{all.lit.first(points.facing), all.caster.first(points.facing)},
                {all.lit.subspan(points.facing), all.caster.subspan(points.facing)}} {
         at[1].casters = targets;
+        at[1].face_light = false;
     }
     template <class Visit>
     void for_each(const Visit& visit) const {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <insonify/geometry/bounds.hpp>
-#include <insonify/geometry/surface_kind.hpp>
+#include <insonify/geometry/shared_mesh.hpp>
 #include <insonify/raster/assembly.hpp>
 #include <insonify/sonar/rig.hpp>
 
@@ -19,6 +19,7 @@ struct placed_mesh {
     bounding_box box;  ///< of the shape, in its own frame
     affine to_rig;
     surface_kind kind = surface_kind::open;
+    const regular_grid* grid = nullptr;  ///< see shared_mesh
 };
 
 /// Which pixels may show an object, or something in its shadow that lies no lower than `lowest`, in the rig's frame:

@@ -1,8 +1,8 @@
 // From a visibility buffer to points: where the surfaces lie that pixels show, and which of them face the light.
 //
-// The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, held to the
-// triangle: rounding to sub-pixels may show a triangle beside its edge. Everything is computed in the mesh's own frame,
-// in which the camera and the light are placed once.
+// The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, held to
+// the triangle: rounding to sub-pixels may show a triangle beside its edge. Everything is computed in the mesh's own
+// frame, in which the camera and the light are placed once.
 //
 // Based on: Christopher A. Burns, Warren A. Hunt. The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading.
 // JCGT 2, 2013. Tomas Moeller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
@@ -23,26 +23,22 @@ namespace detail {
 struct point_arrays {
     unfilled_vector<double> x, y, z;
     unfilled_vector<std::uint32_t> mesh, triangle;
-    unfilled_vector<std::uint16_t> pixel;  ///< counted from the tile's first
+    unfilled_vector<std::uint32_t> pixel;  ///< the caller's number of it
 
     explicit point_arrays(std::size_t count)
         : x(count), y(count), z(count), mesh(count), triangle(count), pixel(count) {}
 };
 
-/// The points of a tile that are tested for shadows: those that face the light from the front of its room, those that
-/// face away from the back.
-class point_tile {
+/// Points that are tested for shadows: those that face the light from the front of their room, those that face away
+/// from the back.
+class point_list {
   public:
-    pixel_box box{0, 0, -1, -1};
     std::size_t facing = 0, averted = 0;
 
-    point_tile() = default;
-    /// @param first  of the arrays; there is room for as many points as the tile has pixels
-    point_tile(point_arrays& arrays, std::size_t first, const pixel_box& tile)
-        : box(tile),
-          arrays_(&arrays),
-          first_(first),
-          room_(static_cast<std::size_t>(tile.width()) * static_cast<std::size_t>(tile.height())) {}
+    point_list() = default;
+    /// @param first  of the arrays, of `room` points
+    point_list(point_arrays& arrays, std::size_t first, std::size_t room)
+        : arrays_(&arrays), first_(first), room_(room) {}
 
     std::size_t size() const { return facing + averted; }
     shadow::points facing_points() const { return part(first_, facing); }
@@ -50,9 +46,15 @@ class point_tile {
     /// The pixel and the caster of a point; facing ones are counted first.
     std::size_t pixel(std::size_t point) const { return arrays_->pixel[at(point)]; }
     std::uint32_t caster(std::size_t point) const { return arrays_->mesh[at(point)]; }
+    /// Adds a point of another list.
+    void add(const point_list& from, std::size_t point, std::uint32_t pixel) {
+        const std::size_t i = from.at(point);
+        const point_arrays& a = *from.arrays_;
+        add(point < from.facing, a.x[i], a.y[i], a.z[i], a.mesh[i], a.triangle[i], pixel);
+    }
 
     INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
-                             std::uint16_t pixel) {
+                             std::uint32_t pixel) {
         const std::size_t to = first_ + (is_facing ? facing++ : room_ - ++averted);
         arrays_->x[to] = x;
         arrays_->y[to] = y;
@@ -105,7 +107,8 @@ struct point_kernel {
     std::span<const shown_pixel> pixels;
     bool has_near_light;
     bool wants_averted;
-    point_tile& tile;
+    const pixel_box& box;
+    point_list& points;
 
     template <int Width>
     INSONIFY_INLINE void run() const {
@@ -125,7 +128,7 @@ struct point_kernel {
         into = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     }
     template <int N>
-    using corners = const glm::uvec3* [static_cast<unsigned>(N)];
+    using corners = const glm::uvec3 * [static_cast<unsigned>(N)];
 
     /// The vectors at one corner of each triangle. Whole rows of four floats are read where none is the array's last.
     template <int N>
@@ -169,8 +172,8 @@ struct point_kernel {
             t[k] = &s.mesh.triangles[pixel(k).triangle];
             greatest = (std::max)(greatest, (std::max)((std::max)(t[k]->x, t[k]->y), t[k]->z));
         }
-        gather<N>(column, [&](int k) { return static_cast<double>(tile.box.x0 + pixel(k).column); });
-        gather<N>(row, [&](int k) { return static_cast<double>(tile.box.y0 + pixel(k).row); });
+        gather<N>(column, [&](int k) { return static_cast<double>(box.x0 + pixel(k).column); });
+        gather<N>(row, [&](int k) { return static_cast<double>(box.y0 + pixel(k).row); });
         const bool has_last = greatest + 1 >= s.mesh.positions.size();
 
         // Where the ray through each pixel meets its triangle: a + b ab + c ac.
@@ -218,8 +221,8 @@ struct point_kernel {
         for (std::size_t k = 0; k < count; ++k) {
             if (facing[k] == 0 && !wants_averted) continue;
             const shown_pixel& shown = pixels[start + k];
-            tile.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
-                     static_cast<std::uint16_t>(shown.row * tile.box.width() + shown.column));
+            points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
+                       static_cast<std::uint32_t>(shown.row * box.width() + shown.column));
         }
     }
 

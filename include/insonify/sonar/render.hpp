@@ -11,6 +11,7 @@
 #include <insonify/sonar/seabed_reach.hpp>
 
 #include <algorithm>
+#include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -77,7 +78,8 @@ class overhead_painter {
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y, ex);
         for (const target& t : s.targets) {
-            targets_.push_back({t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.kind()});
+            targets_.push_back(
+                {t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.kind(), t.shape.grid()});
             target_pixels_.push_back(shown_pixels(view_, targets_.back()));
         }
         if (has_bottom()) sample_seabed(ex);
@@ -138,8 +140,7 @@ class overhead_painter {
         seabed::height_range range = merge(seabed::prepare(scene_.seabed).range(), {0, 0});
         const double longest = static_cast<double>(options_.reach) * longer_side;
         ground_box ground = shown_ground(view_, range);
-        if constexpr (casts)
-            ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
+        if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
         field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
         out_.stats.seabed_samples = field_.heights.size();
         model_seabed(ex);
@@ -151,8 +152,19 @@ class overhead_painter {
             lowest_ = (std::min)(lowest_, height);
             highest_ = (std::max)(highest_, height);
         }
+        find_bottom_grid();
         out_.stats.seabed_columns = field_.heights.width();
         out_.stats.seabed_rows = field_.heights.height();
+    }
+
+    /// The lattice of the bottom's vertices, if all of them are there and float holds their places.
+    void find_bottom_grid() {
+        const glm::ivec2 size(field_.heights.width(), field_.heights.height());
+        const glm::ivec2 last = bottom_first_ + size;
+        const int farthest = (std::max)((std::max)(-bottom_first_.x, last.x), (std::max)(-bottom_first_.y, last.y));
+        if (has_gaps_ || options_.edge_error > 0 || farthest >= 1 << 11) return;
+        bottom_grid_ = regular_grid{
+            size.x, size.y, field_.spacing * glm::dvec2(bottom_first_), {field_.spacing, 0}, {0, field_.spacing}, true};
     }
 
     /// The bottom's mesh, and the type of each of its vertices where there are several.
@@ -204,7 +216,8 @@ class overhead_painter {
         return {bottom_,
                 {{field_.spacing * glm::dvec2(bottom_first_), lowest_}, {field_.spacing * glm::dvec2(last), highest_}},
                 under_rig,
-                has_gaps_ ? surface_kind::open : surface_kind::heightfield};
+                has_gaps_ ? surface_kind::open : surface_kind::heightfield,
+                bottom_grid_ ? &*bottom_grid_ : nullptr};
     }
 
     /// All that the picture may show.
@@ -275,16 +288,15 @@ class overhead_painter {
             const bool is_bottom = has_bottom() && i == 0;
             const std::size_t target = has_bottom() ? i - 1 : i;
             const placed_mesh& placed = is_bottom ? bottom_in_rig_ : targets_[target];
-            const draw_stats stats = draw_lanes(
-                placed.shape, surface_placement(view_, placed),
-                surface_shader<Law>(view_, surfaces_[i], options_.law, into), depth,
-                std::span(target_pixels_).subspan(is_bottom ? 0 : target + 1),
-                {.keep = keep_depth::larger,
-                 .load = i == 0 ? depth_load::clear : depth_load::keep,
-                 .subpixel_bits = options_.subpixel_bits,
-                 .tile = options_.tile,
-                 .level = options_.level},
-                ex);
+            const draw_stats stats = draw_lanes(placed.shape, surface_placement(view_, placed),
+                                                surface_shader<Law>(view_, surfaces_[i], options_.law, into), depth,
+                                                std::span(target_pixels_).subspan(is_bottom ? 0 : target + 1),
+                                                {.keep = keep_depth::larger,
+                                                 .load = i == 0 ? depth_load::clear : depth_load::keep,
+                                                 .subpixel_bits = options_.subpixel_bits,
+                                                 .tile = options_.tile,
+                                                 .level = options_.level},
+                                                ex);
             (is_bottom ? out_.stats.seabed : out_.stats.targets) += stats;
         }
     }
@@ -306,46 +318,78 @@ class overhead_painter {
         const auto targets = static_cast<std::uint32_t>(targets_.size());
         std::vector<point_finder> finders;
         for (const surface& s : surfaces_) finders.emplace_back(view_, s);
-        const std::size_t room = static_cast<std::size_t>(options_.tile) * static_cast<std::size_t>(options_.tile);
-        if constexpr (shadow::collective_occlusion<Occlusion>) {
-            const std::size_t count = tiles().count();
-            point_arrays arrays(count * room);
-            light_arrays light(count * room);
-            std::vector<point_tile> points(count);
-            ex.bulk(count, [&](std::size_t i) {
-                points[i] = point_tile(arrays, i * room, tile_box(i));
-                find_points(finders, points[i]);
-            });
+        constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
+        constexpr std::size_t run = 4;  // tiles share their memory
+        const std::size_t pixels = static_cast<std::size_t>(options_.tile) * static_cast<std::size_t>(options_.tile);
+        const std::size_t count = tiles().count(), room = run * pixels;
+        // What screening leaves, run by run.
+        const std::size_t runs = is_collective ? (count + run - 1) / run : 0;
+        point_arrays rest_of_points(runs * room);
+        unfilled_vector<float> direct(runs * room);
+        std::vector<point_list> pending(runs);
+        bulk_ranges(ex, count, run, [&](std::size_t first, std::size_t last) {
+            point_arrays arrays(pixels);
+            light_arrays light(pixels);
+            if constexpr (is_collective) pending[first / run] = point_list(rest_of_points, first / run * room, room);
+            for (std::size_t i = first; i < last; ++i) {
+                const pixel_box box = tile_box(i);
+                point_list points(arrays, 0, pixels);
+                find_points(finders, box, points);
+                const shadow::shares shares = light.part(0, points.size());
+                point_batches(points, shares, targets).for_each([&](const shadow::points& p, const shadow::shares& s) {
+                    if constexpr (is_collective)
+                        occlusion.screen(p, s);
+                    else
+                        occlusion.test(p, s);
+                });
+                if constexpr (is_collective) {
+                    point_list& later = pending[first / run];
+                    for (std::size_t k = 0; k < points.size(); ++k) {
+                        if (shares.lit[k] != shadow::unknown) continue;
+                        const std::uint32_t pixel = pixel_in(box, points.pixel(k));
+                        later.add(points, k, pixel);
+                        if (k < points.facing) {
+                            direct[first / run * room + later.facing - 1] = out_.image.pixels()[pixel];
+                            shares.lit[k] = 0;
+                        }
+                    }
+                }
+                finish(box, points, shares);
+            }
+        });
+        if constexpr (is_collective) {
+            light_arrays light(runs * room);
             std::vector<shadow::points> at;
             std::vector<shadow::shares> into;
-            for (std::size_t i = 0; i < count; ++i)
-                tile_batches(points[i], light.part(i * room, points[i].size()), targets)
+            for (std::size_t i = 0; i < runs; ++i)
+                point_batches(pending[i], light.part(i * room, pending[i].size()), targets)
                     .for_each([&](const shadow::points& p, const shadow::shares& s) {
                         at.push_back(p);
                         into.push_back(s);
                     });
             occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), ex);
-            ex.bulk(count, [&](std::size_t i) { finish(points[i], light.part(i * room, points[i].size())); });
-        } else {
-            constexpr std::size_t run = 4;  // tiles share their memory
-            bulk_ranges(ex, tiles().count(), run, [&](std::size_t first, std::size_t last) {
-                point_arrays arrays(room);
-                light_arrays light(room);
-                for (std::size_t i = first; i < last; ++i) {
-                    point_tile points(arrays, 0, tile_box(i));
-                    find_points(finders, points);
-                    const shadow::shares shares = light.part(0, points.size());
-                    tile_batches(points, shares, targets)
-                        .for_each([&](const shadow::points& p, const shadow::shares& s) { occlusion.test(p, s); });
-                    finish(points, shares);
+            ex.bulk(runs, [&](std::size_t i) {
+                const shadow::shares shares = light.part(i * room, pending[i].size());
+                for (std::size_t k = 0; k < pending[i].facing; ++k) {
+                    float& value = out_.image.pixels()[pending[i].pixel(k)];
+                    value =
+                        (std::min)(1.0f, rest_.pixels()[pending[i].pixel(k)] + shares.lit[k] * direct[i * room + k]);
                 }
+                if constexpr (labelled) label_shadows(pending[i], shares, [&](std::size_t pixel) { return pixel; });
             });
         }
     }
 
+    /// A tile's pixel, counted from its first, as one of the picture's.
+    std::uint32_t pixel_in(const pixel_box& box, std::size_t pixel) const {
+        const auto width = static_cast<std::size_t>(box.width());
+        return static_cast<std::uint32_t>((static_cast<std::size_t>(box.y0) + pixel / width) *
+                                              static_cast<std::size_t>(out_.image.width()) +
+                                          static_cast<std::size_t>(box.x0) + pixel % width);
+    }
+
     /// The points of a tile that matter: where there is light to lose, or all for the sake of labels.
-    void find_points(std::span<const point_finder> finders, point_tile& into) const {
-        const pixel_box& box = into.box;
+    void find_points(std::span<const point_finder> finders, const pixel_box& box, point_list& into) const {
         std::vector<std::vector<shown_pixel>> pixels(surfaces_.size());
         const surface* last = nullptr;
         std::vector<shown_pixel>* to = nullptr;
@@ -360,17 +404,18 @@ class overhead_painter {
                     to = &pixels[static_cast<std::size_t>(last - surfaces_.data())];
                     if (to->empty()) to->reserve(static_cast<std::size_t>(box.width() * box.height()));
                 }
-                to->push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y - box.y0), id - last->first_id});
+                to->push_back(
+                    {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y - box.y0), id - last->first_id});
             }
         }
         for (std::size_t i = 0; i < pixels.size(); ++i)
             if (!pixels[i].empty())
-                dispatch(point_kernel{finders[i], pixels[i], view_.has_near_light(), labelled, into}, options_.level);
+                dispatch(point_kernel{finders[i], pixels[i], view_.has_near_light(), labelled, box, into},
+                         options_.level);
     }
 
     /// Pixels of a tile from what the light makes of them and how much of it arrives.
-    void finish(const point_tile& points, const shadow::shares& light) {
-        const pixel_box& box = points.box;
+    void finish(const pixel_box& box, const point_list& points, const shadow::shares& light) {
         const auto width = static_cast<std::size_t>(box.width());
         std::vector<float> lit(width * static_cast<std::size_t>(box.height()), 0.0f);
         for (std::size_t i = 0; i < points.facing; ++i) lit[points.pixel(i)] = light.lit[i];
@@ -380,19 +425,21 @@ class overhead_painter {
             const float* const rest = &rest_(box.x0, y);
             for (std::size_t i = 0; i < width; ++i) value[i] = (std::min)(1.0f, rest[i] + share[i] * value[i]);
         }
-        if constexpr (labelled) label_shadows(points, light);
+        if constexpr (labelled) label_shadows(points, light, [&](std::size_t pixel) { return pixel_in(box, pixel); });
     }
 
     /// Names the caster of each shadow, see light_pass.hpp.
-    void label_shadows(const point_tile& points, const shadow::shares& light) {
-        const auto width = static_cast<std::size_t>(points.box.width());
+    /// @param pixel_of  the picture's pixel by the list's number of it
+    template <class PixelOf>
+    void label_shadows(const point_list& points, const shadow::shares& light, const PixelOf& pixel_of) {
         const auto targets = static_cast<std::uint32_t>(targets_.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
             const bool is_averted = i >= points.facing;
             if (!is_averted && !(light.lit[i] < 0.5f)) continue;
             const std::uint32_t caster = is_averted && light.caster[i] >= targets ? points.caster(i) : light.caster[i];
-            out_.labels.shadow(points.box.x0 + static_cast<int>(points.pixel(i) % width),
-                               points.box.y0 + static_cast<int>(points.pixel(i) / width)) =
+            // A lit share of 0 without a caster is one that is yet to be tested.
+            if (caster == shadow::invalid_id) continue;
+            out_.labels.shadow.pixels()[pixel_of(points.pixel(i))] =
                 caster < targets ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
         }
     }
@@ -435,6 +482,7 @@ class overhead_painter {
     placed_mesh bottom_in_rig_;
     std::vector<surface> surfaces_;
     bool has_gaps_ = false;  ///< the bottom lacks data somewhere
+    std::optional<regular_grid> bottom_grid_;
     std::vector<placed_mesh> targets_;
     std::vector<pixel_box> target_pixels_;  ///< which may show them
 };

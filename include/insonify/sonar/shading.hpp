@@ -1,5 +1,5 @@
-// From what a pixel shows to its light: the surface's smooth normal, the backscatter law, and what the surface sends back
-// without the light, several pixels at a time.
+// From what a pixel shows to its light: the surface's smooth normal, the backscatter law, and what the surface sends
+// back without the light, several pixels at a time.
 //
 // Shadows and labels are no part of it: they are passes of their own over what this one leaves (render.hpp).
 #pragma once
@@ -67,11 +67,11 @@ struct surface {
 
 /// What shading leaves for each pixel. A null pointer leaves it out.
 struct shaded_images {
-    image<float>& direct;                    ///< what the light makes of it, unshadowed; with the rest, if there is no
-                                             ///< image for that
-    image<float>* rest = nullptr;            ///< what it shows without the light
-    image<std::uint32_t>* ids = nullptr;     ///< the visibility buffer
-    image<std::uint8_t>* types = nullptr;    ///< seabed::type, where an object has several
+    image<float>& direct;                  ///< what the light makes of it, unshadowed; with the rest, if there is no
+                                           ///< image for that
+    image<float>* rest = nullptr;          ///< what it shows without the light
+    image<std::uint32_t>* ids = nullptr;   ///< the visibility buffer
+    image<std::uint8_t>* types = nullptr;  ///< seabed::type, where an object has several
 
     void clear(const pixel_box& tile) const {
         for (int y = tile.y0; y <= tile.y1; ++y) {

@@ -2,8 +2,8 @@
 //
 // A triangle blocks a point's ray towards the light if the ray passes through it, edges included, and the point lies
 // behind it by more than rounding can have moved either (2^-40 of the scene's size). There is no bias. A ray passes an
-// edge on its left if toward . (a x b) is not negative, over the edge's ends as seen from the point; for the triangle on
-// the other side the ends change places, which changes the sign of each rounded product and of the sum and nothing
+// edge on its left if toward . (a x b) is not negative, over the edge's ends as seen from the point; for the triangle
+// on the other side the ends change places, which changes the sign of each rounded product and of the sum and nothing
 // else, and a zero counts for both: no light leaks between triangles that share an edge.
 //
 // Based on: Sven Woop, Carsten Benthin, Ingo Wald. Watertight Ray/Triangle Intersection. JCGT 2, 2013.
@@ -50,7 +50,8 @@ class light_rays {
             return numeric::magnitude(v.x) + numeric::magnitude(v.y) + numeric::magnitude(v.z);
         };
         const glm::dvec3& some = size(a) <= size(b) ? a : b;
-        const double along = numeric::dot(normal, to_light), behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
+        const double along = numeric::dot(normal, to_light),
+                     behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
         const double sign = is_left ? 1 : -1;
         const double tolerance = 0x1p-40 * reach_ * size(normal);
         if (!(sign * along > 0 && sign * behind > tolerance)) return false;

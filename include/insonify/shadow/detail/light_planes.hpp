@@ -22,7 +22,9 @@ class light_plane {
   public:
     light_plane() = default;
     explicit light_plane(const light_frame& frame)
-        : rows_{{frame.travel().x, frame.travel().y, frame.cot_elevation()}, {-frame.travel().y, frame.travel().x, 0}, {0, 0, 1}} {}
+        : rows_{{frame.travel().x, frame.travel().y, frame.cot_elevation()},
+                {-frame.travel().y, frame.travel().x, 0},
+                {0, 0, 1}} {}
     /// @param side  0 to 5: along +x, -x, +y, -y, +z, -z of the light
     light_plane(const point_light& light, int side) : origin_(light.position), is_near_(true) {
         const int axis = side / 2;
@@ -32,14 +34,10 @@ class light_plane {
 
     bool is_near() const { return is_near_; }
     /// Whether what is counter-clockwise from the light is clockwise here.
-    bool is_mirrored() const {
-        return is_near_ == (numeric::dot(rows_[0], numeric::cross(rows_[1], rows_[2])) > 0);
-    }
+    bool is_mirrored() const { return is_near_ == (numeric::dot(rows_[0], numeric::cross(rows_[1], rows_[2])) > 0); }
 
     /// (u, v, height) of a point; of a near light before the division, (u d, v d, d) with the depth d.
-    glm::dvec3 operator()(const glm::dvec3& p) const {
-        return direction(p - origin_);
-    }
+    glm::dvec3 operator()(const glm::dvec3& p) const { return direction(p - origin_); }
     /// The same of a difference of points.
     glm::dvec3 direction(const glm::dvec3& d) const {
         return {numeric::dot(rows_[0], d), numeric::dot(rows_[1], d), numeric::dot(rows_[2], d)};

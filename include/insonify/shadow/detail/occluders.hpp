@@ -29,7 +29,7 @@ struct alignas(16) plane_vertex {
     float u, v, height;
     float state;  ///< 0, or one of the following
 
-    static constexpr float behind = 1;        ///< not in front of a near light
+    static constexpr float behind = 1;  ///< not in front of a near light
     static constexpr float not_finite = 2;
 };
 
@@ -105,9 +105,8 @@ struct plane_triangles {
     INSONIFY_INLINE explicit plane_triangles(const Corner& corner) {
         using namespace insonify::detail;
         floats columns[3][4];
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            transpose<N>(columns[i], [&](int k) { return &corner(k, i).u; });
-        });
+        unroll<3>([&](int i)
+                      INSONIFY_INLINE_LAMBDA { transpose<N>(columns[i], [&](int k) { return &corner(k, i).u; }); });
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
             a[axis] = columns[0][axis];
             b[axis] = columns[1][axis];
@@ -154,7 +153,8 @@ struct tile_assembly_kernel {
             // A tile more than rounding can tell. NaN goes into all tiles.
             const auto scale = static_cast<float>(1 / tile[axis]);
             const auto most = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
-            const floats margin = 0x1p-20f * ((high < 0.0f ? floats{} - low : high) + static_cast<float>(tiles.size[axis]));
+            const floats margin =
+                0x1p-20f * ((high < 0.0f ? floats{} - low : high) + static_cast<float>(tiles.size[axis]));
             floats f = (low - margin) * scale, l = (high + margin) * scale;
             outside |= ints(f > most + 1.0f) | ints(l < 0.0f);
             f = f > 0.0f ? f : floats{};
@@ -199,17 +199,16 @@ class plane_caster {
         affine to_plane{{}, plane(c.placement.offset)};
         for (int i = 0; i < 3; ++i) to_plane.linear[i] = plane.direction(c.placement.linear[i]);
         bulk_ranges(ex, vertices_.size(), 16384, [&](std::size_t first, std::size_t last) {
-            insonify::detail::dispatch(
-                plane_vertices_kernel{&c.mesh.positions[first], &vertices_[first], last - first, plane, to_plane,
-                                      tiles.lower, least_depth},
-                best_isa());
+            insonify::detail::dispatch(plane_vertices_kernel{&c.mesh.positions[first], &vertices_[first], last - first,
+                                                             plane, to_plane, tiles.lower, least_depth},
+                                       best_isa());
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (triangles_.size() / 64 + 16) / 16 * 16);
         std::vector<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
         bulk_ranges(ex, triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
-            insonify::detail::dispatch(tile_assembly_kernel{vertices_.data(), triangles_.data(), first, last, tiles,
-                                                            chunks[first / grain]},
-                                       best_isa());
+            insonify::detail::dispatch(
+                tile_assembly_kernel{vertices_.data(), triangles_.data(), first, last, tiles, chunks[first / grain]},
+                best_isa());
         });
         bins_ = insonify::detail::tile_bins(chunks, insonify::detail::tile_grid(tiles.columns, tiles.rows, 0), ex);
     }

@@ -1,11 +1,13 @@
-// One caster's triangles over the receivers of a tile: an irregular shadow map, whose samples are the points themselves.
+// One caster's triangles over the receivers of a tile: an irregular shadow map, whose samples are the points
+// themselves.
 //
 // A triangle walks over the cells that it touches and is compared with their receivers, several at a time, in floats.
 // What floats cannot tell within their error is decided in doubles (blocking.hpp), so the answer is that of the doubles
 // for every pair of a triangle and a receiver. A receiver's own triangle is left out by its number; there is no bias.
 //
 // Based on: Timo Aila, Samuli Laine. Alias-Free Shadow Maps. EGSR 2004. Gregory S. Johnson, Juhyun Lee, Christopher A.
-// Burns, William R. Mark. The Irregular Z-Buffer: Hardware Acceleration for Irregular Data Structures. ACM TOG 24, 2005.
+// Burns, William R. Mark. The Irregular Z-Buffer: Hardware Acceleration for Irregular Data Structures. ACM TOG 24,
+// 2005.
 #pragma once
 
 #include <insonify/shadow/detail/occluders.hpp>
@@ -25,8 +27,8 @@ struct occlusion_kernel {
     std::span<const insonify::detail::triangle_run> runs;
     std::uint32_t number;  ///< of the caster
     skip may_skip;
-    bool is_turned;        ///< triangles that face the light are clockwise
-    float error;           ///< of coordinates on the plane, beside what rounding to float adds
+    bool is_turned;  ///< triangles that face the light are clockwise
+    float error;     ///< of coordinates on the plane, beside what rounding to float adds
     receiver_cells& receivers;
     const Decide& decide;
 
@@ -50,7 +52,7 @@ struct occlusion_kernel {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
-        for (int k = 0; k < count; k += N / 2 > 0 ? N / 2 : 1) caster.prefetch(ids[k] + 2 * N);
+        for (int k = 0; k<count; k += N / 2> 0 ? N / 2 : 1) caster.prefetch(ids[k] + 2 * N);
         const plane_triangles<N> t([&](int k, int i) -> const plane_vertex& { return caster.corner(ids[k], i); });
 
         // Cells, a little more than rounding can tell, and how large the numbers are that go into a comparison.
@@ -129,8 +131,9 @@ struct occlusion_kernel {
         });
         for (unsigned left = open; left != 0; left &= left - 1) {
             const auto k = static_cast<std::size_t>(std::countr_zero(left));
-            const float one[12] = {values[0][k], values[1][k], values[2][k], values[3][k], values[4][k],  values[5][k],
-                                   values[6][k], values[7][k], values[8][k], values[9][k], values[10][k], values[11][k]};
+            const float one[12] = {values[0][k], values[1][k], values[2][k],  values[3][k],
+                                   values[4][k], values[5][k], values[6][k],  values[7][k],
+                                   values[8][k], values[9][k], values[10][k], values[11][k]};
             const bool is_for_others = (for_others >> k & 1) != 0;
             for (int row = cells[1][k]; row <= cells[3][k]; ++row)
                 compare<N>(one, ids[k], is_for_others, receivers.start(row, cells[0][k]),
@@ -140,14 +143,15 @@ struct occlusion_kernel {
 
     /// One triangle with the receivers [first, last).
     template <int N>
-    INSONIFY_INLINE void compare(const float (&t)[12], std::uint32_t id, bool is_for_others,
-                                 std::uint32_t first, std::uint32_t last) const {
+    INSONIFY_INLINE void compare(const float (&t)[12], std::uint32_t id, bool is_for_others, std::uint32_t first,
+                                 std::uint32_t last) const {
         using namespace insonify::detail;
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
         ints column;
         count_up<std::int32_t, N>(column);
-        const float *const us = receivers.u.data(), *const vs = receivers.v.data(), *const heights = receivers.height.data();
+        const float *const us = receivers.u.data(), *const vs = receivers.v.data(),
+                           *const heights = receivers.height.data();
         std::int32_t* const casters = receivers.caster.data();
         const float area = t[3] * t[7] - t[4] * t[6];
         for (std::uint32_t i = first; i < last; i += N) {
@@ -165,15 +169,16 @@ struct occlusion_kernel {
             const floats above = area * height - (to_b * t[5] + to_c * t[8]);
             const floats doubt = t[10] + t[11] * (height < 0.0f ? 0.0f - height : height);
             const ints out = ints(to_b < -t[9]) | ints(to_c < -t[9]) | ints(to_a < -3 * t[9]) | ints(above > doubt);
-            const ints open = ints(out == 0) & ints(blocked == receiver_cells::open) & ints(column < static_cast<std::int32_t>(last - i));
+            const ints open = ints(out == 0) & ints(blocked == receiver_cells::open) &
+                              ints(column < static_cast<std::int32_t>(last - i));
             if (!any(open)) continue;
             load(mesh, receivers.mesh.data() + i);
             load(triangle, receivers.triangle.data() + i);
             ints own = ints(mesh == static_cast<std::int32_t>(number));
             if (!is_for_others) own = own & ints(triangle == static_cast<std::int32_t>(id));
             const ints asked = open & ~own;
-            const ints certain = asked & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) &
-                                 ints(above < 0.0f - doubt);
+            const ints certain =
+                asked & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) & ints(above < 0.0f - doubt);
             store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
             for (unsigned left = set_lanes<N>(ints(asked & ~certain)); left != 0; left &= left - 1) {
                 const std::size_t at = i + static_cast<std::size_t>(std::countr_zero(left));

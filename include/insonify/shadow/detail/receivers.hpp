@@ -18,7 +18,7 @@ namespace shadow::detail {
 /// A point on the plane, from the lower corner of the tiles, on its way into a tile.
 struct receiver {
     float u, v, height;
-    std::uint32_t point;     ///< the caller's number of it
+    std::uint32_t point;           ///< the caller's number of it
     std::uint32_t mesh, triangle;  ///< that it lies on
     std::uint32_t casters;         ///< numbers below this are tested
 };
@@ -101,7 +101,7 @@ class receiver_cells {
     std::vector<std::int32_t> caster;  ///< that blocks it, or open, or closed
 
   private:
-    static constexpr int widest = 128;  // rows
+    static constexpr int widest = 128;          // rows
     static constexpr std::size_t per_cell = 2;  ///< receivers, or more; fewer take longer to sort
     static constexpr std::size_t padding = 16;
 

@@ -1,0 +1,90 @@
+// Triangles in an order in which neighbours follow one another, so that what draws them finds its memory warm.
+//
+// Based on: Guy M. Morton. A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing. IBM, 1966.
+#pragma once
+
+#include <insonify/core/numeric.hpp>
+#include <insonify/geometry/bounds.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// Whether most triangles share no vertex with the one before, as those of shuffled meshes and of triangle soups don't.
+inline bool is_incoherent(const mesh& m) {
+    std::size_t jumps = 0;
+    for (std::size_t i = 1; i < m.triangles.size(); ++i) {
+        const glm::uvec3 &a = m.triangles[i - 1], &b = m.triangles[i];
+        bool is_near = false;
+        for (int j = 0; j < 3; ++j) {
+            const std::uint32_t v = b[j];
+            // Nearby numbers are nearby in memory, too.
+            for (int k = 0; k < 3; ++k) is_near = is_near || (v > a[k] ? v - a[k] : a[k] - v) < 64;
+        }
+        jumps += is_near ? 0u : 1u;
+    }
+    return jumps > m.triangles.size() / 2;
+}
+
+/// Every third bit of the result is a bit of the value.
+inline std::uint64_t every_third_bit(std::uint64_t value) {
+    value = (value | value << 32) & 0x001F00000000FFFFu;
+    value = (value | value << 16) & 0x001F0000FF0000FFu;
+    value = (value | value << 8) & 0x100F00F00F00F00Fu;
+    value = (value | value << 4) & 0x10C30C30C30C30C3u;
+    return (value | value << 2) & 0x1249249249249249u;
+}
+
+/// Sorts triangles along Morton's curve through their centres, and vertices by the first triangle that uses them.
+inline void order_along_curve(mesh& m, const bounding_box& box) {
+    const glm::dvec3 size = box.size();
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order(m.triangles.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        std::uint64_t key = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            double sum = 0;
+            for (int k = 0; k < 3; ++k) sum += static_cast<double>(m.positions[m.triangles[i][k]][axis]);
+            const double share = size[axis] > 0 ? (sum / 3 - box.lower[axis]) / size[axis] : 0;
+            const double held = share > 0 ? (share < 1 ? share : 1.0) : 0.0;  // NaN, too
+            key |= every_third_bit(static_cast<std::uint64_t>(held * 2097151)) << axis;
+        }
+        order[i] = {key, static_cast<std::uint32_t>(i)};
+    }
+    std::sort(order.begin(), order.end());
+
+    constexpr std::uint32_t unused = 0xFFFFFFFFu;
+    std::vector<std::uint32_t> number(m.positions.size(), unused);
+    mesh sorted;
+    sorted.triangles.reserve(m.triangles.size());
+    sorted.positions.reserve(m.positions.size());
+    sorted.normals.reserve(m.normals.size());
+    const auto add_vertex = [&](std::uint32_t v) {
+        number[v] = static_cast<std::uint32_t>(sorted.positions.size());
+        sorted.positions.push_back(m.positions[v]);
+        if (!m.normals.empty()) sorted.normals.push_back(m.normals[v]);
+    };
+    for (const auto& [key, i] : order) {
+        glm::uvec3 t = m.triangles[i];
+        for (int k = 0; k < 3; ++k) {
+            if (number[t[k]] == unused) add_vertex(t[k]);
+            t[k] = number[t[k]];
+        }
+        sorted.triangles.push_back(t);
+    }
+    for (std::uint32_t v = 0; v < number.size(); ++v)
+        if (number[v] == unused) add_vertex(v);
+    m = std::move(sorted);
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

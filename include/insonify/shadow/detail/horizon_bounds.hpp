@@ -1,0 +1,265 @@
+// Parallel light over a regular grid: for each cell, proved bounds on how far the surface before it blocks the light.
+//
+// In a grid's own steps, all points of a ray share u = X + drop z: where it meets z = 0. A point is dark if the surface
+// up the light from it has a larger u somewhere on its ray. Strips one row wide run with the light, so no ray leaves
+// its strip. Along a strip the sweep carries the largest value that every ray of it must have met (the least of the
+// vertices around the strip where it crosses a column), and the largest that any may have met. What lies below the one
+// is dark, above the other lit; the few points between them are left to an exact test.
+//
+// Where all triangles around a strip face the light, u rises along every ray, and what a ray has met there is below any
+// later point of the same rise. So such columns are left out of the upper bound, and a lit slope never doubts itself.
+//
+// Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. 1988
+#pragma once
+
+#include <insonify/core/dispatch.hpp>
+#include <insonify/core/lanes.hpp>
+#include <insonify/core/unfilled.hpp>
+#include <insonify/geometry/regular_grid.hpp>
+#include <insonify/geometry/transform.hpp>
+
+#include <algorithm>
+#include <limits>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// A grid as the light crosses it: X counts its vertices along the axis that the light follows most, Y those across,
+/// both turned so that the light goes towards larger ones, by `slope` of Y for each of X.
+struct lit_grid {
+    int columns = 0, rows = 0;  ///< vertices along X, and along Y
+    bool is_rising = true;      ///< cells are cut from (X, Y) to (X + 1, Y + 1), or else from (X, Y + 1) to (X + 1, Y)
+    double slope = 0;           ///< in [0, 1]
+    double drop = 0;            ///< columns that the light passes while it sinks by 1 m
+    std::ptrdiff_t first = 0, along = 1, across = 1;  ///< number of vertex (0, 0) in the mesh, and steps to the next
+    glm::dvec2 x_of, y_of;                            ///< X = dot(x_of, p - origin), Y alike, in the mesh's frame
+    glm::dvec2 origin{0};
+
+    lit_grid() = default;
+    /// @param travel  where the light goes, in the mesh's frame: down
+    lit_grid(const regular_grid& grid, const glm::dvec3& travel)
+        : columns(grid.columns), rows(grid.rows), is_rising(grid.is_rising), across(grid.columns), origin(grid.origin) {
+        glm::dvec2 x = grid.right, y = grid.up;
+        const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
+        double travel_x = cross(glm::dvec2(travel), y) / cross(x, y),
+               travel_y = cross(x, glm::dvec2(travel)) / cross(x, y);
+        if (numeric::magnitude(travel_y) > numeric::magnitude(travel_x)) {
+            std::swap(columns, rows);
+            std::swap(along, across);
+            std::swap(x, y);
+            std::swap(travel_x, travel_y);
+        }
+        const auto turn = [&](double& steps, int count, std::ptrdiff_t& stride, glm::dvec2& axis) {
+            if (steps >= 0) return;
+            steps = -steps;
+            first += (count - 1) * stride;
+            origin += static_cast<double>(count - 1) * axis;
+            stride = -stride;
+            axis = -axis;
+            is_rising = !is_rising;
+        };
+        turn(travel_x, columns, along, x);
+        turn(travel_y, rows, across, y);
+        slope = travel_x > 0 ? travel_y / travel_x : 0;
+        drop = travel_x / -travel.z;
+        x_of = glm::dvec2(y.y, -y.x) / cross(x, y);
+        y_of = glm::dvec2(-x.y, x.x) / cross(x, y);
+    }
+};
+
+/// u of a grid's vertices, column by column, with nothing around them.
+struct grid_heights {
+    static constexpr float nothing = -std::numeric_limits<float>::infinity();
+    static constexpr int around = 4;  ///< rows of nothing on either side
+
+    int pitch = 0;
+    insonify::detail::unfilled_vector<float> u;
+    float least = 0, greatest = 0;  ///< z
+
+    template <executor E>
+    grid_heights(const mesh_view& m, const lit_grid& grid, E& ex)
+        : pitch(grid.rows + 2 * around), u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch)) {
+        // In squares, so that both the mesh and what is made of it are read and written in runs.
+        constexpr int square = 32;
+        const auto drop = static_cast<float>(grid.drop);
+        const auto runs = static_cast<std::size_t>((grid.columns + square - 1) / square);
+        std::vector<glm::vec2> ranges(runs);
+        bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
+            const auto left = static_cast<int>(from), right = static_cast<int>(to);
+            float low = std::numeric_limits<float>::infinity(), high = -low;
+            for (int x = left; x < right; ++x) {
+                std::fill_n(column(x) - around, around, nothing);
+                std::fill_n(column(x) + grid.rows, around, nothing);
+            }
+            for (int bottom = 0; bottom < grid.rows; bottom += square)
+                for (int x = left; x < right; ++x) {
+                    const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
+                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y) {
+                        insonify::detail::prefetch(vertex + (std::min)(y + square, grid.rows - 1) * grid.across);
+                        const float z = vertex[y * grid.across].z;
+                        low = (std::min)(low, z);
+                        high = (std::max)(high, z);
+                        column(x)[y] = static_cast<float>(x) + drop * z;
+                    }
+                }
+            ranges[from / square] = {low, high};
+        });
+        least = ranges.front().x, greatest = ranges.front().y;
+        for (const glm::vec2& r : ranges) {
+            least = (std::min)(least, r.x);
+            greatest = (std::max)(greatest, r.y);
+        }
+    }
+    const float* column(int x) const { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
+    float* column(int x) { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
+};
+
+/// What is known of the u that a ray has met before a point in a column and strip.
+struct horizon_bound {
+    float met;       ///< at least
+    float may_meet;  ///< at most
+};
+
+/// Carries bounds along some strips.
+struct horizon_kernel {
+    const lit_grid& grid;
+    const grid_heights& heights;
+    int first_strip;        ///< strips count from this
+    int from, to, strips;   ///< these, of so many
+    float margin;           ///< of u
+    horizon_bound* bounds;  ///< by column, then strip
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        for (int k = from; k < to; k += N) sweep<N>(k);
+    }
+
+  private:
+    template <int N>
+    INSONIFY_INLINE void sweep(int k) const {
+        using namespace insonify::detail;
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        const auto slope = static_cast<float>(grid.slope);
+        floats met = floats{} + grid_heights::nothing, may_meet = met;
+        ints was_rising = ints{} - 1;
+        for (int x = 0; x < grid.columns; ++x) {
+            // The strip's rows where it crosses the column, and up to the next one: `row` to `row + 3` surround it.
+            const int row = first_strip + k + static_cast<int>(grid.slope * x);
+            floats here[4] = {}, ahead[4] = {};
+            read<N>(here, x, row);
+            if (x + 1 < grid.columns)
+                read<N>(ahead, x + 1, row);
+            else
+                for (floats& value : ahead) value = floats{} + grid_heights::nothing;
+            floats lowest = here[0], highest = here[0];
+            unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+                if (i < 2) lowest = here[i + 1] < lowest ? here[i + 1] : lowest;
+                highest = here[i + 1] > highest ? here[i + 1] : highest;
+            });
+            // Every ray of the strip meets the column between rows `row` and `row + 2`.
+            met = lowest > met ? lowest : met;
+            // What lies before this column counts unless it rises all the way.
+            may_meet = was_rising ? may_meet : floats(highest > may_meet ? highest : may_meet);
+            ints rises = ints{} - 1;
+            unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+                const floats &a = here[i], &b = ahead[i], &c = here[i + 1],
+                             &d = ahead[i + 1];  // (0,0) (1,0) (0,1) (1,1)
+                floats lower, upper;
+                if (grid.is_rising) {
+                    lower = (b - a) + slope * (d - b);
+                    upper = (d - c) + slope * (c - a);
+                } else {
+                    lower = (b - a) + slope * (c - a);
+                    upper = (d - c) + slope * (d - b);
+                }
+                // Beside the grid there is nothing that could fall.
+                const ints is_cell = ints(a > grid_heights::nothing) & ints(b > grid_heights::nothing) &
+                                     ints(c > grid_heights::nothing) & ints(d > grid_heights::nothing);
+                const ints up = ints(lower > margin) & ints(upper > margin);
+                rises = rises & (up | ~is_cell);
+            });
+            // Where it does not rise, what lies in these cells counts for the points in them and after.
+            floats next = highest;
+            unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { next = ahead[i] > next ? ahead[i] : next; });
+            may_meet = rises ? may_meet : floats(next > may_meet ? next : may_meet);
+            floats stored = rises ? may_meet : floats{} + std::numeric_limits<float>::infinity();
+            store_pairs<N>(&bounds[static_cast<std::ptrdiff_t>(x) * strips + k].met, floats(met), stored);
+            was_rising = rises;
+        }
+    }
+    template <int N>
+    INSONIFY_INLINE void read(insonify::detail::lanes<float, N> (&into)[4], int x, int row) const {
+        using namespace insonify::detail;
+        // Strips that run beside the grid read nothing.
+        const float* const column = heights.column(x);
+        const int low = -grid_heights::around, high = grid.rows + grid_heights::around - 4;
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
+            if (row + i >= low && row + i + N <= high + 4)
+                load(into[i], column + row + i);
+            else
+                gather<N>(into[i], [&](int lane) {
+                    const int at = row + i + lane;
+                    return at >= 0 && at < grid.rows ? column[at] : grid_heights::nothing;
+                });
+        });
+    }
+};
+
+/// Which of a heightfield's own points are lit, dark, or left to an exact test.
+class horizon_bounds {
+  public:
+    enum class answer { lit, dark, unknown };
+
+    /// @param m       the mesh, a regular grid whose vertices lie within `off` steps of the lattice
+    /// @param travel  where the light goes, in the mesh's frame: down
+    template <executor E>
+    horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, double off, E& ex)
+        : grid_(lattice, travel) {
+        const grid_heights heights(m, grid_, ex);
+        const double relief = grid_.drop * (static_cast<double>(heights.greatest) - static_cast<double>(heights.least));
+        const double size =
+            grid_.columns + grid_.drop * (std::max)(numeric::magnitude(static_cast<double>(heights.greatest)),
+                                                    numeric::magnitude(static_cast<double>(heights.least)));
+        margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
+        first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
+        strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
+        bounds_.resize(static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_));
+        bulk_ranges(ex, static_cast<std::size_t>(strips_), 128, [&](std::size_t from, std::size_t to) {
+            insonify::detail::dispatch(
+                horizon_kernel{grid_, heights, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
+                               static_cast<float>(margin_), bounds_.data()},
+                best_isa());
+        });
+    }
+
+    /// @param p  on the mesh, on a side that faces the light, in the mesh's frame
+    INSONIFY_INLINE answer at(const glm::dvec3& p) const {
+        const double dx = p.x - grid_.origin.x, dy = p.y - grid_.origin.y;
+        const double x = grid_.x_of.x * dx + grid_.x_of.y * dy, y = grid_.y_of.x * dx + grid_.y_of.y * dy;
+        if (!(x >= 0 && x <= grid_.columns - 1)) return answer::unknown;
+        const auto column = static_cast<int>(x);
+        const int strip = static_cast<int>(y - grid_.slope * x - first_strip_);
+        if (strip < 0 || strip >= strips_) return answer::unknown;
+        const horizon_bound& b = bounds_[static_cast<std::size_t>(column) * static_cast<std::size_t>(strips_) +
+                                         static_cast<std::size_t>(strip)];
+        const double u = x + grid_.drop * p.z;
+        if (u < static_cast<double>(b.met) - margin_) return answer::dark;
+        return u > static_cast<double>(b.may_meet) + margin_ ? answer::lit : answer::unknown;
+    }
+
+  private:
+    lit_grid grid_;
+    double margin_ = 0;
+    int first_strip_ = 0, strips_ = 0;
+    insonify::detail::unfilled_vector<horizon_bound> bounds_;
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
