@@ -35,10 +35,10 @@ struct caster {
 
 /// Points to test, as arrays of equal length.
 struct points {
-    std::span<const double> x, y, z;           ///< metres
-    std::span<const std::uint32_t> mesh;       ///< number of the caster that a point lies on, or invalid_id
-    std::span<const std::uint32_t> triangle;   ///< of that caster; it does not block its own points
-    std::uint32_t casters = invalid_id;        ///< casters numbered below this matter; others need not be tested
+    std::span<const double> x, y, z;          ///< metres
+    std::span<const std::uint32_t> mesh;      ///< number of the caster that a point lies on, or invalid_id
+    std::span<const std::uint32_t> triangle;  ///< of that caster; it does not block its own points
+    std::uint32_t casters = invalid_id;       ///< casters numbered below this matter; others need not be tested
 
     std::size_t size() const { return x.size(); }
     glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
@@ -58,21 +58,33 @@ struct point_bounds {
     double spacing = 0;  ///< metres from one to the next on level ground; 0 if unknown
 };
 
+/// Normal of the facet that point i lies on, of any length, in the frame of the light; 0 if it lies on none. Its sign
+/// is that of the triangle's order, whichever side is seen.
+inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, std::size_t i) {
+    if (at.mesh[i] >= casters.size() || at.triangle[i] == invalid_id) return glm::dvec3(0);
+    const caster& c = casters[at.mesh[i]];
+    const glm::uvec3& t = c.mesh.triangles[at.triangle[i]];
+    const auto corner = [&](int k) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[k]])); };
+    const glm::dvec3 a = corner(0);
+    return numeric::cross(corner(1) - a, corner(2) - a);
+}
+
 using any_light = std::variant<directional_light, point_light>;
 
 /// `structure.test(points, shares)` fills in all shares; it may be called for several batches at the same time.
 template <class S>
-concept occlusion = requires(const S& structure, const points& at, const shares& into) { structure.test(at, into); };
+concept occlusion = requires(const S& structure, const points& at, const shares& into) {
+    structure.test(at, into);
+};
 
 /// `policy.build(casters, light, bounds, executor)` gives an occlusion. All points that it will be asked about lie
 /// within `bounds`; the casters' meshes outlive it. Surfaces that face away from the light are dark under every policy:
 /// that is decided before, from the facet, and such a point is only tested for the name of its caster.
 template <class P>
-concept casting_policy =
-    requires(const P& policy, std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
-             serial_executor& ex) {
-        { policy.build(casters, light, bounds, ex) } -> occlusion;
-    };
+concept casting_policy = requires(const P& policy, std::span<const caster> casters, const any_light& light,
+                                  const point_bounds& bounds, serial_executor& ex) {
+    { policy.build(casters, light, bounds, ex) } -> occlusion;
+};
 
 /// No shadows: nothing is built, tested or compiled.
 struct none {};
@@ -91,8 +103,8 @@ double radius_of(const P& p) {
 
 /// Occlusion that gains from seeing all points of a picture at once, batch by batch.
 template <class S>
-concept collective_occlusion = occlusion<S> && requires(const S& structure, std::span<const points> at,
-                                                        std::span<const shares> into, serial_executor& ex) {
+concept collective_occlusion = occlusion<S> &&
+    requires(const S& structure, std::span<const points> at, std::span<const shares> into, serial_executor& ex) {
     structure.test(at, into, ex);
 };
 
