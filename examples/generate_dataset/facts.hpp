@@ -28,7 +28,7 @@ inline double turn_of(double radians) {
 template <class Fn>
 void for_each_vertex(const in::target& t, const Fn& visit) {
     const in::affine to_world = in::to_world(t.placement);
-    for (const glm::vec3& v : t.shape.positions) visit(in::transform_point(to_world, v));
+    for (const glm::vec3& v : t.shape->positions) visit(in::transform_point(to_world, v));
 }
 
 /// Of a side-scan sonar, over a level bottom: the tip of the shadow is that of the vertex whose shadow reaches
@@ -74,7 +74,7 @@ inline facts facts_of(const in::overhead_geometry& view, const in::target& t, co
     f.grazing = static_cast<double>(rig.grazing);
     f.aspect = turn_of(static_cast<double>(t.placement.yaw) - static_cast<double>(rig.yaw));
     double farthest = -1e30, foot = 0;
-    for (const glm::vec3& v : t.shape.positions) {
+    for (const glm::vec3& v : t.shape->positions) {
         const glm::dvec3 p = in::transform_point(to_rig, v);
         f.height = (std::max)(f.height, p.z);
         const double tip = p.x + p.z * view.light().cot_elevation();

@@ -71,7 +71,7 @@ class contact_list {
                 in_sight.scene.targets[static_cast<std::size_t>(instance - in_sight.numbers.begin()) - 1];
             c = {t.class_name, side, t.placement.position, static_cast<double>(t.placement.yaw), -1e30, at.number};
             const in::affine place = in::to_world(t.placement);
-            for (const glm::vec3& v : t.shape.positions)
+            for (const glm::vec3& v : t.shape->positions)
                 c.height = (std::max)(c.height, in::transform_point(place, v).z);
         }
         c.last_ping = at.number;

@@ -27,9 +27,9 @@ inline bool keeps_to(const errors& found, const budget& tolerated) {
 }
 
 /// What a picture is made of: plain values, to read and to change.
-template <shadow::policy Shadow = shadow::refined>
+template <shadow::policy Shadow = shadow::exact>
 struct settings {
-    Shadow shadow{};            ///< with its texels per pixel
+    Shadow shadow{};            ///< with its texels per pixel, if it has any
     int cells = 0;              ///< of the seabed along the picture's longer side, as in render_options
     int subpixel_bits = 8;      ///< as in render_options
     float edge_error = 0;       ///< as in render_options
@@ -98,9 +98,8 @@ struct settings {
 /// The cheapest settings with which pictures of a seabed keep to a budget, as far as a probe can tell; where none does,
 /// those that are the least beyond it, and `expected` says how far off they are.
 ///
-/// Settings are found for a shadow policy, exact shadows if none is named: these cost little more than others where the
-/// seabed's cells are the finest they need be. One that has texels, `settings_for<shadow::refined>(...)`, gets as few
-/// as will do.
+/// Settings are found for a shadow policy, exact shadows if none is named. One that has texels,
+/// `settings_for<shadow::map>(...)`, gets as few as will do.
 /// @param tolerated  each above 0
 /// @param bottom     the seabed; pictures of others of its kind have about the same errors
 /// @param rig        of the pictures
@@ -181,20 +180,13 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
 /// it is, is in docs/tradeoff.md.
 /// @param rig  of the pictures
 inline settings<> fast(const overhead& rig) {
-    return {.shadow = {.texels_per_pixel = 0.5f},
-            .cells = ((std::max)(rig.size.x, rig.size.y) + 3) / 4,
-            .side_error = 1,
-            .shadow_error = 1,
-            .rig = rig};
+    return {.cells = ((std::max)(rig.size.x, rig.size.y) + 3) / 4, .side_error = 1, .shadow_error = 1, .rig = rig};
 }
 inline settings<> balanced(const overhead& rig) {
-    return {.shadow = {.texels_per_pixel = 2},
-            .cells = ((std::max)(rig.size.x, rig.size.y) + 1) / 2,
-            .side_error = 0.25,
-            .shadow_error = 0.25,
-            .rig = rig};
+    return {
+        .cells = ((std::max)(rig.size.x, rig.size.y) + 1) / 2, .side_error = 0.25, .shadow_error = 0.25, .rig = rig};
 }
-inline settings<insonify::shadow::exact> exact(const overhead& rig) {
+inline settings<> exact(const overhead& rig) {
     return {.cells = (std::min)(2 * (std::max)(rig.size.x, rig.size.y), 32768),
             .subpixel_bits = 16,
             .side_error = 0.02,

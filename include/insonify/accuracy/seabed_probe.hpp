@@ -60,7 +60,7 @@ class seabed_probe {
             const double half = view.half_extent(0).x * pixels_ / rig.size.x;
             chip.field_of_view = static_cast<float>(2 * numeric::atan2(half, static_cast<double>(rig.altitude)));
             chips_.push_back(chip);
-            picture truth = draw(chip, how.finest, shadow::refined{.texels_per_pixel = 8}, ex);
+            picture truth = draw(chip, how.finest, shadow::exact{}, ex);
             truth.dark = march(chip, ex);
             truths_.push_back(std::move(truth));
         }

@@ -1,36 +1,38 @@
-// Whether a point is lit, asked of a shadow map: at the nearest texel, or averaged over some (PCF).
+// Looks a point up in a height map: at the nearest texel, or averaged over several (percentage-closer filtering).
 //
-// The point's own surface is in the map too. Its facet's plane is carried to each texel's centre before heights are
-// compared, and what lies on a neighbouring facet is covered by a bias of one texel's rise along the slope, as the
-// light sees it. Level ground has no slope in the light's frame, hence no bias and no gap between an object and its
-// shadow; where the slope goes to infinity, the surface faces away and is dark anyway. Half the bias leaves three times
-// as much false shadow on rubble at 60 degrees, twice of it a third more leaks at 6 degrees.
+// The point's own surface is in the map too. The plane of its facet is extended to each texel's centre before heights
+// are compared; adjacent facets are covered by a depth bias of one texel's rise along the slope, as seen by the light.
+// Level ground has no slope in the light's frame, hence no bias and no gap between an object and its shadow; where the
+// slope goes to infinity, the surface faces away and is dark anyway. The bias is tuned on rubble: half of it triples
+// shadow acne at 60 degrees; double adds a third more light leaks at 6 degrees.
 //
 // Based on: William T. Reeves, David H. Salesin, Robert L. Cook. Rendering Antialiased Shadows with Depth Maps. 1987
 #pragma once
 
-#include <insonify/shadow/map.hpp>
-#include <insonify/shadow/policy.hpp>
+#include <insonify/shadow/height_map.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::shadow {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
 
-/// A surface point as a light sees it: where it lies in the light's frame, and how its plane rises there.
-struct receiver {
-    /// What gets less than this share of the light on level ground counts as facing away: the last 2 %, where the slope
-    /// goes to infinity and every map leaks.
+/// A surface point in the light's frame, and how the plane of its facet rises there.
+struct receiver_plane {
+    /// Below this cosine between normal and light a facet counts as facing away: the last 2 %, where the slope goes to
+    /// infinity and every map leaks.
     static constexpr double grazed = 0.02;
 
     glm::dvec3 uvz{};
     double slope_u = 0, slope_v = 0;  ///< dz / du, dz / dv; 0 where it faces away
     bool faces_light = false;
 
-    receiver() = default;
+    receiver_plane() = default;
 
     /// @param position  in the frame in which the light is described, metres
-    /// @param facet     normal of the triangle it lies on, of any length; a smoothed one costs half of the accuracy
-    receiver(const light_frame& frame, const glm::dvec3& position, const glm::dvec3& facet) : uvz(frame(position)) {
+    /// @param facet     normal of the triangle that it lies on, of any length; a smooth normal halves the accuracy
+    receiver_plane(const light_frame& frame, const glm::dvec3& position, const glm::dvec3& facet)
+        : uvz(frame(position)) {
         const glm::dvec2& travel = frame.travel();
         const double along = facet.x * travel.x + facet.y * travel.y;
         const double across = facet.y * travel.x - facet.x * travel.y;
@@ -48,7 +50,7 @@ namespace detail {
 /// A receiver in the units of one map.
 class map_receiver {
   public:
-    map_receiver(const height_map& map, const receiver& r)
+    map_receiver(const height_map& map, const receiver_plane& r)
         : map_(map), at_(map.on_map(r.uvz)), slope_u_(map.on_map(r.slope_u)), slope_v_(map.on_map(r.slope_v)) {
         bias_ = 1e-6f + numeric::magnitude(slope_u_) + numeric::magnitude(slope_v_);  // heights are rounded to 1e-7
     }
@@ -84,20 +86,18 @@ class map_receiver {
 
 }  // namespace detail
 
-/// Share of light that reaches a point: 0 or 1, from the nearest texel. Surfaces that face away count as level.
-inline float lit(const height_map& map, const receiver& r, const shadow::map&) {
+/// Share of the light that reaches a point, averaged over (2 radius + 1)^2 texels; surfaces that face away count as
+/// level.
+/// @param radius  texels, 0 to 8; 0 is the nearest texel alone
+inline float lit(const height_map& map, const receiver_plane& r, int radius) {
     const detail::map_receiver at(map, r);
-    return at.is_beyond(0) || at.open_rays(0) == 1 ? 1.0f : 0.0f;
+    if (at.is_beyond(radius)) return 1;
+    const int rays = (2 * radius + 1) * (2 * radius + 1);
+    return static_cast<float>(at.open_rays(radius)) / static_cast<float>(rays);
 }
 
-/// Share of light that reaches a point, averaged over (2 radius + 1)^2 texels; radius from 0 to 8.
-inline float lit(const height_map& map, const receiver& r, const pcf& how) {
-    const detail::map_receiver at(map, r);
-    if (at.is_beyond(how.radius)) return 1;
-    const int rays = (2 * how.radius + 1) * (2 * how.radius + 1);
-    return static_cast<float>(at.open_rays(how.radius)) / static_cast<float>(rays);
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::shadow
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -1,199 +1,132 @@
-// The shadow map: for every ray of a parallel light, the height of the first thing it meets.
+// Shadow maps: one height map for each caster, looked up at the nearest texel (`map`) or averaged over several (`pcf`).
 //
-// It is an image over the light's sheared frame, drawn by the rasterizer with height as depth. See light.hpp for why
-// this frame; the resolution it needs is the picture's ground sampling, whatever the elevation.
+// A target's map covers the target alone, so its texels stay fine in large pictures. An edge is off by half a texel at
+// most, see light.hpp; a point on a mesh gets a depth bias along the slope of its facet, see lookup.hpp. Light from
+// nearby is refused.
 #pragma once
 
-#include <insonify/core/image.hpp>
-#include <insonify/geometry/bounds.hpp>
-#include <insonify/geometry/transform.hpp>
-#include <insonify/raster/draw.hpp>
-#include <insonify/shadow/light.hpp>
-
-#include <algorithm>
-#include <limits>
+#include <insonify/core/executor.hpp>
+#include <insonify/shadow/lookup.hpp>
+#include <insonify/shadow/policy.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::shadow {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
 
-/// A rectangle of the light's frame and the heights that count within it.
-struct map_extent {
-    glm::dvec2 lowest{(std::numeric_limits<double>::max)()};  ///< (u, v), metres
-    glm::dvec2 highest{-(std::numeric_limits<double>::max)()};
-    double floor = (std::numeric_limits<double>::max)();  ///< z
-    double ceiling = -(std::numeric_limits<double>::max)();
-
-    bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
-    /// How far from the frame's origin it goes along v and z, which a low light doesn't stretch.
-    double reach() const { return (std::max)({-lowest.y, highest.y, -floor, ceiling}); }
-
-    void include(const glm::dvec3& uvz) {
-        lowest = {(std::min)(lowest.x, uvz.x), (std::min)(lowest.y, uvz.y)};
-        highest = {(std::max)(highest.x, uvz.x), (std::max)(highest.y, uvz.y)};
-        floor = (std::min)(floor, uvz.z);
-        ceiling = (std::max)(ceiling, uvz.z);
-    }
-
-    /// Only rays that both meet matter; all casters' heights do.
-    map_extent clipped_to(const map_extent& receivers) const {
-        map_extent both = *this;
-        both.lowest = {(std::max)(lowest.x, receivers.lowest.x), (std::max)(lowest.y, receivers.lowest.y)};
-        both.highest = {(std::min)(highest.x, receivers.highest.x), (std::min)(highest.y, receivers.highest.y)};
-        return both;
-    }
+/// How a map is laid out.
+struct map_layout {
+    float texels_per_pixel = 1.5f;
+    int largest = 8192;
+    int radius = 0;  ///< of the filter, texels
 };
 
-/// The smallest extent that holds both.
-inline map_extent merge(const map_extent& a, const map_extent& b) {
-    map_extent both = a;
-    both.include({b.lowest.x, b.lowest.y, b.floor});
-    both.include({b.highest.x, b.highest.y, b.ceiling});
-    return both;
+/// @throws invalid_input for a value out of its range
+inline void validate(const map_layout& m) {
+    insonify::detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel), "texels_per_pixel",
+                              m.texels_per_pixel, "above 0");
+    insonify::detail::require(m.largest >= 1 && m.largest <= 32768, "largest", m.largest, "1 to 32768");
+    insonify::detail::require(m.radius >= 0 && m.radius <= 8, "radius", m.radius, "0 to 8 texels");
 }
 
-/// The extent of a mesh under a light; positions that aren't finite are passed over.
-template <executor_argument E = serial_executor>
-map_extent extent_of(const mesh_view& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
-    constexpr std::size_t grain = 16384;
-    std::vector<map_extent> parts((m.positions.size() + grain - 1) / grain);
-    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
-        map_extent part;
-        for (std::size_t i = first; i < last; ++i) {
-            const glm::dvec3 world = transform_point(to_world, m.positions[i]);
-            if (numeric::is_finite(world.x + world.y + world.z)) part.include(frame(world));
-        }
-        parts[first / grain] = part;
-    });
-    map_extent whole;
-    for (const map_extent& part : parts)
-        if (!part.empty()) whole = merge(whole, part);
-    return whole;
-}
-
-/// The vertex callable of maps: from a mesh's own coordinates to clip space, where w is one.
-struct map_placement {
-    glm::mat3 axes;
-    glm::vec3 start;
-
-    glm::vec4 operator()(const vertex& v) const { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); }
-    /// See lane_shader.
-    template <class Floats>
-    INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats*, const Floats (&position)[3],
-                                    const Floats (&)[3]) const {
-        numeric::product(clip, axes, position);
-        for (int i = 0; i < 3; ++i) clip[i] = clip[i] + start[i];
-        clip[3] = Floats{} + 1.0f;
-    }
-};
-
-/// A grid of rays: where its texels lie in the light's frame, and between which heights it tells things apart.
-struct map_grid {
-    glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
-    glm::dvec2 texel{1};  ///< metres along u and v
-    double floor = 0, relief = 1;
-    int columns = 0, rows = 0;
-
-    map_grid() = default;
-
-    /// @param texel_length  metres along v; grows if more than `largest` texels a side were needed
-    /// @param stretch       how much longer texels are along u
-    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
-    map_grid(const map_extent& extent, double texel_length, int largest, double stretch = 1)
-        : origin(extent.lowest), floor(extent.floor) {
-        detail::require(texel_length > 0 && numeric::is_finite(texel_length), "texel", texel_length,
-                        "a positive length");
-        detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
-        if (extent.empty()) return;
-        const glm::dvec2 size = extent.highest - extent.lowest;
-        const double longer_side = (std::max)(size.x / stretch, size.y);
-        texel = (std::max)(texel_length, longer_side / (largest - 0.5)) * glm::dvec2(stretch, 1);
-        const auto texels = [&](int axis) {
-            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(size[axis] / texel[axis])) + 1);
-        };
-        // A little room below and above, so that rounding can't clip the highest caster away.
-        const double height = extent.ceiling - extent.floor;
-        const double room = 1e-3 * height + 1e-6;
-        floor -= room;
-        relief = height + 2 * room;
-        columns = texels(0);
-        rows = texels(1);
-    }
-
-    bool empty() const { return columns == 0; }
-
-    /// The vertex callable that puts a mesh on the grid. The whole way from mesh to clip space is one affine map; it is
-    /// made in double and small when narrowed. Row 0 is where v is smallest, so triangles appear mirrored.
-    auto placing(const light_frame& frame, const affine& to_world) const {
-        const glm::dvec2 scale{2 / (texel.x * columns), 2 / (texel.y * rows)};
-        const auto to_clip = [&](const glm::dvec3& uvz) {
-            return glm::dvec3((uvz.x - origin.x) * scale.x - 1, 1 - (uvz.y - origin.y) * scale.y,
-                              (uvz.z - floor) / relief);
-        };
-        const glm::dvec3 zero = to_clip(frame(to_world.offset));
-        glm::mat3 axes;
-        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame(to_world.offset + to_world.linear[i])) - zero);
-        return map_placement{axes, glm::vec3(zero)};
-    }
-};
-
-/// An extent that holds everything in a box, a little larger than it has to be.
-inline map_extent extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
-    map_extent extent;
-    if (box.empty()) return extent;
-    for (const double x : {box.lower.x, box.upper.x})
-        for (const double y : {box.lower.y, box.upper.y})
-            for (const double z : {box.lower.z, box.upper.z})
-                extent.include(frame(transform_point(to_world, {x, y, z})));
-    return extent;
-}
-
-/// Heights of casters over a grid of rays.
-class height_map {
+/// The height maps of casters under one parallel light.
+class map_occlusion {
   public:
-    /// An empty map: nothing casts, everything is lit.
-    height_map() : frame_(directional_light{}) {}
-
-    /// @param frame    of the light
-    /// @param extent   which rays, and between which heights; casters outside are left out
-    /// @throws invalid_input as map_grid does
-    height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
-        : frame_(frame),
-          grid_(extent, texel, largest),
-          heights_(grid_.columns, grid_.rows, empty_depth(keep_depth::larger)) {}
-
-    /// Lets a mesh cast; several may share a map.
-    /// @param to_world  from the mesh's frame to the one in which the light is described
-    template <executor_argument E = serial_executor>
-    draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
-        if (heights_.empty()) return {};
-        return draw(m, grid_.placing(frame_, to_world), quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
+    /// See casting_policy.
+    /// @throws invalid_input for a layout out of its range, for light from nearby, and for an index without a position
+    template <executor E>
+    map_occlusion(const map_layout& layout, std::span<const caster> casters, const any_light& light,
+                  const point_bounds& bounds, E& ex)
+        : casters_(casters.begin(), casters.end()), frame_(parallel(light)), radius_(layout.radius) {
+        validate(layout);
+        const map_extent receivers = extent_of(bounds.box, {}, frame_);
+        const double texel = spacing_of(bounds, receivers) / static_cast<double>(layout.texels_per_pixel);
+        for (const caster& c : casters_) {
+            const map_extent own = extent_of(c.box, c.placement, frame_).clipped_to(receivers);
+            maps_.emplace_back(frame_, own, texel, layout.largest).cast(c.mesh, c.placement, ex);
+        }
     }
 
-    const light_frame& frame() const { return frame_; }
-    bool empty() const { return heights_.empty(); }
-    int columns() const { return heights_.width(); }
-    int rows() const { return heights_.height(); }
-    /// Metres between texels.
-    double texel() const { return grid_.texel.y; }
-
-    /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
-    /// and its height as the map stores heights.
-    glm::vec3 on_map(const glm::dvec3& uvz) const {
-        return glm::vec3((uvz.x - grid_.origin.x) / grid_.texel.x, (uvz.y - grid_.origin.y) / grid_.texel.y,
-                         (uvz.z - grid_.floor) / grid_.relief);
+    /// See occlusion.
+    void test(const points& at, const shares& into) const {
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            into.lit[i] = 1;
+            into.caster[i] = invalid_id;
+            const glm::dvec3 facet = facet_of(casters_, at, i);
+            const bool is_turned = numeric::dot(facet, frame_.to_light()) < 0;
+            const receiver_plane plane(frame_, at[i], is_turned ? -facet : facet);
+            const bool is_grazed = !plane.faces_light && facet != glm::dvec3(0);
+            const std::size_t count = (std::min)(maps_.size(), static_cast<std::size_t>(at.casters));
+            for (std::size_t k = 0; k < count && into.lit[i] > 0; ++k) {
+                const float share = lit(maps_[k], plane, radius_);
+                into.lit[i] = (std::min)(into.lit[i], share);
+                if (share < 0.5f && into.caster[i] == invalid_id) into.caster[i] = static_cast<std::uint32_t>(k);
+            }
+            if (!is_grazed) continue;
+            // It blocks its own light.
+            into.lit[i] = 0;
+            into.caster[i] = (std::min)(into.caster[i], at.mesh[i]);
+        }
     }
-    /// A slope dz / du in stored heights per texel.
-    float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel.y / grid_.relief)); }
-    /// What a texel's ray meets first: a stored height, minus infinity for nothing.
-    float operator()(int column, int row) const { return heights_(column, row); }
+
+    /// The map of one caster.
+    const height_map& of(std::size_t caster) const { return maps_[caster]; }
 
   private:
+    static light_frame parallel(const any_light& light) {
+        if (const auto* from_nearby = std::get_if<point_light>(&light)) {
+            const glm::dvec3& p = from_nearby->position;
+            insonify::detail::refuse("overhead.light_distance", numeric::square_root(numeric::dot(p, p)),
+                                     "infinite for shadow maps; shadow::exact and shadow::penumbra take a point_light");
+        }
+        return light_frame(std::get<directional_light>(light));
+    }
+    /// Metres between points; if unknown, those of a picture of 2048 pixels that shows all of them.
+    static double spacing_of(const point_bounds& bounds, const map_extent& receivers) {
+        if (bounds.spacing > 0 || receivers.empty()) return bounds.spacing > 0 ? bounds.spacing : 1;
+        const glm::dvec3 size = bounds.box.upper - bounds.box.lower;
+        const double longer = (std::max)({size.x, size.y, size.z});
+        return longer > 0 ? longer / 2048 : 1;
+    }
+
+    std::vector<caster> casters_;
     light_frame frame_;
-    map_grid grid_;
-    image<float> heights_;
+    int radius_;
+    std::vector<height_map> maps_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::shadow
+/// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
+struct map {
+    float texels_per_pixel = 1.5f;  ///< of the points' spacing; a shadow edge is off by half a texel at most
+    int largest = 8192;             ///< texels a side; what would need more gets coarser texels
+
+    /// See casting_policy.
+    /// @throws invalid_input as map_occlusion does
+    template <executor E>
+    map_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
+                        E& ex) const {
+        return {{texels_per_pixel, largest, 0}, casters, light, bounds, ex};
+    }
+};
+
+/// The same map, averaged over (2 radius + 1)^2 texels: edges are soft over as many.
+struct pcf {
+    float texels_per_pixel = 1.5f;
+    int largest = 8192;
+    int radius = 1;  ///< texels, 0 to 8
+
+    /// See casting_policy.
+    /// @throws invalid_input as map_occlusion does
+    template <executor E>
+    map_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
+                        E& ex) const {
+        return {{texels_per_pixel, largest, radius}, casters, light, bounds, ex};
+    }
+};
+
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -67,6 +67,17 @@ struct point_bounds {
     double spacing = 0;  ///< metres from one to the next on level ground; 0 if unknown
 };
 
+/// Normal of the facet that point i lies on, of any length, in the frame of the light; 0 if it lies on none. Its sign
+/// is that of the triangle's order, whichever side is seen.
+inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, std::size_t i) {
+    if (at.mesh[i] >= casters.size() || at.triangle[i] == invalid_id) return glm::dvec3(0);
+    const caster& c = casters[at.mesh[i]];
+    const glm::uvec3& t = c.mesh.triangles[at.triangle[i]];
+    const auto corner = [&](int k) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[k]])); };
+    const glm::dvec3 a = corner(0);
+    return numeric::cross(corner(1) - a, corner(2) - a);
+}
+
 using any_light = std::variant<directional_light, point_light>;
 
 /// `structure.test(points, shares)` fills in all shares; it may be called for several batches at the same time.

@@ -1,7 +1,6 @@
 // Targets as one ping meets them: the outline in its plane, cut from the mesh.
 #pragma once
 
-#include <insonify/geometry/bounds.hpp>
 #include <insonify/sonar/scene.hpp>
 #include <insonify/sonar/side_scan.hpp>
 
@@ -22,8 +21,8 @@ struct outline_piece {
 /// A target in the world, ready to be cut.
 class sliced_target {
   public:
-    explicit sliced_target(const target& t) : shape_(&t.shape), to_world_(to_world(t.placement)) {
-        const bounding_box box = bounds(t.shape);
+    explicit sliced_target(const target& t) : shape_(t.shape), to_world_(to_world(t.placement)) {
+        const bounding_box& box = t.shape.box();
         if (box.empty()) return;
         centre_ = transform_point(to_world_, box.centre());
         const glm::dvec3 half = 0.5 * box.size();
@@ -79,7 +78,7 @@ class sliced_target {
     }
 
   private:
-    const mesh* shape_;
+    shared_mesh shape_;
     affine to_world_;
     glm::dvec3 centre_{0, 0, -1e30};
     double radius_ = 0;

@@ -31,7 +31,7 @@ in::mesh standing_cube() {
 }
 
 float lit_on_ground(const shadow::height_map& map, double x, double y) {
-    return shadow::lit(map, {map.frame(), {x, y, 0}, {0, 0, 1}}, shadow::map{});
+    return shadow::lit(map, {map.frame(), {x, y, 0}, {0, 0, 1}}, 0);
 }
 
 /// A rough seabed of crossing waves.
@@ -105,10 +105,10 @@ TEST_CASE("A plane that faces the light casts no shadow on itself, however it is
                 in::random_sequence random(3);
                 for (int n = 0; n < 50; ++n) {
                     const double x = random.uniform(-0.9, 0.9), y = random.uniform(-0.9, 0.9);
-                    const shadow::receiver at(light, {x, y, height(x, y)}, {-0.8 * rise, -0.6 * rise, 1});
+                    const shadow::receiver_plane at(light, {x, y, height(x, y)}, {-0.8 * rise, -0.6 * rise, 1});
                     if (!at.faces_light) continue;
-                    CHECK(shadow::lit(map, at, shadow::map{}) == 1);
-                    CHECK(shadow::lit(map, at, shadow::pcf{}) == 1);
+                    CHECK(shadow::lit(map, at, 0) == 1);
+                    CHECK(shadow::lit(map, at, 1) == 1);
                 }
             }
 }
@@ -129,8 +129,8 @@ TEST_CASE("On a rough seabed the map agrees with rays marched one by one") {
             for (double t = 0.004; open && t < 2; t += 0.004)
                 open = static_cast<double>(field.height_at(x - light.travel().x * t, y - light.travel().y * t)) <=
                        z + t / light.cot_elevation() + 1e-6;
-            const shadow::receiver at(light, {x, y, z}, facet);
-            const bool lit = at.faces_light && shadow::lit(map, at, shadow::map{}) == 1;
+            const shadow::receiver_plane at(light, {x, y, z}, facet);
+            const bool lit = at.faces_light && shadow::lit(map, at, 0) == 1;
             both += open && lit;
             either += open || lit;
         }
@@ -143,9 +143,7 @@ TEST_CASE("PCF softens an edge and leaves the rest") {
     const double texel = 0.02;
     const shadow::light_frame light({0, radians(20)});
     const auto map = map_of(standing_cube(), light, texel);
-    const auto soft = [&](double x) {
-        return shadow::lit(map, {light, {x, 0.01, 0}, {0, 0, 1}}, shadow::pcf{.radius = 1});
-    };
+    const auto soft = [&](double x) { return shadow::lit(map, {light, {x, 0.01, 0}, {0, 0, 1}}, 1); };
     const double end = 0.5 + light.cot_elevation();
     CHECK(soft(end - 0.5) == 0);
     CHECK(soft(end + 0.5) == 1);
@@ -165,10 +163,10 @@ TEST_CASE("PCF finds nothing in the way beyond the map's border") {
     extent.include({0, 0, 0});
     extent.include({1, 1, 0.5});
     const shadow::height_map map(light, extent, 0.05);  // nobody casts
-    const shadow::pcf soft{.radius = 3};
+    constexpr int soft = 3;
     for (const double u : {-0.5, -0.1, -0.01, 0.01, 0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 1.5})
         for (const double v : {-0.5, -0.1, -0.01, 0.01, 0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 1.5}) {
-            shadow::receiver at;
+            shadow::receiver_plane at;
             at.uvz = {u, v, 0};
             CAPTURE(u, v);
             CHECK(shadow::lit(map, at, soft) == 1);

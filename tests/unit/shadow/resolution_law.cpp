@@ -49,7 +49,7 @@ displacement measured(double elevation, double azimuth, double slope, double tex
         const auto is_lit = [&](double along) {
             const glm::dvec3 ground(along * travel.x, along * travel.y, along * slope);
             const glm::dvec3 normal(-slope * travel.x, -slope * travel.y, 1);
-            return shadow::lit(map, shadow::receiver(light, ground, normal), shadow::map{}) == 1;
+            return shadow::lit(map, shadow::receiver_plane(light, ground, normal), 0) == 1;
         };
         const double truth = (rim + cot) / (1 + slope * cot);
         double dark = truth - 3 * texel, lit = truth + 3 * texel;

@@ -1,0 +1,203 @@
+// Height maps of casters: for every ray of a parallel light, the height of the first surface that it meets.
+//
+// A height map is an image over the light's sheared frame (light.hpp), drawn by the rasterizer with height as depth.
+// The resolution that it needs is the picture's ground sampling, at every elevation.
+#pragma once
+
+#include <insonify/core/image.hpp>
+#include <insonify/geometry/bounds.hpp>
+#include <insonify/geometry/transform.hpp>
+#include <insonify/raster/draw.hpp>
+#include <insonify/shadow/light.hpp>
+
+#include <algorithm>
+#include <limits>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
+
+/// A rectangle of the light's frame and the heights that count within it.
+struct map_extent {
+    glm::dvec2 lowest{(std::numeric_limits<double>::max)()};  ///< (u, v), metres
+    glm::dvec2 highest{-(std::numeric_limits<double>::max)()};
+    double floor = (std::numeric_limits<double>::max)();  ///< z
+    double ceiling = -(std::numeric_limits<double>::max)();
+
+    bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
+    /// How far from the frame's origin it goes along v and z, which a low light doesn't stretch.
+    double reach() const { return (std::max)({-lowest.y, highest.y, -floor, ceiling}); }
+
+    void include(const glm::dvec3& uvz) {
+        lowest = {(std::min)(lowest.x, uvz.x), (std::min)(lowest.y, uvz.y)};
+        highest = {(std::max)(highest.x, uvz.x), (std::max)(highest.y, uvz.y)};
+        floor = (std::min)(floor, uvz.z);
+        ceiling = (std::max)(ceiling, uvz.z);
+    }
+
+    /// Only rays that both meet matter; all casters' heights do.
+    map_extent clipped_to(const map_extent& receivers) const {
+        map_extent both = *this;
+        both.lowest = {(std::max)(lowest.x, receivers.lowest.x), (std::max)(lowest.y, receivers.lowest.y)};
+        both.highest = {(std::min)(highest.x, receivers.highest.x), (std::min)(highest.y, receivers.highest.y)};
+        return both;
+    }
+};
+
+/// The smallest extent that holds both.
+inline map_extent merge(const map_extent& a, const map_extent& b) {
+    map_extent both = a;
+    both.include({b.lowest.x, b.lowest.y, b.floor});
+    both.include({b.highest.x, b.highest.y, b.ceiling});
+    return both;
+}
+
+/// The extent of a mesh under a light; positions that aren't finite are passed over.
+template <executor_argument E = serial_executor>
+map_extent extent_of(const mesh_view& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
+    constexpr std::size_t grain = 16384;
+    std::vector<map_extent> parts((m.positions.size() + grain - 1) / grain);
+    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
+        map_extent part;
+        for (std::size_t i = first; i < last; ++i) {
+            const glm::dvec3 world = transform_point(to_world, m.positions[i]);
+            if (numeric::is_finite(world.x + world.y + world.z)) part.include(frame(world));
+        }
+        parts[first / grain] = part;
+    });
+    map_extent whole;
+    for (const map_extent& part : parts)
+        if (!part.empty()) whole = merge(whole, part);
+    return whole;
+}
+
+/// The vertex callable of maps: from a mesh's own coordinates to clip space, where w is one.
+struct map_placement {
+    glm::mat3 axes;
+    glm::vec3 start;
+
+    glm::vec4 operator()(const vertex& v) const { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); }
+    /// See lane_shader.
+    template <class Floats>
+    INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats*, const Floats (&position)[3],
+                                    const Floats (&)[3]) const {
+        numeric::product(clip, axes, position);
+        for (int i = 0; i < 3; ++i) clip[i] = clip[i] + start[i];
+        clip[3] = Floats{} + 1.0f;
+    }
+};
+
+/// A grid of rays: where its texels lie in the light's frame, and between which heights it tells things apart.
+struct map_grid {
+    glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
+    glm::dvec2 texel{1};  ///< metres along u and v
+    double floor = 0, relief = 1;
+    int columns = 0, rows = 0;
+
+    map_grid() = default;
+
+    /// @param texel_length  metres along v; grows if more than `largest` texels a side were needed
+    /// @param stretch       how much longer texels are along u
+    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
+    map_grid(const map_extent& extent, double texel_length, int largest, double stretch = 1)
+        : origin(extent.lowest), floor(extent.floor) {
+        insonify::detail::require(texel_length > 0 && numeric::is_finite(texel_length), "texel", texel_length,
+                                  "a positive length");
+        insonify::detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
+        if (extent.empty()) return;
+        const glm::dvec2 size = extent.highest - extent.lowest;
+        const double longer_side = (std::max)(size.x / stretch, size.y);
+        texel = (std::max)(texel_length, longer_side / (largest - 0.5)) * glm::dvec2(stretch, 1);
+        const auto texels = [&](int axis) {
+            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(size[axis] / texel[axis])) + 1);
+        };
+        // A little room below and above, so that rounding can't clip the highest caster away.
+        const double height = extent.ceiling - extent.floor;
+        const double room = 1e-3 * height + 1e-6;
+        floor -= room;
+        relief = height + 2 * room;
+        columns = texels(0);
+        rows = texels(1);
+    }
+
+    bool empty() const { return columns == 0; }
+
+    /// The vertex callable that puts a mesh on the grid. The whole way from mesh to clip space is one affine map; it is
+    /// made in double and small when narrowed. Row 0 is where v is smallest, so triangles appear mirrored.
+    auto placing(const light_frame& frame, const affine& to_world) const {
+        const glm::dvec2 scale{2 / (texel.x * columns), 2 / (texel.y * rows)};
+        const auto to_clip = [&](const glm::dvec3& uvz) {
+            return glm::dvec3((uvz.x - origin.x) * scale.x - 1, 1 - (uvz.y - origin.y) * scale.y,
+                              (uvz.z - floor) / relief);
+        };
+        const glm::dvec3 zero = to_clip(frame(to_world.offset));
+        glm::mat3 axes;
+        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame(to_world.offset + to_world.linear[i])) - zero);
+        return map_placement{axes, glm::vec3(zero)};
+    }
+};
+
+/// An extent that holds everything in a box, a little larger than it has to be.
+inline map_extent extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
+    map_extent extent;
+    if (box.empty()) return extent;
+    for (const double x : {box.lower.x, box.upper.x})
+        for (const double y : {box.lower.y, box.upper.y})
+            for (const double z : {box.lower.z, box.upper.z})
+                extent.include(frame(transform_point(to_world, {x, y, z})));
+    return extent;
+}
+
+/// Heights of casters over a grid of rays.
+class height_map {
+  public:
+    /// An empty map: nothing casts, everything is lit.
+    height_map() : frame_(directional_light{}) {}
+
+    /// @param frame    of the light
+    /// @param extent   which rays, and between which heights; casters outside are left out
+    /// @throws invalid_input as map_grid does
+    height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
+        : frame_(frame),
+          grid_(extent, texel, largest),
+          heights_(grid_.columns, grid_.rows, empty_depth(keep_depth::larger)) {}
+
+    /// Lets a mesh cast; several may share a map.
+    /// @param to_world  from the mesh's frame to the one in which the light is described
+    template <executor_argument E = serial_executor>
+    draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
+        if (heights_.empty()) return {};
+        return draw(m, grid_.placing(frame_, to_world), quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
+    }
+
+    const light_frame& frame() const { return frame_; }
+    bool empty() const { return heights_.empty(); }
+    int columns() const { return heights_.width(); }
+    int rows() const { return heights_.height(); }
+    /// Metres between texels.
+    double texel() const { return grid_.texel.y; }
+
+    /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
+    /// and its height as the map stores heights.
+    glm::vec3 on_map(const glm::dvec3& uvz) const {
+        return glm::vec3((uvz.x - grid_.origin.x) / grid_.texel.x, (uvz.y - grid_.origin.y) / grid_.texel.y,
+                         (uvz.z - grid_.floor) / grid_.relief);
+    }
+    /// A slope dz / du in stored heights per texel.
+    float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel.y / grid_.relief)); }
+    /// What a texel's ray meets first: a stored height, minus infinity for nothing.
+    float operator()(int column, int row) const { return heights_(column, row); }
+
+  private:
+    light_frame frame_;
+    map_grid grid_;
+    image<float> heights_;
+};
+
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,159 @@
+// Soft shadows of a round light: exact shadows of several points of its disc, of which a point gets its share.
+//
+// Sample points fill the disc as a sunflower's seeds do, ring by ring, the first in the middle.
+//
+// Based on: Helmut Vogel. A Better Way to Construct the Sunflower Head. Mathematical Biosciences 44, 1979.
+#pragma once
+
+#include <insonify/shadow/exact.hpp>
+
+#include <optional>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
+
+/// Casters under several points of one light.
+class penumbra_occlusion {
+  public:
+    /// See casting_policy.
+    /// @param radius   of the light over its distance
+    /// @param samples  points of the light, those below the horizon among them
+    /// @throws invalid_input as exact_occlusion does
+    template <executor E>
+    penumbra_occlusion(double radius, int samples, std::span<const caster> casters, const any_light& light,
+                       const point_bounds& bounds, E& ex)
+        : casters_(casters.begin(), casters.end()), samples_(samples) {
+        for (int i = 0; i < samples; ++i) {
+            const double share = i == 0 ? 0 : numeric::square_root((i + 0.5) / samples);
+            const auto [sine, cosine] = numeric::sin_cos_turns(0.6180339887498949 * i);
+            const auto at = sample_of(light, radius * share * glm::dvec2(cosine, sine));
+            if (at) lights_.push_back({exact_occlusion(casters, *at, bounds.box, ex), *at});
+        }
+    }
+
+    /// See occlusion.
+    void test(const points& at, const shares& into) const {
+        lights_.front().blocked.test(at, into);
+        insonify::detail::unfilled_vector<float> lit(at.size());
+        insonify::detail::unfilled_vector<std::uint32_t> blocking(at.size());
+        const shares one{lit, blocking};
+        for (std::size_t i = 1; i < lights_.size(); ++i) {
+            lights_[i].blocked.test(at, one);
+            add(i, at, one, into);
+        }
+        divide(into);
+    }
+
+    /// The same for many batches of at most 2^16 points each, all of them at once.
+    template <executor E>
+    void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
+        lights_.front().blocked.test(at, into, ex);
+        std::size_t count = 0;
+        for (const points& some : at) count += some.size();
+        insonify::detail::unfilled_vector<float> lit(count);
+        insonify::detail::unfilled_vector<std::uint32_t> blocking(count);
+        std::vector<shares> one;
+        count = 0;
+        for (const points& some : at) {
+            one.push_back(
+                {std::span(lit).subspan(count, some.size()), std::span(blocking).subspan(count, some.size())});
+            count += some.size();
+        }
+        for (std::size_t i = 1; i < lights_.size(); ++i) {
+            lights_[i].blocked.test(at, std::span<const shares>(one), ex);
+            ex.bulk(at.size(), [&](std::size_t k) { add(i, at[k], one[k], into[k]); });
+        }
+        for (const shares& some : into) divide(some);
+    }
+
+  private:
+    /// One point of the light, above the horizon.
+    struct sample {
+        exact_occlusion blocked;
+        any_light light;
+
+        glm::dvec3 toward(const glm::dvec3& p) const {
+            if (const auto* from_nearby = std::get_if<point_light>(&light)) return from_nearby->position - p;
+            return light_frame(std::get<directional_light>(light)).to_light();
+        }
+    };
+
+    /// A point of the light, or none below the horizon.
+    /// @param beside  its place on the disc, across and up, over the light's distance
+    static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& beside) {
+        if (beside == glm::dvec2(0)) return light;
+        const auto place = [&](const glm::dvec3& middle, const glm::dvec2& travel) {
+            const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(middle, across);
+            return middle + beside.x * across + beside.y * up;
+        };
+        if (const auto* from_nearby = std::get_if<point_light>(&light)) {
+            const glm::dvec3& p = from_nearby->position;
+            const double distance = numeric::square_root(numeric::dot(p, p));
+            const double level = numeric::square_root(p.x * p.x + p.y * p.y);
+            const glm::dvec2 travel = level > 0 ? glm::dvec2(-p.x / level, -p.y / level) : glm::dvec2(1, 0);
+            return point_light{distance > 0 ? distance * place(p / distance, travel) : p};
+        }
+        const light_frame frame(std::get<directional_light>(light));
+        const glm::dvec3 d = place(frame.to_light(), frame.travel());
+        if (!(d.z > 0)) return std::nullopt;
+        const double level = numeric::square_root(d.x * d.x + d.y * d.y);
+        return directional_light{numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)};
+    }
+
+    /// Adds what one sample lights of the points whose facets face it on the side of the light's middle.
+    void add(std::size_t number, const points& at, const shares& one, const shares& into) const {
+        const sample &middle = lights_.front(), &here = lights_[number];
+        glm::dvec3 to_middle = middle.toward({}), to_here = here.toward({});
+        const bool is_near = std::holds_alternative<point_light>(middle.light);
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            if (!(one.lit[i] > 0)) continue;
+            const glm::dvec3 facet = facet_of(casters_, at, i);
+            if (is_near) {
+                to_middle = middle.toward(at[i]);
+                to_here = here.toward(at[i]);
+            }
+            const bool faces =
+                facet == glm::dvec3(0) || (numeric::dot(facet, to_here) > 0) == (numeric::dot(facet, to_middle) > 0);
+            if (faces) into.lit[i] += one.lit[i];
+        }
+    }
+    void divide(const shares& into) const {
+        for (float& lit : into.lit) lit /= static_cast<float>(samples_);
+    }
+
+    std::vector<caster> casters_;
+    int samples_;
+    std::vector<sample> lights_;  ///< the middle first
+};
+
+/// Soft edges: exact shadows of several points of a round light. Each point costs as much as `exact`. The caster is
+/// that of the light's middle. The disc of light from nearby faces the origin of the frame in which it is described.
+struct penumbra {
+    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< of the light, in radians as the ground sees it
+    int samples = 16;                                               ///< points of it, the first in the middle
+
+    /// Radius of the light over its distance.
+    /// @throws invalid_input for a diameter out of range
+    double light_radius() const {
+        insonify::detail::require(diameter >= 0 && diameter <= 1, "diameter", diameter, "0 to 1 radian");
+        return numeric::tan(0.5 * static_cast<double>(diameter));
+    }
+
+    /// See casting_policy.
+    /// @throws invalid_input for a diameter or samples out of range, else as exact_occlusion does
+    template <executor E>
+    penumbra_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
+                             E& ex) const {
+        insonify::detail::require(samples >= 1 && samples <= 1024, "samples", samples, "1 to 1024");
+        return {light_radius(), samples, casters, light, bounds, ex};
+    }
+};
+
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
