@@ -73,6 +73,7 @@
 #include <insonify/geometry/revolution.hpp>
 #include <insonify/geometry/shared_mesh.hpp>
 #include <insonify/geometry/sphere.hpp>
+#include <insonify/geometry/surface_kind.hpp>
 #include <insonify/geometry/topology.hpp>
 #include <insonify/geometry/transform.hpp>
 #include <insonify/geometry/triangulate.hpp>
@@ -147,6 +148,7 @@
 #include <insonify/sonar/seabed_reach.hpp>
 #include <insonify/sonar/sediment.hpp>
 #include <insonify/sonar/shading.hpp>
+#include <insonify/sonar/shadow_pass.hpp>
 #include <insonify/sonar/side_scan.hpp>
 #include <insonify/sonar/slant_range.hpp>
 #include <insonify/sonar/slant_to_ground.hpp>

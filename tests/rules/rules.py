@@ -55,13 +55,8 @@ def allowed_from(folder):
 
 
 def folder_of(header):
-<<<<<<< HEAD:tests/rules/rules.py
     """The folder below insonify/ that a header belongs to; those inside it follow its rules."""
     return header.partition("/")[0] if "/" in header else ""
-=======
-    """What a folder's own headers need lies in its `detail/` and follows the folder's rules."""
-    return header.rpartition("/")[0].removesuffix("/detail")
->>>>>>> migrate:tests/house/rules.py
 
 
 def code_of(text):

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <insonify/geometry/bounds.hpp>
-#include <insonify/geometry/coherent_order.hpp>
+#include <insonify/geometry/detail/coherent_order.hpp>
 #include <insonify/geometry/normals.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/surface_kind.hpp>

@@ -7,8 +7,8 @@
 #include <insonify/seabed/sample.hpp>
 #include <insonify/shadow/exact.hpp>
 #include <insonify/sonar/backscatter.hpp>
-#include <insonify/sonar/light_pass.hpp>
 #include <insonify/sonar/seabed_reach.hpp>
+#include <insonify/sonar/shadow_pass.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -16,9 +16,6 @@
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
-
-/// Asks for no labels: none are stored or computed.
-struct no_labels {};
 
 /// How to draw a picture; the types say what is in it.
 template <shadow::policy Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert>
@@ -94,8 +91,11 @@ class overhead_painter {
             for (const placed_mesh& t : targets_) casters.push_back(as_caster(view_, t));
             if (has_bottom()) casters.push_back(as_caster(view_, bottom_in_rig_));
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling()};
-            cast_shadows(options_.shadow.build(std::span<const shadow::caster>(casters), light_of(view_), bounds, ex),
-                         ex);
+            const auto occlusion =
+                options_.shadow.build(std::span<const shadow::caster>(casters), light_of(view_), bounds, ex);
+            shadow_pass<Labels>(view_, surfaces_, ids_, rest_, out_.image, out_.labels, targets_.size(), options_.tile,
+                                options_.level)
+                .cast(occlusion, ex);
         }
         if constexpr (labelled) {
             label_surfaces(ex);
@@ -113,7 +113,7 @@ class overhead_painter {
         for (std::size_t i = 0; i < shown.triangle.size(); ++i) {
             std::uint32_t& id = shown.triangle.pixels()[i];
             if (id == visibility::no_triangle) continue;
-            const surface& s = surface_of(id);
+            const surface& s = surface_of(surfaces_, id);
             shown.instance.pixels()[i] = s.instance;
             id -= s.first_id;
         }
@@ -301,149 +301,6 @@ class overhead_painter {
         }
     }
 
-    tile_grid tiles() const {
-        return {out_.image.width(), out_.image.height(), std::countr_zero(static_cast<unsigned>(options_.tile))};
-    }
-    pixel_box tile_box(std::size_t i) const {
-        const auto columns = static_cast<std::size_t>(tiles().columns);
-        const int x = static_cast<int>(i % columns) * options_.tile, y = static_cast<int>(i / columns) * options_.tile;
-        return intersect({x, y, x + options_.tile - 1, y + options_.tile - 1},
-                         {0, 0, out_.image.width() - 1, out_.image.height() - 1});
-    }
-
-    /// Tests the points of every tile and puts out the light of those that are in shadow. Occlusion that sees all
-    /// points at once gets those of all tiles before any is finished.
-    template <class Occlusion, executor E>
-    void cast_shadows(const Occlusion& occlusion, E& ex) {
-        const auto targets = static_cast<std::uint32_t>(targets_.size());
-        std::vector<point_finder> finders;
-        for (const surface& s : surfaces_) finders.emplace_back(view_, s);
-        constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
-        constexpr std::size_t run = 4;  // tiles share their memory
-        const std::size_t pixels = static_cast<std::size_t>(options_.tile) * static_cast<std::size_t>(options_.tile);
-        const std::size_t count = tiles().count(), room = run * pixels;
-        // What screening leaves, run by run.
-        const std::size_t runs = is_collective ? (count + run - 1) / run : 0;
-        point_arrays rest_of_points(runs * room);
-        unfilled_vector<float> direct(runs * room);
-        std::vector<point_list> pending(runs);
-        bulk_ranges(ex, count, run, [&](std::size_t first, std::size_t last) {
-            point_arrays arrays(pixels);
-            light_arrays light(pixels);
-            if constexpr (is_collective) pending[first / run] = point_list(rest_of_points, first / run * room, room);
-            for (std::size_t i = first; i < last; ++i) {
-                const pixel_box box = tile_box(i);
-                point_list points(arrays, 0, pixels);
-                find_points(finders, box, points);
-                const shadow::shares shares = light.part(0, points.size());
-                point_batches(points, shares, targets).for_each([&](const shadow::points& p, const shadow::shares& s) {
-                    if constexpr (is_collective)
-                        occlusion.screen(p, s);
-                    else
-                        occlusion.test(p, s);
-                });
-                if constexpr (is_collective) {
-                    point_list& later = pending[first / run];
-                    for (std::size_t k = 0; k < points.size(); ++k) {
-                        if (shares.lit[k] != shadow::unknown) continue;
-                        const std::uint32_t pixel = pixel_in(box, points.pixel(k));
-                        later.add(points, k, pixel);
-                        if (k < points.facing) {
-                            direct[first / run * room + later.facing - 1] = out_.image.pixels()[pixel];
-                            shares.lit[k] = 0;
-                        }
-                    }
-                }
-                finish(box, points, shares);
-            }
-        });
-        if constexpr (is_collective) {
-            light_arrays light(runs * room);
-            std::vector<shadow::points> at;
-            std::vector<shadow::shares> into;
-            for (std::size_t i = 0; i < runs; ++i)
-                point_batches(pending[i], light.part(i * room, pending[i].size()), targets)
-                    .for_each([&](const shadow::points& p, const shadow::shares& s) {
-                        at.push_back(p);
-                        into.push_back(s);
-                    });
-            occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), ex);
-            ex.bulk(runs, [&](std::size_t i) {
-                const shadow::shares shares = light.part(i * room, pending[i].size());
-                for (std::size_t k = 0; k < pending[i].facing; ++k) {
-                    float& value = out_.image.pixels()[pending[i].pixel(k)];
-                    value =
-                        (std::min)(1.0f, rest_.pixels()[pending[i].pixel(k)] + shares.lit[k] * direct[i * room + k]);
-                }
-                if constexpr (labelled) label_shadows(pending[i], shares, [&](std::size_t pixel) { return pixel; });
-            });
-        }
-    }
-
-    /// A tile's pixel, counted from its first, as one of the picture's.
-    std::uint32_t pixel_in(const pixel_box& box, std::size_t pixel) const {
-        const auto width = static_cast<std::size_t>(box.width());
-        return static_cast<std::uint32_t>((static_cast<std::size_t>(box.y0) + pixel / width) *
-                                              static_cast<std::size_t>(out_.image.width()) +
-                                          static_cast<std::size_t>(box.x0) + pixel % width);
-    }
-
-    /// The points of a tile that matter: where there is light to lose, or all for the sake of labels.
-    void find_points(std::span<const point_finder> finders, const pixel_box& box, point_list& into) const {
-        std::vector<std::vector<shown_pixel>> pixels(surfaces_.size());
-        const surface* last = nullptr;
-        std::vector<shown_pixel>* to = nullptr;
-        for (int y = box.y0; y <= box.y1; ++y) {
-            const std::uint32_t* const ids = &ids_(box.x0, y);
-            const float* const direct = &out_.image(box.x0, y);
-            for (int x = 0; x < box.width(); ++x) {
-                const std::uint32_t id = ids[x];
-                if (id == shadow::invalid_id || !(labelled || direct[x] > 0)) continue;
-                if (last == nullptr || id - last->first_id >= last->mesh.triangles.size()) {
-                    last = &surface_of(id);
-                    to = &pixels[static_cast<std::size_t>(last - surfaces_.data())];
-                    if (to->empty()) to->reserve(static_cast<std::size_t>(box.width() * box.height()));
-                }
-                to->push_back(
-                    {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y - box.y0), id - last->first_id});
-            }
-        }
-        for (std::size_t i = 0; i < pixels.size(); ++i)
-            if (!pixels[i].empty())
-                dispatch(point_kernel{finders[i], pixels[i], view_.has_near_light(), labelled, box, into},
-                         options_.level);
-    }
-
-    /// Pixels of a tile from what the light makes of them and how much of it arrives.
-    void finish(const pixel_box& box, const point_list& points, const shadow::shares& light) {
-        const auto width = static_cast<std::size_t>(box.width());
-        std::vector<float> lit(width * static_cast<std::size_t>(box.height()), 0.0f);
-        for (std::size_t i = 0; i < points.facing; ++i) lit[points.pixel(i)] = light.lit[i];
-        for (int y = box.y0; y <= box.y1; ++y) {
-            const float* const share = lit.data() + static_cast<std::size_t>(y - box.y0) * width;
-            float* const value = &out_.image(box.x0, y);
-            const float* const rest = &rest_(box.x0, y);
-            for (std::size_t i = 0; i < width; ++i) value[i] = (std::min)(1.0f, rest[i] + share[i] * value[i]);
-        }
-        if constexpr (labelled) label_shadows(points, light, [&](std::size_t pixel) { return pixel_in(box, pixel); });
-    }
-
-    /// Names the caster of each shadow, see light_pass.hpp.
-    /// @param pixel_of  the picture's pixel by the list's number of it
-    template <class PixelOf>
-    void label_shadows(const point_list& points, const shadow::shares& light, const PixelOf& pixel_of) {
-        const auto targets = static_cast<std::uint32_t>(targets_.size());
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const bool is_averted = i >= points.facing;
-            if (!is_averted && !(light.lit[i] < 0.5f)) continue;
-            const std::uint32_t caster = is_averted && light.caster[i] >= targets ? points.caster(i) : light.caster[i];
-            // A lit share of 0 without a caster is one that is yet to be tested.
-            if (caster == shadow::invalid_id) continue;
-            out_.labels.shadow.pixels()[pixel_of(points.pixel(i))] =
-                caster < targets ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
-        }
-    }
-
     /// Instances and seabed types from the visibility buffer.
     template <executor E>
     void label_surfaces(E& ex) {
@@ -454,16 +311,11 @@ class overhead_painter {
             for (int x = 0; x < ids_.width(); ++x) {
                 const std::uint32_t id = ids_(x, y);
                 if (id == shadow::invalid_id) continue;
-                if (id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(id);
+                if (id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, id);
                 out_.labels.instance(x, y) = last->instance;
                 if (last->types == nullptr) out_.labels.seabed(x, y) = last->seabed;
             }
         });
-    }
-    const surface& surface_of(std::uint32_t id) const {
-        const auto after = std::upper_bound(surfaces_.begin(), surfaces_.end(), id,
-                                            [](std::uint32_t i, const surface& s) { return i < s.first_id; });
-        return *(after - 1);
     }
 
     const scene& scene_;
