@@ -46,10 +46,10 @@ inline in::scene make(int kind, double spacing) {
     const glm::dvec2 corner(-5.0123, -4.9871);
     const int vertices = static_cast<int>(10 / spacing) + 1;
     const auto field = in::seabed::sample(bottom, {corner, spacing, vertices, vertices});
-    s.add(in::seabed::tessellate(field), {.position = {corner, 0}}, "seabed").is_solid = true;
+    s.add(in::seabed::tessellate(field), {.position = {corner, 0}}, "seabed");
     const auto put = [&](const auto& shape, in::pose placement) {
-        const in::mesh m = in::scene::mesh_of(shape);
-        s.add(m, in::rest_on(bottom, m, placement), "target");
+        const in::shared_mesh m = in::scene::mesh_of(shape);
+        s.add(m, in::rest_on(bottom, *m, placement), "target");
     };
     put(in::cylinder{.radius = 0.25f, .length = 1.2f, .segments = 24}, {.position = {-1.5, 0.7, 0}, .yaw = 25_deg});
     put(in::cone{.radius = 0.4f, .height = 0.5f, .segments = 24}, {.position = {1.2, 1.4, 0}, .burial = 0.05f});
@@ -84,8 +84,8 @@ inline std::vector<triangle> triangles(const in::scene& s) {
     std::vector<triangle> all;
     for (const in::target& t : s.targets) {
         const in::affine place = in::to_world(t.placement);
-        const auto at = [&](std::uint32_t i) { return in::transform_point(place, t.shape.positions[i]); };
-        for (const glm::uvec3& i : t.shape.triangles) all.push_back({at(i.x), at(i.y), at(i.z)});
+        const auto at = [&](std::uint32_t i) { return in::transform_point(place, t.shape->positions[i]); };
+        for (const glm::uvec3& i : t.shape->triangles) all.push_back({at(i.x), at(i.y), at(i.z)});
     }
     return all;
 }

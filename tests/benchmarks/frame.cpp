@@ -64,12 +64,12 @@ int main(int argc, char** argv) {
     using in::render_options, in::no_labels;
     namespace shadow = in::shadow;
     std::printf("  frame, no shadows       %7.1f ms\n", frame_ms(render_options<shadow::none, no_labels>{}));
-    std::printf("  frame, shadows          %7.1f ms\n", frame_ms(render_options<shadow::refined, no_labels>{}));
+    std::printf("  frame, shadows          %7.1f ms\n", frame_ms(render_options<shadow::exact, no_labels>{}));
     std::printf("  frame, shadows, labels  %7.1f ms\n", frame_ms(render_options<>{}));
-    std::printf("  frame with labels, shadows by a map / refined / exact\n");
+    std::printf("  frame with labels, shadows by a map / exact\n");
     const auto by_policy = [&](const char* bottom_name) {
-        std::printf("    %-8s %7.1f / %.1f / %.1f ms\n", bottom_name, frame_ms(render_options<shadow::map>{}),
-                    frame_ms(render_options<shadow::refined>{}), frame_ms(render_options<shadow::exact>{}));
+        std::printf("    %-8s %7.1f / %.1f ms\n", bottom_name, frame_ms(render_options<shadow::map>{}),
+                    frame_ms(render_options<shadow::exact>{}));
     };
     by_policy("ripples");
     scene.seabed = in::seabed::mud{};

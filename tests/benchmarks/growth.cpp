@@ -29,7 +29,7 @@ double megabytes_in_use() {
 }
 
 double median_ms(const workload::scene& scene, int threads, std::vector<std::uint8_t>& out) {
-    peers::insonify_renderer<insonify::shadow::refined> renderer(scene, threads);
+    peers::insonify_renderer<insonify::shadow::exact> renderer(scene, threads);
     std::vector<double> times;
     for (int frame = -1; frame < frames; ++frame) {
         const auto start = std::chrono::steady_clock::now();
@@ -64,7 +64,7 @@ void measure_memory(const job& j) {
     workload::scene scene(j.size);
     const double given = megabytes(scene);
     std::vector<std::uint8_t> out(static_cast<std::size_t>(j.size.pixels) * static_cast<std::size_t>(j.size.pixels));
-    peers::insonify_renderer<insonify::shadow::refined>(std::move(scene), 2).render(out);
+    peers::insonify_renderer<insonify::shadow::exact>(std::move(scene), 2).render(out);
     std::printf(" %10.0f %10.0f\n", megabytes_in_use(), given);
 }
 

@@ -20,7 +20,7 @@ using piece = std::function<void()>;
 /// The reference workload in size S.
 piece frame() {
     const workload::size size = workload::sizes[0];
-    const auto renderer = std::make_shared<peers::insonify_renderer<in::shadow::refined>>(workload::scene(size), 1);
+    const auto renderer = std::make_shared<peers::insonify_renderer<in::shadow::exact>>(workload::scene(size), 1);
     const auto pixels = static_cast<std::size_t>(size.pixels);
     return [=, out = std::vector<std::uint8_t>(pixels * pixels)]() mutable { renderer->render(out); };
 }

@@ -190,7 +190,7 @@ int main() {
     render<in::shadow::none>("mud, no shadow", in::seabed::mud{});
     render<in::shadow::pcf>("rock, pcf", in::seabed::rock{});
     render<in::shadow::pcf>("blend, pcf", in::seabed::blend{});
-    render<in::shadow::refined>("rock, refined", in::seabed::rock{});
+    render<in::shadow::exact>("rock, exact", in::seabed::rock{});
     record<in::across_track::slant_range>("blend, slant range", in::seabed::blend{});
     record<in::across_track::ground_range>("rock, ground range", in::seabed::rock{});
     return all_equal ? 0 : 1;

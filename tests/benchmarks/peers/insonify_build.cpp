@@ -11,6 +11,6 @@ peers::draws peers::PEERS_BUILD(char size, const char* setting, int threads) {
     const auto& what = *std::ranges::find(workload::settings, std::string_view(setting),
                                           [](const workload::setting& w) { return std::string_view(w.name); });
     const auto renderer =
-        std::make_shared<insonify_renderer<insonify::shadow::refined>>(workload::scene(s, what), threads);
+        std::make_shared<insonify_renderer<insonify::shadow::exact>>(workload::scene(s, what), threads);
     return [renderer](std::span<std::uint8_t> out) { renderer->render(out); };
 }

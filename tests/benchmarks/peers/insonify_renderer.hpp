@@ -19,9 +19,8 @@ class insonify_renderer {
   public:
     insonify_renderer(workload::scene w, int threads) : pool_(threads) {
         scene_.seabed = in::seabed::none{};
-        // Nothing lies below the one, and the other is closed: peers are told to cull.
-        scene_.add(std::move(w.seabed), {}, "seabed", {.reflectivity = 1}).is_solid = true;
-        scene_.add(std::move(w.target), {}, "target", {.reflectivity = 1}).is_solid = true;
+        scene_.add(std::move(w.seabed), {}, "seabed", {.reflectivity = 1});
+        scene_.add(std::move(w.target), {}, "target", {.reflectivity = 1});
         const auto radians = [](double degrees) { return static_cast<float>(in::numeric::to_radians(degrees)); };
         rig_ = {.altitude = static_cast<float>(w.setting.altitude),
                 .field_of_view = radians(workload::field_of_view),

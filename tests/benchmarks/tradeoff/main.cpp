@@ -69,7 +69,6 @@ void for_each_policy(const Visit& visit) {
     visit("none", in::shadow::none{});
     visit("map", in::shadow::map{});
     visit("pcf", in::shadow::pcf{});
-    visit("refined", in::shadow::refined{});
     visit("exact", in::shadow::exact{});
 }
 
@@ -137,8 +136,8 @@ void measure_pictures(const options& o, report::contents& into) {
             candidates.push_back(make_candidate(scene, rig, name, policy, how.options()));
             candidates.back().way.name = title;
         };
-        add_named("fast", "refined", in::accuracy::fast(rig));
-        add_named("balanced", "refined", in::accuracy::balanced(rig));
+        add_named("fast", "exact", in::accuracy::fast(rig));
+        add_named("balanced", "exact", in::accuracy::balanced(rig));
         add_named("exact", "exact", in::accuracy::exact(rig));
         for (int run = 0; run < o.runs; ++run)
             for (candidate& c : candidates) {
@@ -200,7 +199,7 @@ void measure_targets(const options& o, report::contents& into) {
         shape.segments = 1024;
         return shape;
     });
-    in::render_options<> best{.shadow = {.texels_per_pixel = 4}, .cells = o.pixels / 8};
+    in::render_options<> best{.cells = o.pixels / 8};
     best.subpixel_bits = 16;
     const auto truth = in::render(fine, rig, best);
     const auto both = [&](const in::frame<>& f) {
@@ -214,7 +213,7 @@ void measure_targets(const options& o, report::contents& into) {
         in::accuracy::settings<> how{.side_error = error, .shadow_error = error, .rig = rig};
         scenes.push_back(targets([&](const auto& shape, const in::pose& at) { return how.modelled(shape, at); }));
         std::size_t triangles = 0;
-        for (const in::target& t : scenes.back().targets) triangles += t.shape.triangles.size();
+        for (const in::target& t : scenes.back().targets) triangles += t.shape->triangles.size();
         names.push_back("facets off by " + svg::number(error, 2) + " px: " + std::to_string(triangles) + " triangles");
     }
     measure_knob(
@@ -240,7 +239,7 @@ void measure_mesh(const options& o, report::contents& into) {
     for (const auto& [name, bottom] : seabeds) {
         in::scene scene;
         scene.seabed = bottom;
-        in::render_options<> every{.shadow = {.texels_per_pixel = 4}, .cells = o.pixels};
+        in::render_options<> every{.cells = o.pixels};
         const auto truth = in::render(scene, rig, every);
         const std::vector<float> errors{0, 0.05f, 0.25f, 1, 4};
         std::vector<std::string> names;

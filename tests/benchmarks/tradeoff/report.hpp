@@ -61,7 +61,7 @@ inline const way* cheapest(const contents& c, const std::string& seabed, double 
 
 inline std::string color_of(const std::string& policy) {
     static const std::map<std::string, std::string> colors{
-        {"none", "#7a7a7a"}, {"map", "#3b75af"}, {"pcf", "#5aa469"}, {"refined", "#b5651d"}, {"exact", "#8e44ad"}};
+        {"none", "#7a7a7a"}, {"map", "#3b75af"}, {"pcf", "#5aa469"}, {"exact", "#8e44ad"}};
     const auto found = colors.find(policy);
     return found == colors.end() ? "#000000" : found->second;
 }
@@ -115,7 +115,7 @@ inline std::string trade_chart(const contents& c) {
         x0 += width + gap;
     }
     double key = left;
-    for (const std::string policy : {"exact", "refined", "map", "pcf", "none"}) {
+    for (const std::string policy : {"exact", "map", "pcf", "none"}) {
         body += svg::circle(key, top + height + 42, 5, color_of(policy)) +
                 svg::text(key + 10, top + height + 46, policy == "none" ? "no shadows" : policy);
         key += 110;

@@ -2,6 +2,7 @@
 #include <insonify/accuracy/budget.hpp>
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>
+#include <insonify/shadow/map.hpp>
 
 #include <array>
 #include <cmath>

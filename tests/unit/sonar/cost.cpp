@@ -10,7 +10,7 @@ using namespace in::literals;
 
 namespace {
 
-template <class Shadow = in::shadow::refined>
+template <class Shadow = in::shadow::exact>
 in::render_stats cost_of(const in::seabed::any& bottom, const in::overhead& rig,
                          const in::render_options<Shadow>& options = {}) {
     in::scene scene;

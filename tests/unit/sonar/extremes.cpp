@@ -55,7 +55,7 @@ TEST_CASE("However far from the world's origin, the picture is the same to the b
 }
 
 TEMPLATE_TEST_CASE("From a micrometre to a thousand kilometres up, a scene of that size looks the same", "",
-                   in::shadow::refined, in::shadow::exact) {
+                   in::shadow::map, in::shadow::exact) {
     const in::overhead rig{.altitude = 5, .size = {160, 120}};
     const in::render_options<TestType> options;
     const auto ordinary = in::render(scene_at({0, 0, 0}), rig, options);
