@@ -57,6 +57,37 @@ inline in::scene standing(in::mesh m) {
     return on_ground(m);
 }
 
+/// One mesh many times: scaled, turned upside down, half buried, one in another, some outside of the picture.
+inline in::scene crowd(const in::mesh& m) {
+    in::scene s = on_ground(m, {.position = {0.4, 0.3, 0.5}, .yaw = 0.4f, .scale = 0.6f});
+    const auto put = [&](const in::pose& placement) { s.add(m, placement, "mesh"); };
+    put({.position = {-0.9, 0.8, 0.2}, .yaw = 2, .roll = 0.5f, .scale = 0.5f});
+    put({.position = {-0.7, 0.7, 0.4}, .pitch = 3.1f, .scale = 0.4f});
+    put({.position = {0.9, -1, 0}, .yaw = 1, .scale = 0.7f, .burial = 0.1f});
+    put({.position = {-1.1, -0.9, 0.02}, .roll = 1.2f, .scale = 0.05f});
+    put({.position = {-4.5, -1.5, 0.7}, .yaw = 5});
+    put({.position = {3.5, 3, 1.5}, .pitch = 1});
+    return s;
+}
+
+/// Walls around the picture that rise past the camera, and a roof with holes above it.
+inline in::scene hall() {
+    in::scene s = on_ground(shadow_meshes::fins());
+    const in::mesh wall = shadow_meshes::sheet(9, 6, [](double u, double v) {
+        return glm::dvec3(8 * u - 4, 0.3 * shadow_meshes::bumps({u, v, 1}, 9), 7 * v);
+    });
+    for (const double x : {-3.5, 3.7}) s.add(wall, {.position = {x, 0.2, -0.1}, .yaw = 1.6f}, "wall");
+    s.add(shadow_meshes::with_holes(shadow_meshes::relief(30)), {.position = {0.3, 0.1, 5.5}, .yaw = 0.7f}, "roof");
+    return s;
+}
+
+/// A library's seabed as a mesh like any other.
+inline in::scene bottom_of(const in::seabed::any& seabed, double spacing) {
+    const int vertices = static_cast<int>(6 / spacing) + 1;
+    return bare(in::seabed::tessellate(in::seabed::sample(seabed, {{-3.0123, -2.9871}, spacing, vertices, vertices})),
+                {.position = {-3.0123, -2.9871, 0}});
+}
+
 /// @param dense  also those of more than 20 000 triangles
 inline std::vector<foreign_scene> all(bool dense = true) {
     namespace shapes = shadow_meshes;
@@ -86,7 +117,12 @@ inline std::vector<foreign_scene> all(bool dense = true) {
     add("grid, shuffled", bare(shapes::shuffled(relief)));
     add("grid, NaN", bare(shapes::with_nodata(relief)));
     add("grid, holes", bare(shapes::with_holes(relief)));
+    add("crowd", crowd(shapes::cow()));
+    add("hall", hall());
+    add("rubble", bottom_of(in::seabed::rock{}, 0.05));
     if (!dense) return scenes;
+    add("fine rubble", bottom_of(in::seabed::rock{}, 0.013));
+    add("fine ripples", bottom_of(in::seabed::ripples{.wavelength = 0.4f, .direction = 0.3f}, 0.013));
     const in::mesh fine = shapes::relief(400);
     add("statue 72k", on_ground(shapes::statue(), raised(0.7)));
     add("statue 300k", on_ground(shapes::statue(500, 301), raised(0.7)));

@@ -71,12 +71,18 @@ struct tally {
     std::int64_t beside = 0, beside_wrong = 0;  ///< counted here alone
 
     std::int64_t wrong() const { return false_dark + false_lit; }
-    double share() const { return shown == 0 ? 0 : static_cast<double>(wrong()) / static_cast<double>(shown); }
+    double share() const { return share_of(wrong()); }
+    double share_with_beside() const { return share_of(wrong() + beside_wrong); }
     tally& operator+=(const tally& t) {
         shown += t.shown, undecided += t.undecided;
         false_dark += t.false_dark, false_lit += t.false_lit;
         beside += t.beside, beside_wrong += t.beside_wrong;
         return *this;
+    }
+
+  private:
+    double share_of(std::int64_t pixels) const {
+        return shown == 0 ? 0 : static_cast<double>(pixels) / static_cast<double>(shown);
     }
 };
 

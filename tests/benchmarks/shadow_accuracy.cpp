@@ -53,7 +53,8 @@ constexpr const char* help =
     "  --each              a line for each picture with a wrong pixel, too\n"
     "  --threads n         (2)\n"
     "wrong: dark that should be lit + lit that should be dark, where the pixel's centre lies in the triangle shown;\n"
-    "beside: pixels whose centre misses the triangle shown, and how many of those are wrong.\n";
+    "beside: pixels whose centre misses the triangle shown, and how many of those are wrong; not in the first\n"
+    "share, but in the second.\n";
 
 std::vector<std::string> words(const std::string& list) {
     std::vector<std::string> all;
@@ -140,10 +141,11 @@ std::vector<foreign_scenes::foreign_scene> scenes_of(const options& o) {
 }
 
 void print_line(const char* policy, const std::string& scene, const judge::tally& t) {
-    std::printf("%-8s %-24s %10lld %9lld %9lld %9lld %9lld %8lld  %.2e\n", policy, scene.c_str(),
+    std::printf("%-8s %-24s %10lld %9lld %9lld %9lld %9lld %8lld  %.2e  %.2e\n", policy, scene.c_str(),
                 static_cast<long long>(t.shown), static_cast<long long>(t.false_dark),
                 static_cast<long long>(t.false_lit), static_cast<long long>(t.undecided),
-                static_cast<long long>(t.beside), static_cast<long long>(t.beside_wrong), t.share());
+                static_cast<long long>(t.beside), static_cast<long long>(t.beside_wrong), t.share(),
+                t.share_with_beside());
     std::fflush(stdout);
 }
 
@@ -182,8 +184,8 @@ int main(int argc, char** argv) {
     const options o = parse(argc, argv);
     in::thread_pool pool(o.threads);
     const auto scenes = scenes_of(o);
-    std::printf("%-8s %-24s %10s %9s %9s %9s %9s %8s  %s\n", "policy", "scene", "pixels", "not lit", "not dark",
-                "undecided", "beside", "wrong", "share wrong");
+    std::printf("%-8s %-24s %10s %9s %9s %9s %9s %8s  %s  %s\n", "policy", "scene", "pixels", "not lit", "not dark",
+                "undecided", "beside", "wrong", "share   ", "with beside");
     const auto start = std::chrono::steady_clock::now();
     std::vector<judge::tally> totals(std::tuple_size_v<decltype(policies)>);
     for (const auto& s : scenes) {
