@@ -1520,6 +1520,65 @@ T determinant(const glm::mat<3, 3, T>& m) {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/geometry/indices.hpp -------------------------------------------------------------
+// Whether a mesh's triangles refer to positions that are there.
+
+#include <optional>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// The largest of some indices.
+struct largest_index_kernel {
+    const std::uint32_t* indices;
+    std::size_t count;
+    std::uint32_t& largest;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        lanes<std::uint32_t, N> most{}, some;
+        std::size_t i = 0;
+        for (; i + N <= count; i += N) {
+            load(some, indices + i);
+            most = some > most ? some : most;
+        }
+        for (int k = 0; k < N; ++k) largest = (std::max)(largest, lane(most, k));
+        for (; i < count; ++i) largest = (std::max)(largest, indices[i]);
+    }
+};
+
+/// The first index without a position among some triangles.
+inline std::optional<std::uint32_t> bad_index(std::span<const glm::uvec3> triangles, std::size_t vertices, isa level) {
+    if (triangles.empty()) return std::nullopt;
+    std::uint32_t largest = 0;
+    dispatch(largest_index_kernel{&triangles.front().x, 3 * triangles.size(), largest}, level);
+    if (largest < vertices) return std::nullopt;
+    for (const glm::uvec3& t : triangles)
+        if ((std::max)({t.x, t.y, t.z}) >= vertices) return (std::max)({t.x, t.y, t.z});
+    return std::nullopt;
+}
+
+/// @throws invalid_input for the first index without a position
+template <executor E>
+void require_indices(const mesh_view& m, E& ex) {
+    constexpr std::size_t grain = 65536;
+    std::vector<std::optional<std::uint32_t>> bad((m.triangles.size() + grain - 1) / grain);
+    bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
+        bad[first / grain] = bad_index(m.triangles.subspan(first, last - first), m.positions.size(), best_isa());
+    });
+    for (const auto& index : bad)
+        if (index) refuse("mesh.triangles", *index, "an index of a position");
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/core/int128.hpp ------------------------------------------------------------------
 // Integers of 128 bits, as far as exact geometry far from the picture needs them: products of two 64-bit numbers, their
 // sums, and what can be asked of those. Two's complement in two halves, so that every compiler has them.
@@ -2158,7 +2217,8 @@ struct clip_polygon {
 /// From clip space to the fixed-point grid.
 class projection {
   public:
-    /// @param exact  divides by w, to the nearest; else multiplies by 1 / w, which is as good but for the last bit
+    /// @param exact  divides by w; else multiplies by 1 / w, which is as good but for the last bit. Exact places are
+    ///               the nearest on the grid up to 2^27 sub-pixels from its middle; beyond, but for 2^-52 of the way
     projection(const pixel_grid& grid, keep_depth keep, bool exact = true)
         : grid_(grid),
           half_width_(0.5 * grid.width),
@@ -2290,7 +2350,7 @@ class projection {
             kept.cut |= !here_inside;
             if (here_inside == next_inside) continue;
             clip_corner crossed = crossing(here, d_here, next, d_next);
-            if (plane == 0) crossed.position.w = smallest_w;  // not what is left of two large numbers
+            if (plane == 0) crossed.position = next_to_eye(here.position, next.position);
             keep(crossed);
         }
         return kept;
@@ -2301,6 +2361,19 @@ class projection {
     static clip_corner crossing(const clip_corner& a, double d_a, const clip_corner& b, double d_b) {
         const double share_a = d_b / (d_b - d_a), share_b = d_a / (d_a - d_b);
         return {share_a * a.position + share_b * b.position, share_a * a.shares + share_b * b.shares};
+    }
+
+    /// Where an edge crosses w = smallest_w. Interpolated, x, y and z would be what rounding leaves of two large
+    /// numbers, and nothing beside it. Products of floats are exact in doubles, so here an edge with z = w, or one
+    /// through the eye, keeps its proportions. Exchanging the ends changes no bit.
+    static glm::dvec4 next_to_eye(const glm::dvec4& a, const glm::dvec4& b) {
+        const double run = b.w - a.w;
+        glm::dvec4 p(0, 0, 0, smallest_w);
+        for (int i = 0; i < 3; ++i) p[i] = ((a[i] * b.w - b[i] * a.w) + smallest_w * (b[i] - a[i])) / run;
+        // What both ends are inside of, everything between them is.
+        if (a.z >= 0 && b.z >= 0) p.z = (std::max)(p.z, 0.0);
+        if (a.z <= a.w && b.z <= b.w) p.z = (std::min)(p.z, smallest_w);
+        return p;
     }
 
     pixel_grid grid_;
@@ -2868,8 +2941,6 @@ INSONIFY_ARITHMETIC_END
 // Almost all triangles are compact: 32-bit coordinates, 64-bit decisions. The others go a slower way that no distance
 // and no number of clipping planes makes less exact.
 
-#include <optional>
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
@@ -2962,25 +3033,6 @@ struct assembled_chunk {
     std::optional<std::uint32_t> bad_index;
 };
 
-/// The largest of some indices.
-struct largest_index_kernel {
-    const std::uint32_t* indices;
-    std::size_t count;
-    std::uint32_t& largest;
-
-    template <int N>
-    INSONIFY_INLINE void run() const {
-        lanes<std::uint32_t, N> most{}, some;
-        std::size_t i = 0;
-        for (; i + N <= count; i += N) {
-            load(some, indices + i);
-            most = some > most ? some : most;
-        }
-        for (int k = 0; k < N; ++k) largest = (std::max)(largest, lane(most, k));
-        for (; i < count; ++i) largest = (std::max)(largest, indices[i]);
-    }
-};
-
 template <class Screen, class Shader>
 struct assembly_kernel;
 
@@ -3009,7 +3061,7 @@ class screen_mesh {
         std::vector<assembled_chunk> chunks((m.triangles.size() + grain - 1) / grain);
         bulk_ranges(ex, m.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
             assembled_chunk& chunk = chunks[first / grain];
-            chunk.bad_index = bad_index(first, last, options.level);
+            chunk.bad_index = bad_index(m.triangles.subspan(first, last - first), m.positions.size(), options.level);
             if (chunk.bad_index) return;
             chunk.stats.triangles = last - first;
             dispatch(assembly_kernel<screen_mesh, Shader>{*this, shader, tiles, first, last, chunk}, options.level);
@@ -3071,20 +3123,6 @@ class screen_mesh {
     friend struct assembly_kernel;
 
     std::uint32_t whole() const { return whole_; }
-
-    /// The first index without a position among some triangles.
-    std::optional<std::uint32_t> bad_index(std::size_t first, std::size_t last, isa level) const {
-        const std::size_t vertices = mesh_.positions.size();
-        std::uint32_t largest = 0;
-        dispatch(largest_index_kernel{&indices_[first].x, 3 * (last - first), largest}, level);
-        if (largest < vertices) return std::nullopt;
-        for (std::size_t i = first; i < last; ++i) {
-            const glm::uvec3& t = mesh_.triangles[i];
-            largest = (std::max)({t.x, t.y, t.z});
-            if (largest >= vertices) return largest;
-        }
-        return std::nullopt;
-    }
 
     /// Counted in draw_stats under these names.
     enum class fate { drawn, culled, missed, degenerate, not_finite };
@@ -4246,26 +4284,6 @@ draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneS
         return shaded;
     };
     return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept, shade_tile);
-}
-
-/// Draws quick depths, and for each pixel that shows something the index of the mesh's triangle; where nothing is, the
-/// name says nothing.
-template <vertex_shader VertexShader, executor E>
-draw_stats draw_names(const mesh_view& m, const VertexShader& place, image_view<float> depth,
-                      image_view<std::uint32_t> names, const draw_options& options, E& ex) {
-    const auto copy_names = [&](const auto& triangles, tile_buffer<true>& tile, float) {
-        const pixel_box& box = triangles.box;
-        for (int y = box.y0; y <= box.y1; ++y) {
-            const std::uint32_t* const winner = tile.winner(box.x0, y);
-            std::uint32_t* const to = names.data() + y * names.stride() + box.x0;
-            std::memcpy(to, winner, static_cast<std::size_t>(box.width()) * sizeof *to);
-            if (!triangles.screen.has_wide()) continue;
-            for (int x = 0; x < box.width(); ++x)
-                if (to[x] != tile_buffer<true>::nobody) to[x] = triangles.screen.triangle(to[x]);
-        }
-        return std::uint64_t{0};
-    };
-    return draw_tiles<true, float>(m, place, depth, options, ex, no_records, every_tile, copy_names);
 }
 
 }  // namespace detail
@@ -5519,6 +5537,167 @@ heightfield sample(const Recipe& source, const grid& where, Executor&& ex = seri
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/geometry/regular_grid.hpp --------------------------------------------------------
+// Meshes that are a heightfield over a regular grid, as seabeds mostly are: found out by looking, so that whoever gives
+// one need not say so, and nobody gets another result for saying so wrongly.
+
+#include <atomic>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Vertex (i, j) is number j columns + i and lies at origin + i right + j up in x and y, at any height; rows may go
+/// down from the top, as those of pictures, `up` being to the right of `right`. Each cell is cut into two triangles the
+/// same way; all of them are counter-clockwise seen from +z.
+struct regular_grid {
+    int columns = 0, rows = 0;              ///< vertices
+    glm::dvec2 origin{0}, right{0}, up{0};  ///< metres, in the mesh's frame
+    /// Cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1).
+    bool is_rising = true;
+};
+
+namespace detail {
+
+/// Compares numbers, Period of them a block, with what goes on in equal steps from block to block.
+template <class T, int Period>
+struct pattern_kernel {
+    struct term {
+        T start, step;  ///< in the first block, and from block to block
+        T tolerance;    ///< how far off it may be
+    };
+    const T* numbers;
+    std::size_t blocks;
+    const term (&pattern)[static_cast<unsigned>(Period)];
+    std::atomic<bool>& differs;  ///< set if a number is farther off, or isn't one
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        const std::size_t whole = blocks / N * N;
+        if (differ<N>(0, whole) || differ<1>(whole, blocks)) differs = true;
+    }
+
+  private:
+    /// N blocks are Period vectors.
+    template <int N>
+    INSONIFY_INLINE bool differ(std::size_t first, std::size_t last) const {
+        using numbers_of = lanes<T, N>;
+        constexpr auto period = static_cast<unsigned>(Period);
+        numbers_of block[period], start[period], step[period], tolerance[period];
+        unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
+            for (int k = 0; k < N; ++k) {
+                const int at = v * N + k;
+                const term& t = pattern[at % Period];
+                set_lane(block[v], k, static_cast<T>(at / Period));
+                set_lane(start[v], k, t.start);
+                set_lane(step[v], k, t.step);
+                set_lane(tolerance[v], k, t.tolerance);
+            }
+        });
+        lanes<std::int32_t, N> wrong{};
+        for (std::size_t i = first; i < last; i += N) {
+            const T before = static_cast<T>(i);
+            unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
+                numbers_of number;
+                load(number, numbers + i * Period + static_cast<std::size_t>(v * N));
+                const numbers_of off = number - (start[v] + (block[v] + before) * step[v]);
+                wrong |= lanes<std::int32_t, N>((off > tolerance[v]) | (off < 0 - tolerance[v]) | (off != off));
+            });
+        }
+        return any(wrong);
+    }
+};
+
+/// Columns of the grid that a mesh's first two triangles belong to, and how they cut its first cell; or nothing.
+struct cell_cut {
+    std::uint32_t columns;
+    bool is_rising;
+    bool is_mirrored;  ///< triangles are counter-clockwise if `up` is to the right of `right`
+
+    static std::optional<cell_cut> of(const glm::uvec3 (&cell)[2]) {
+        std::uint32_t opposite = 0;
+        for (const glm::uvec3& t : cell) opposite = (std::max)({opposite, t.x, t.y, t.z});
+        if (opposite < 3) return std::nullopt;
+        const std::uint32_t columns = opposite - 1,
+                            around[2][4] = {{0, 1, opposite, columns}, {0, columns, opposite, 1}};
+        for (const bool is_mirrored : {false, true})
+            if (const auto left_out = missing_corner(cell, around[is_mirrored]))
+                return cell_cut{columns, *left_out % 2 == 1, is_mirrored};
+        return std::nullopt;
+    }
+
+  private:
+    /// Each triangle goes around the cell and leaves one corner out, the two of them opposite ones.
+    /// @returns the first's
+    static std::optional<int> missing_corner(const glm::uvec3 (&cell)[2], const std::uint32_t (&around)[4]) {
+        int left_out[2];
+        for (int i = 0; i < 2; ++i) {
+            left_out[i] = -1;
+            for (int skipped = 0; skipped < 4; ++skipped)
+                for (int turn = 0; turn < 3; ++turn) {
+                    const auto corner = [&](int k) { return around[(skipped + 1 + (k + turn) % 3) % 4]; };
+                    if (cell[i] == glm::uvec3(corner(0), corner(1), corner(2))) left_out[i] = skipped;
+                }
+            if (left_out[i] < 0) return std::nullopt;
+        }
+        if ((left_out[0] + 2) % 4 != left_out[1]) return std::nullopt;
+        return left_out[0];
+    }
+};
+
+}  // namespace detail
+
+/// How a mesh lies on a regular grid; nothing if it doesn't. All heights are finite.
+/// @param off  by which share of a step vertices may lie beside the lattice
+template <executor_argument E = serial_executor>
+std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
+    if (m.triangles.size() < 2) return std::nullopt;
+    const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
+    const auto cut = detail::cell_cut::of(cell);
+    if (!cut) return std::nullopt;
+    const std::size_t columns = cut->columns, rows = m.positions.size() / columns;
+    if (rows < 2 || columns > 1 << 20 || rows > 1 << 20 || rows * columns != m.positions.size() ||
+        m.triangles.size() != 2 * (columns - 1) * (rows - 1))
+        return std::nullopt;
+
+    regular_grid grid{static_cast<int>(columns), static_cast<int>(rows), {}, {}, {}, cut->is_rising};
+    const auto place = [&](std::size_t i) { return glm::dvec2(m.positions[i].x, m.positions[i].y); };
+    grid.origin = place(0);
+    grid.right = (place(columns - 1) - grid.origin) / static_cast<double>(columns - 1);
+    grid.up = (place((rows - 1) * columns) - grid.origin) / static_cast<double>(rows - 1);
+    const double area = grid.right.x * grid.up.y - grid.right.y * grid.up.x;
+    if (!(cut->is_mirrored ? area < 0 : area > 0)) return std::nullopt;  // written so that NaN doesn't pass
+    const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
+    const double shorter = numeric::square_root((std::min)(square(grid.right), square(grid.up)));
+    const auto tolerance = static_cast<float>(shorter * off);
+
+    std::atomic<bool> differs = false;
+    bulk_ranges(ex, rows, 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t j = first; j < last && !differs; ++j) {
+            const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;
+            const detail::pattern_kernel<float, 3>::term along[3] = {
+                {static_cast<float>(start.x), static_cast<float>(grid.right.x), tolerance},
+                {static_cast<float>(start.y), static_cast<float>(grid.right.y), tolerance},
+                {0, 0, (std::numeric_limits<float>::max)()}};
+            dispatch(detail::pattern_kernel<float, 3>{&m.positions[j * columns].x, columns, along, differs},
+                     best_isa());
+            if (j + 1 == rows) continue;
+            const auto corner = static_cast<std::uint32_t>(j * columns);
+            detail::pattern_kernel<std::uint32_t, 6>::term cells[6];
+            for (int i = 0; i < 6; ++i) cells[i] = {cell[i / 3][i % 3] + corner, 1, 0};
+            dispatch(detail::pattern_kernel<std::uint32_t, 6>{&m.triangles[j * 2 * (columns - 1)].x, columns - 1, cells,
+                                                              differs},
+                     best_isa());
+        }
+    });
+    if (differs) return std::nullopt;
+    return grid;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/transform.hpp -----------------------------------------------------------
 // Where a mesh stands in the world: poses for people, affine maps for the machine. Double precision throughout.
 //
@@ -5687,6 +5866,1436 @@ class light_frame {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::shadow
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/policy.hpp ----------------------------------------------------------------
+// What a shadow policy is: casters and a light go in, points are tested, and each comes back with its share of the
+// light and the caster that blocks it.
+//
+// A policy is a plain value that builds a structure for one light; the structure answers for any number of batches of
+// points. The built-in policies (map, pcf, exact, penumbra) are models of these concepts, and so are those of users.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
+
+/// Where there is no caster, no mesh or no triangle.
+inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
+
+/// Which triangles of a caster a test may leave out, because others block the same points.
+enum class skip {
+    nothing,         ///< both sides of all triangles block
+    facing,          ///< those whose front the light meets: the mesh is closed, and no point lies inside of it
+    facing_its_own,  ///< the same for points on the caster itself: it is a heightfield, lit and seen from above
+};
+
+/// A mesh that blocks light, in the frame in which the light is described. Both sides of its triangles block.
+/// Triangles with a corner that is not finite block nothing.
+struct caster {
+    mesh_view mesh;
+    affine placement;  ///< from the mesh's frame to the light's
+    bounding_box box;  ///< around the mesh, in its own frame
+    skip may_skip = skip::nothing;
+    const regular_grid* grid = nullptr;  ///< on which the vertices lie, see shared_mesh; or null
+};
+
+/// Points to test, as arrays of equal length.
+struct points {
+    std::span<const double> x, y, z;          ///< metres
+    std::span<const std::uint32_t> mesh;      ///< number of the caster that a point lies on, or invalid_id
+    std::span<const std::uint32_t> triangle;  ///< of that caster; it does not block its own points
+    std::uint32_t casters = invalid_id;       ///< casters numbered below this matter; others need not be tested
+    bool face_light = true;                   ///< their own facets do; else only the caster's name matters
+
+    std::size_t size() const { return x.size(); }
+    glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+/// What becomes of points, as arrays of the same length as theirs.
+struct shares {
+    std::span<float> lit;             ///< fraction of the light that arrives, 0 to 1
+    std::span<std::uint32_t> caster;  ///< lowest number of a caster that blocks the light's centre, or invalid_id
+
+    std::size_t size() const { return lit.size(); }
+};
+
+/// Where points will be tested.
+struct point_bounds {
+    bounding_box box;    ///< around all of them
+    double spacing = 0;  ///< metres from one to the next on level ground; 0 if unknown
+};
+
+/// Normal of the facet that point i lies on, of any length, in the frame of the light; 0 if it lies on none. Its sign
+/// is that of the triangle's order, whichever side is seen.
+inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, std::size_t i) {
+    if (at.mesh[i] >= casters.size() || at.triangle[i] == invalid_id) return glm::dvec3(0);
+    const caster& c = casters[at.mesh[i]];
+    const glm::uvec3& t = c.mesh.triangles[at.triangle[i]];
+    const auto corner = [&](int k) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[k]])); };
+    const glm::dvec3 a = corner(0);
+    return numeric::cross(corner(1) - a, corner(2) - a);
+}
+
+using any_light = std::variant<directional_light, point_light>;
+
+/// `structure.test(points, shares)` fills in all shares; it may be called for several batches at the same time.
+template <class S>
+concept occlusion = requires(const S& structure, const points& at, const shares& into) {
+    structure.test(at, into);
+};
+
+/// `policy.build(casters, light, bounds, executor)` gives an occlusion. All points that it will be asked about lie
+/// within `bounds`; the casters' meshes outlive it. Surfaces that face away from the light are dark under every policy:
+/// that is decided before, from the facet, and such a point is only tested for the name of its caster.
+template <class P>
+concept casting_policy = requires(const P& policy, std::span<const caster> casters, const any_light& light,
+                                  const point_bounds& bounds, serial_executor& ex) {
+    { policy.build(casters, light, bounds, ex) } -> occlusion;
+};
+
+/// No shadows: nothing is built, tested or compiled.
+struct none {};
+
+template <class P>
+concept policy = std::same_as<P, none> || casting_policy<P>;
+
+/// Radius of the light over its distance: 0, unless a policy has a `light_radius()`.
+template <policy P>
+double radius_of(const P& p) {
+    if constexpr (requires { p.light_radius(); })
+        return p.light_radius();
+    else
+        return 0;
+}
+
+/// Occlusion that gains from seeing all points of a picture at once. `structure.screen(points, shares)` answers what
+/// can be told of points one by one and leaves `unknown` where it cannot; `structure.test(batches, shares, executor)`
+/// answers the rest, of all batches together.
+template <class S>
+concept collective_occlusion = occlusion<S> &&
+    requires(const S& structure, const points& at, const shares& into, std::span<const points> all_at,
+             std::span<const shares> all_into, serial_executor& ex) {
+    structure.screen(at, into);
+    structure.test(all_at, all_into, ex);
+};
+inline constexpr float unknown = -1;  ///< in shares::lit, between screening and testing
+
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/blocking.hpp -------------------------------------------------------
+// Whether a triangle blocks the light of a point, decided in doubles: the rule that everything faster has to obey.
+//
+// A triangle blocks a point's ray towards the light if the ray passes through it, edges included, and the point lies
+// behind it by more than rounding can have moved either (2^-40 of the scene's size). There is no bias. A ray passes an
+// edge on its left if toward . (a x b) is not negative, over the edge's ends as seen from the point; for the triangle
+// on the other side the ends change places, which changes the sign of each rounded product and of the sum and nothing
+// else, and a zero counts for both: no light leaks between triangles that share an edge.
+//
+// Based on: Sven Woop, Carsten Benthin, Ingo Wald. Watertight Ray/Triangle Intersection. JCGT 2, 2013.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// A light's rays: parallel, or to a point.
+class light_rays {
+  public:
+    /// @param reach  no coordinate of a point that is tested is larger, metres
+    light_rays(const any_light& light, double reach) : reach_(reach) {
+        if (const auto* parallel = std::get_if<directional_light>(&light)) {
+            source_ = light_frame(*parallel).to_light();
+        } else {
+            source_ = std::get<point_light>(light).position;
+            is_near_ = true;
+            for (int i = 0; i < 3; ++i) reach_ = (std::max)(reach_, numeric::magnitude(source_[i]));
+        }
+    }
+
+    /// From a point to the light: unit length if it is parallel, the whole way if it is near.
+    glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
+
+    /// Whether the triangle (a, b, c) blocks the light of `from`.
+    bool are_blocked(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
+                     const glm::dvec3& from) const {
+        const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
+        const double bc = numeric::dot(to_light, numeric::cross(b, c));
+        const double ca = numeric::dot(to_light, numeric::cross(c, a));
+        const double ab = numeric::dot(to_light, numeric::cross(a, b));
+        const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
+        if (!is_left && !is_right) return false;
+        const glm::dvec3 normal = numeric::cross(b - a, c - a);
+        // From the corner that is nearest: another may lie so far off that its distance rounds away the point's.
+        const auto size = [](const glm::dvec3& v) {
+            return numeric::magnitude(v.x) + numeric::magnitude(v.y) + numeric::magnitude(v.z);
+        };
+        const glm::dvec3& some = size(a) <= size(b) ? a : b;
+        const double along = numeric::dot(normal, to_light),
+                     behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
+        const double sign = is_left ? 1 : -1;
+        const double tolerance = 0x1p-40 * reach_ * size(normal);
+        if (!(sign * along > 0 && sign * behind > tolerance)) return false;
+        return !is_near_ || sign * (along - behind) > tolerance;  // what the light itself touches does not block it
+    }
+
+  private:
+    glm::dvec3 source_;  ///< direction, or position
+    double reach_;
+    bool is_near_ = false;
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/horizon_bounds.hpp -------------------------------------------------
+// Parallel light over a regular grid: for each cell, proved bounds on how far the surface before it blocks the light.
+//
+// In a grid's own steps, all points of a ray share u = X + drop z: where it meets z = 0. A point is dark if the surface
+// up the light from it has a larger u somewhere on its ray. Strips one row wide run with the light, so no ray leaves
+// its strip. Along a strip the sweep carries the largest value that every ray of it must have met (the least of the
+// vertices around the strip where it crosses a column), and the largest that any may have met. What lies below the one
+// is dark, above the other lit; the few points between them are left to an exact test.
+//
+// Where all triangles around a strip face the light, u rises along every ray, and what a ray has met there is below any
+// later point of the same rise. So such columns are left out of the upper bound, and a lit slope never doubts itself.
+//
+// Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. 1988
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// A grid as the light crosses it: X counts its vertices along the axis that the light follows most, Y those across,
+/// both turned so that the light goes towards larger ones, by `slope` of Y for each of X.
+struct lit_grid {
+    int columns = 0, rows = 0;  ///< vertices along X, and along Y
+    bool is_rising = true;      ///< cells are cut from (X, Y) to (X + 1, Y + 1), or else from (X, Y + 1) to (X + 1, Y)
+    double slope = 0;           ///< in [0, 1]
+    double drop = 0;            ///< columns that the light passes while it sinks by 1 m
+    std::ptrdiff_t first = 0, along = 1, across = 1;  ///< number of vertex (0, 0) in the mesh, and steps to the next
+    glm::dvec2 x_of, y_of;                            ///< X = dot(x_of, p - origin), Y alike, in the mesh's frame
+    glm::dvec2 origin{0};
+
+    lit_grid() = default;
+    /// @param travel  where the light goes, in the mesh's frame: down
+    lit_grid(const regular_grid& grid, const glm::dvec3& travel)
+        : columns(grid.columns), rows(grid.rows), is_rising(grid.is_rising), across(grid.columns), origin(grid.origin) {
+        glm::dvec2 x = grid.right, y = grid.up;
+        const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
+        double travel_x = cross(glm::dvec2(travel), y) / cross(x, y),
+               travel_y = cross(x, glm::dvec2(travel)) / cross(x, y);
+        if (numeric::magnitude(travel_y) > numeric::magnitude(travel_x)) {
+            std::swap(columns, rows);
+            std::swap(along, across);
+            std::swap(x, y);
+            std::swap(travel_x, travel_y);
+        }
+        const auto turn = [&](double& steps, int count, std::ptrdiff_t& stride, glm::dvec2& axis) {
+            if (steps >= 0) return;
+            steps = -steps;
+            first += (count - 1) * stride;
+            origin += static_cast<double>(count - 1) * axis;
+            stride = -stride;
+            axis = -axis;
+            is_rising = !is_rising;
+        };
+        turn(travel_x, columns, along, x);
+        turn(travel_y, rows, across, y);
+        slope = travel_x > 0 ? travel_y / travel_x : 0;
+        drop = travel_x / -travel.z;
+        x_of = glm::dvec2(y.y, -y.x) / cross(x, y);
+        y_of = glm::dvec2(-x.y, x.x) / cross(x, y);
+    }
+};
+
+/// u of a grid's vertices, column by column, with nothing around them.
+struct grid_heights {
+    static constexpr float nothing = -std::numeric_limits<float>::infinity();
+    static constexpr int around = 4;  ///< rows of nothing on either side
+
+    int pitch = 0;
+    insonify::detail::unfilled_vector<float> u;
+    float least = 0, greatest = 0;  ///< z
+
+    template <executor E>
+    grid_heights(const mesh_view& m, const lit_grid& grid, E& ex)
+        : pitch(grid.rows + 2 * around), u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch)) {
+        // In squares, so that both the mesh and what is made of it are read and written in runs.
+        constexpr int square = 32;
+        const auto drop = static_cast<float>(grid.drop);
+        const auto runs = static_cast<std::size_t>((grid.columns + square - 1) / square);
+        std::vector<glm::vec2> ranges(runs);
+        bulk_ranges(ex, static_cast<std::size_t>(grid.columns), square, [&](std::size_t from, std::size_t to) {
+            const auto left = static_cast<int>(from), right = static_cast<int>(to);
+            float low = std::numeric_limits<float>::infinity(), high = -low;
+            for (int x = left; x < right; ++x) {
+                std::fill_n(column(x) - around, around, nothing);
+                std::fill_n(column(x) + grid.rows, around, nothing);
+            }
+            for (int bottom = 0; bottom < grid.rows; bottom += square)
+                for (int x = left; x < right; ++x) {
+                    const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
+                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y) {
+                        insonify::detail::prefetch(vertex + (std::min)(y + square, grid.rows - 1) * grid.across);
+                        const float z = vertex[y * grid.across].z;
+                        low = (std::min)(low, z);
+                        high = (std::max)(high, z);
+                        column(x)[y] = static_cast<float>(x) + drop * z;
+                    }
+                }
+            ranges[from / square] = {low, high};
+        });
+        least = ranges.front().x, greatest = ranges.front().y;
+        for (const glm::vec2& r : ranges) {
+            least = (std::min)(least, r.x);
+            greatest = (std::max)(greatest, r.y);
+        }
+    }
+    const float* column(int x) const { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
+    float* column(int x) { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
+};
+
+/// What is known of the u that a ray has met before a point in a column and strip.
+struct horizon_bound {
+    float met;       ///< at least
+    float may_meet;  ///< at most
+};
+
+/// Carries bounds along some strips.
+struct horizon_kernel {
+    const lit_grid& grid;
+    const grid_heights& heights;
+    int first_strip;        ///< strips count from this
+    int from, to, strips;   ///< these, of so many
+    float margin;           ///< of u
+    horizon_bound* bounds;  ///< by column, then strip
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        for (int k = from; k < to; k += N) sweep<N>(k);
+    }
+
+  private:
+    template <int N>
+    INSONIFY_INLINE void sweep(int k) const {
+        using namespace insonify::detail;
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        const auto slope = static_cast<float>(grid.slope);
+        floats met = floats{} + grid_heights::nothing, may_meet = met;
+        ints was_rising = ints{} - 1;
+        for (int x = 0; x < grid.columns; ++x) {
+            // The strip's rows where it crosses the column, and up to the next one: `row` to `row + 3` surround it.
+            const int row = first_strip + k + static_cast<int>(grid.slope * x);
+            floats here[4] = {}, ahead[4] = {};
+            read<N>(here, x, row);
+            if (x + 1 < grid.columns)
+                read<N>(ahead, x + 1, row);
+            else
+                for (floats& value : ahead) value = floats{} + grid_heights::nothing;
+            floats lowest = here[0], highest = here[0];
+            unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+                if (i < 2) lowest = here[i + 1] < lowest ? here[i + 1] : lowest;
+                highest = here[i + 1] > highest ? here[i + 1] : highest;
+            });
+            // Every ray of the strip meets the column between rows `row` and `row + 2`.
+            met = lowest > met ? lowest : met;
+            // What lies before this column counts unless it rises all the way.
+            may_meet = was_rising ? may_meet : floats(highest > may_meet ? highest : may_meet);
+            ints rises = ints{} - 1;
+            unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+                const floats &a = here[i], &b = ahead[i], &c = here[i + 1],
+                             &d = ahead[i + 1];  // (0,0) (1,0) (0,1) (1,1)
+                floats lower, upper;
+                if (grid.is_rising) {
+                    lower = (b - a) + slope * (d - b);
+                    upper = (d - c) + slope * (c - a);
+                } else {
+                    lower = (b - a) + slope * (c - a);
+                    upper = (d - c) + slope * (d - b);
+                }
+                // Beside the grid there is nothing that could fall.
+                const ints is_cell = ints(a > grid_heights::nothing) & ints(b > grid_heights::nothing) &
+                                     ints(c > grid_heights::nothing) & ints(d > grid_heights::nothing);
+                const ints up = ints(lower > margin) & ints(upper > margin);
+                rises = rises & (up | ~is_cell);
+            });
+            // Where it does not rise, what lies in these cells counts for the points in them and after.
+            floats next = highest;
+            unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { next = ahead[i] > next ? ahead[i] : next; });
+            may_meet = rises ? may_meet : floats(next > may_meet ? next : may_meet);
+            floats stored = rises ? may_meet : floats{} + std::numeric_limits<float>::infinity();
+            store_pairs<N>(&bounds[static_cast<std::ptrdiff_t>(x) * strips + k].met, floats(met), stored);
+            was_rising = rises;
+        }
+    }
+    template <int N>
+    INSONIFY_INLINE void read(insonify::detail::lanes<float, N> (&into)[4], int x, int row) const {
+        using namespace insonify::detail;
+        // Strips that run beside the grid read nothing.
+        const float* const column = heights.column(x);
+        const int low = -grid_heights::around, high = grid.rows + grid_heights::around - 4;
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
+            if (row + i >= low && row + i + N <= high + 4)
+                load(into[i], column + row + i);
+            else
+                gather<N>(into[i], [&](int lane) {
+                    const int at = row + i + lane;
+                    return at >= 0 && at < grid.rows ? column[at] : grid_heights::nothing;
+                });
+        });
+    }
+};
+
+/// Which of a heightfield's own points are lit, dark, or left to an exact test.
+class horizon_bounds {
+  public:
+    enum class answer { lit, dark, unknown };
+
+    /// @param m       the mesh, a regular grid whose vertices lie within `off` steps of the lattice
+    /// @param travel  where the light goes, in the mesh's frame: down
+    template <executor E>
+    horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, double off, E& ex)
+        : grid_(lattice, travel) {
+        const grid_heights heights(m, grid_, ex);
+        const double relief = grid_.drop * (static_cast<double>(heights.greatest) - static_cast<double>(heights.least));
+        const double size =
+            grid_.columns + grid_.drop * (std::max)(numeric::magnitude(static_cast<double>(heights.greatest)),
+                                                    numeric::magnitude(static_cast<double>(heights.least)));
+        margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
+        first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
+        strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
+        bounds_.resize(static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_));
+        bulk_ranges(ex, static_cast<std::size_t>(strips_), 128, [&](std::size_t from, std::size_t to) {
+            insonify::detail::dispatch(
+                horizon_kernel{grid_, heights, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
+                               static_cast<float>(margin_), bounds_.data()},
+                best_isa());
+        });
+    }
+
+    /// @param p  on the mesh, on a side that faces the light, in the mesh's frame
+    INSONIFY_INLINE answer at(const glm::dvec3& p) const {
+        const double dx = p.x - grid_.origin.x, dy = p.y - grid_.origin.y;
+        const double x = grid_.x_of.x * dx + grid_.x_of.y * dy, y = grid_.y_of.x * dx + grid_.y_of.y * dy;
+        if (!(x >= 0 && x <= grid_.columns - 1)) return answer::unknown;
+        const auto column = static_cast<int>(x);
+        const int strip = static_cast<int>(y - grid_.slope * x - first_strip_);
+        if (strip < 0 || strip >= strips_) return answer::unknown;
+        const horizon_bound& b = bounds_[static_cast<std::size_t>(column) * static_cast<std::size_t>(strips_) +
+                                         static_cast<std::size_t>(strip)];
+        const double u = x + grid_.drop * p.z;
+        if (u < static_cast<double>(b.met) - margin_) return answer::dark;
+        return u > static_cast<double>(b.may_meet) + margin_ ? answer::lit : answer::unknown;
+    }
+
+  private:
+    lit_grid grid_;
+    double margin_ = 0;
+    int first_strip_ = 0, strips_ = 0;
+    insonify::detail::unfilled_vector<horizon_bound> bounds_;
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/light_planes.hpp ---------------------------------------------------
+// The planes over which a light's rays stand upright, and casters and points as seen there.
+//
+// Parallel light has one plane, the datum in the light's sheared frame (light.hpp). Light from a point has six, the
+// sides of a cube around it, each seen in perspective. On a plane every ray is one point (u, v), triangles stay
+// triangles, and of two points of a ray the one with the larger height is nearer to the light.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// One plane of a light.
+class light_plane {
+  public:
+    light_plane() = default;
+    explicit light_plane(const light_frame& frame)
+        : rows_{{frame.travel().x, frame.travel().y, frame.cot_elevation()},
+                {-frame.travel().y, frame.travel().x, 0},
+                {0, 0, 1}} {}
+    /// @param side  0 to 5: along +x, -x, +y, -y, +z, -z of the light
+    light_plane(const point_light& light, int side) : origin_(light.position), is_near_(true) {
+        const int axis = side / 2;
+        rows_[0][(axis + 1) % 3] = rows_[1][(axis + 2) % 3] = 1;
+        rows_[2][axis] = side % 2 == 0 ? 1 : -1;
+    }
+
+    bool is_near() const { return is_near_; }
+    /// Whether what is counter-clockwise from the light is clockwise here.
+    bool is_mirrored() const { return is_near_ == (numeric::dot(rows_[0], numeric::cross(rows_[1], rows_[2])) > 0); }
+
+    /// (u, v, height) of a point; of a near light before the division, (u d, v d, d) with the depth d.
+    glm::dvec3 operator()(const glm::dvec3& p) const { return direction(p - origin_); }
+    /// The same of a difference of points.
+    glm::dvec3 direction(const glm::dvec3& d) const {
+        return {numeric::dot(rows_[0], d), numeric::dot(rows_[1], d), numeric::dot(rows_[2], d)};
+    }
+    /// After the division. Heights are 1 / depth.
+    static glm::dvec3 seen(const glm::dvec3& before) {
+        return {before.x / before.z, before.y / before.z, 1 / before.z};
+    }
+
+    /// Number of the plane of a point light over which a point lies.
+    static int side_of(const point_light& light, const glm::dvec3& p) {
+        const glm::dvec3 d = p - light.position;
+        const glm::dvec3 size{numeric::magnitude(d.x), numeric::magnitude(d.y), numeric::magnitude(d.z)};
+        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+        return 2 * axis + (d[axis] < 0 ? 1 : 0);
+    }
+
+  private:
+    glm::dvec3 rows_[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    glm::dvec3 origin_{0};
+    bool is_near_ = false;
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/occluders.hpp ------------------------------------------------------
+// Casters as one plane of a light sees them: vertices in (u, v, height), and for each tile of the plane the triangles
+// that touch it.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// A rectangle of a light's plane, cut into tiles.
+struct plane_tiles {
+    glm::dvec2 lower{0}, size{0};  ///< of the whole
+    int columns = 1, rows = 1;
+
+    glm::dvec2 tile() const { return {size.x / columns, size.y / rows}; }
+    std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+};
+
+/// A vertex on the plane, from the lower corner of the tiles.
+struct alignas(16) plane_vertex {
+    float u, v, height;
+    float state;  ///< 0, or one of the following
+
+    static constexpr float behind = 1;  ///< not in front of a near light
+    static constexpr float not_finite = 2;
+};
+
+/// The vertices of one caster on a plane.
+struct plane_vertices_kernel {
+    const glm::vec3* positions;
+    plane_vertex* vertices;
+    std::size_t count;
+    const light_plane& plane;
+    affine to_plane;  ///< from the mesh to the plane, before the division
+    glm::dvec2 lower;
+    double least_depth;
+
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        std::size_t i = 0;
+#if INSONIFY_SIMD
+        if constexpr (Width > 1)
+            if (!plane.is_near())
+                for (; i + 4 < count; i += 4) four(i);
+#endif
+        for (; i < count; ++i) one(i);
+    }
+
+  private:
+    void one(std::size_t i) const {
+        const glm::dvec3 p = transform_point(to_plane, glm::dvec3(positions[i]));
+        if (!(numeric::is_finite(p.x) && numeric::is_finite(p.y) && numeric::is_finite(p.z))) {
+            vertices[i] = {0, 0, 0, plane_vertex::not_finite};
+            return;
+        }
+        if (plane.is_near() && !(p.z >= least_depth)) {
+            vertices[i] = {0, 0, 0, plane_vertex::behind};
+            return;
+        }
+        const glm::dvec3 seen = plane.is_near() ? light_plane::seen(p) : p;
+        vertices[i] = {static_cast<float>(seen.x - lower.x), static_cast<float>(seen.y - lower.y),
+                       static_cast<float>(seen.z), 0};
+    }
+#if INSONIFY_SIMD
+    INSONIFY_INLINE void four(std::size_t i) const {
+        using namespace insonify::detail;
+        using reals = lanes<double, 4>;
+        lanes<float, 4> position[3], seen[4], rows[4];
+        transpose_threes(position, &positions[i].x);
+        reals p[3], bad{};
+        for (int axis = 0; axis < 3; ++axis) convert(p[axis], position[axis]);
+        unroll<3>([&](int row) INSONIFY_INLINE_LAMBDA {
+            const double offset = to_plane.offset[row] - (row < 2 ? lower[row] : 0.0);
+            const reals sum = to_plane.linear[0][row] * p[0] + to_plane.linear[1][row] * p[1] +
+                              to_plane.linear[2][row] * p[2] + offset;
+            bad = bad + (sum - sum);
+            convert(seen[row], sum);
+        });
+        const reals state = bad == 0.0 ? reals{} : reals{} + static_cast<double>(plane_vertex::not_finite);
+        convert(seen[3], state);
+        transpose_fours<4>(rows, seen);
+        for (int k = 0; k < 4; ++k) store(&vertices[i + static_cast<std::size_t>(k)].u, rows[k]);
+    }
+#endif
+};
+
+/// N triangles on the plane, one per lane.
+template <int N>
+struct plane_triangles {
+    using floats = insonify::detail::lanes<float, N>;
+    using ints = insonify::detail::lanes<std::int32_t, N>;
+    floats a[3], b[3], c[3];  ///< u, v, height
+    floats state;             ///< the worst of the corners'
+
+    /// @param corner  corner(k, i): vertex i of triangle k
+    template <class Corner>
+    INSONIFY_INLINE explicit plane_triangles(const Corner& corner) {
+        using namespace insonify::detail;
+        floats columns[3][4];
+        unroll<3>([&](int i)
+                      INSONIFY_INLINE_LAMBDA { transpose<N>(columns[i], [&](int k) { return &corner(k, i).u; }); });
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            a[axis] = columns[0][axis];
+            b[axis] = columns[1][axis];
+            c[axis] = columns[2][axis];
+        });
+        state = columns[0][3] > columns[1][3] ? columns[0][3] : columns[1][3];
+        state = state > columns[2][3] ? state : columns[2][3];
+    }
+    INSONIFY_INLINE void range(floats& low, floats& high, int axis) const {
+        low = a[axis] < b[axis] ? a[axis] : b[axis];
+        low = low < c[axis] ? low : c[axis];
+        high = a[axis] > b[axis] ? a[axis] : b[axis];
+        high = high > c[axis] ? high : c[axis];
+    }
+};
+
+/// Notes which tiles the triangles of a chunk touch, in order.
+struct tile_assembly_kernel {
+    const plane_vertex* vertices;
+    const glm::uvec3* triangles;
+    std::size_t first, last;
+    const plane_tiles& tiles;
+    insonify::detail::tile_runs& runs;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        for (std::size_t i = first; i < last; i += N) some<N>(i, (std::min)(last - i, std::size_t{N}));
+    }
+
+  private:
+    template <int N>
+    INSONIFY_INLINE void some(std::size_t start, std::size_t count) const {
+        using namespace insonify::detail;
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        const plane_triangles<N> t([&](int k, int i) -> const plane_vertex& {
+            return vertices[triangles[start + (std::min)(static_cast<std::size_t>(k), count - 1)][i]];
+        });
+        const glm::dvec2 tile = tiles.tile();
+        ints from[2], to[2], outside{};
+        unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            floats low, high;
+            t.range(low, high, axis);
+            // A tile more than rounding can tell. NaN goes into all tiles.
+            const auto scale = static_cast<float>(1 / tile[axis]);
+            const auto most = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
+            const floats margin =
+                0x1p-20f * ((high < 0.0f ? floats{} - low : high) + static_cast<float>(tiles.size[axis]));
+            floats f = (low - margin) * scale, l = (high + margin) * scale;
+            outside |= ints(f > most + 1.0f) | ints(l < 0.0f);
+            f = f > 0.0f ? f : floats{};
+            f = f < most ? f : floats{} + most;
+            l = l < most ? l : floats{} + most;
+            l = l > 0.0f ? l : floats{};
+            f = t.state == plane_vertex::behind ? floats{} : f;
+            l = t.state == plane_vertex::behind ? floats{} + most : l;
+            convert(from[axis], f);
+            convert(to[axis], l);
+        });
+        outside = (outside & ints(t.state != plane_vertex::behind)) | ints(t.state == plane_vertex::not_finite);
+        const unsigned drawn = ~set_lanes<N>(outside) & ((2u << (count - 1)) - 1);
+        if (drawn == 0) return;
+        const ints first_tile = from[0] | from[1] << 16, last_tile = to[0] | to[1] << 16;
+        const auto id = static_cast<std::uint32_t>(start);
+        const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
+        if (drawn == (2u << (N - 1)) - 1 && !any(ints(((first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
+            runs.add(id, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
+            return;
+        }
+        for (unsigned left = drawn; left != 0; left &= left - 1) {
+            const int k = std::countr_zero(left);
+            runs.add(id + static_cast<unsigned>(k), 1,
+                     {static_cast<std::uint32_t>(lane(first_tile, k)), static_cast<std::uint32_t>(lane(last_tile, k))},
+                     true);
+        }
+    }
+};
+
+/// One caster over a plane.
+class plane_caster {
+  public:
+    plane_caster() = default;
+
+    /// @param c            its mesh's indices all have positions
+    /// @param least_depth  nearer to a point light than this, directions are not told apart
+    template <executor E>
+    plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double least_depth, E& ex)
+        : triangles_(c.mesh.triangles) {
+        vertices_.resize(c.mesh.positions.size());
+        affine to_plane{{}, plane(c.placement.offset)};
+        for (int i = 0; i < 3; ++i) to_plane.linear[i] = plane.direction(c.placement.linear[i]);
+        bulk_ranges(ex, vertices_.size(), 16384, [&](std::size_t first, std::size_t last) {
+            insonify::detail::dispatch(plane_vertices_kernel{&c.mesh.positions[first], &vertices_[first], last - first,
+                                                             plane, to_plane, tiles.lower, least_depth},
+                                       best_isa());
+        });
+        const std::size_t grain = (std::max)(std::size_t{4096}, (triangles_.size() / 64 + 16) / 16 * 16);
+        std::vector<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
+        bulk_ranges(ex, triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
+            insonify::detail::dispatch(
+                tile_assembly_kernel{vertices_.data(), triangles_.data(), first, last, tiles, chunks[first / grain]},
+                best_isa());
+        });
+        bins_ = insonify::detail::tile_bins(chunks, insonify::detail::tile_grid(tiles.columns, tiles.rows, 0), ex);
+    }
+
+    std::span<const insonify::detail::triangle_run> bin(std::size_t tile) const { return bins_[tile]; }
+    /// A triangle that may come soon.
+    INSONIFY_INLINE void prefetch(std::uint32_t triangle) const {
+        if (triangle >= triangles_.size()) return;
+        for (int i = 0; i < 3; ++i) insonify::detail::prefetch(&corner(triangle, i));
+    }
+    const plane_vertex& corner(std::uint32_t triangle, int i) const { return vertices_[triangles_[triangle][i]]; }
+
+  private:
+    std::span<const glm::uvec3> triangles_;
+    insonify::detail::unfilled_vector<plane_vertex> vertices_;
+    insonify::detail::tile_bins bins_;
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/receivers.hpp ------------------------------------------------------
+// The points of one tile of a light's plane, sorted into cells, so that the points under a triangle are a few runs.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// A point on the plane, from the lower corner of the tiles, on its way into a tile.
+struct receiver {
+    float u, v, height;
+    std::uint32_t point;           ///< the caller's number of it
+    std::uint32_t mesh, triangle;  ///< that it lies on
+    std::uint32_t casters;         ///< numbers below this are tested
+};
+
+/// A tile's receivers by cell: rows along u, one after another.
+class receiver_cells {
+  public:
+    /// @param lower, size  of the tile
+    void sort(std::span<const receiver> from, const glm::vec2& lower, const glm::vec2& size) {
+        const std::size_t count = from.size();
+        int side = 1;
+        while (side < widest && static_cast<std::size_t>(side * side) * per_cell < count) side *= 2;
+        columns_ = 2 * side;
+        rows_ = side;
+        lower_ = lower;
+        largest_ = (std::max)(lower.x + size.x, lower.y + size.y);
+        scale_ = {static_cast<float>(columns_) / size.x, static_cast<float>(rows_) / size.y};
+        cell_ = {size.x / static_cast<float>(columns_), size.y / static_cast<float>(rows_)};
+
+        starts_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+        keys_.resize(count);
+        lowest_ = std::numeric_limits<float>::infinity(), highest_ = -lowest_;
+        for (std::size_t i = 0; i < count; ++i) {
+            const receiver& r = from[i];
+            keys_[i] = static_cast<std::uint16_t>(row(r.v) * columns_ + column(r.u));
+            ++starts_[keys_[i] + 1u];
+            lowest_ = (std::min)(lowest_, r.height);
+            highest_ = (std::max)(highest_, r.height);
+        }
+        for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+        const std::size_t room = count + padding;
+        for (auto* array : {&u, &v, &height}) array->resize(room);
+        for (auto* array : {&point, &mesh, &triangle, &limit_}) array->resize(room);
+        is_limited_ = false;
+        is_one_mesh_ = true;
+        next_.assign(starts_.begin(), starts_.end() - 1);
+        for (std::size_t i = 0; i < count; ++i) {
+            const receiver& r = from[i];
+            const std::size_t at = next_[keys_[i]]++;
+            u[at] = r.u;
+            v[at] = r.v;
+            height[at] = r.height;
+            point[at] = r.point;
+            mesh[at] = r.mesh;
+            triangle[at] = r.triangle;
+            limit_[at] = r.casters;
+            is_one_mesh_ = is_one_mesh_ && r.mesh == from.front().mesh;
+            is_limited_ = is_limited_ || r.casters != invalid_id;
+        }
+        for (std::size_t i = count; i < room; ++i) u[i] = v[i] = height[i] = 0;
+        caster.assign(room, open);
+    }
+
+    int columns() const { return columns_; }
+    int rows() const { return rows_; }
+    const glm::vec2& lower() const { return lower_; }
+    const glm::vec2& scale() const { return scale_; }  ///< cells a unit
+    const glm::vec2& cell() const { return cell_; }
+    float lowest() const { return lowest_; }
+    float highest() const { return highest_; }
+    std::size_t size() const { return keys_.size(); }
+    /// No coordinate u or v is larger.
+    float largest() const { return largest_; }
+    /// Whether any lies on something else than a caster.
+    bool has_others(std::uint32_t number) const { return !is_one_mesh_ || mesh.front() != number; }
+    /// Receivers that are tested for the first casters alone take no more from now on.
+    void close(std::uint32_t casters) {
+        if (!is_limited_) return;
+        for (std::size_t i = 0; i < size(); ++i)
+            if (limit_[i] <= casters && caster[i] == open) caster[i] = closed;
+    }
+    static constexpr std::int32_t open = -1, closed = -2;
+    /// Receivers of the cells [first, last] of a row lie from start(row, first) up to start(row, last + 1).
+    std::uint32_t start(int row, int column) const {
+        return starts_[static_cast<std::size_t>(row * columns_ + column)];
+    }
+
+    std::vector<float> u, v, height;  ///< in the order of cells, with room for one more vector
+    std::vector<std::uint32_t> point, mesh, triangle;
+    std::vector<std::int32_t> caster;  ///< that blocks it, or open, or closed
+
+  private:
+    static constexpr int widest = 128;          // rows
+    static constexpr std::size_t per_cell = 2;  ///< receivers, or more; fewer take longer to sort
+    static constexpr std::size_t padding = 16;
+
+    int column(float at) const { return hold((at - lower_.x) * scale_.x, columns_); }
+    int row(float at) const { return hold((at - lower_.y) * scale_.y, rows_); }
+    static int hold(float at, int count) {
+        return static_cast<int>((std::min)((std::max)(at, 0.0f), static_cast<float>(count - 1)));
+    }
+
+    int columns_ = 1, rows_ = 1;
+    glm::vec2 lower_{0}, scale_{1}, cell_{1};
+    float lowest_ = 0, highest_ = 0, largest_ = 0;
+    bool is_limited_ = false, is_one_mesh_ = true;
+    std::vector<std::uint32_t> starts_, next_, limit_;
+    std::vector<std::uint16_t> keys_;
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/occlusion_kernel.hpp -----------------------------------------------
+// One caster's triangles over the receivers of a tile: an irregular shadow map, whose samples are the points
+// themselves.
+//
+// A triangle walks over the cells that it touches and is compared with their receivers, several at a time, in floats.
+// What floats cannot tell within their error is decided in doubles (blocking.hpp), so the answer is that of the doubles
+// for every pair of a triangle and a receiver. A receiver's own triangle is left out by its number; there is no bias.
+//
+// Based on: Timo Aila, Samuli Laine. Alias-Free Shadow Maps. EGSR 2004. Gregory S. Johnson, Juhyun Lee, Christopher A.
+// Burns, William R. Mark. The Irregular Z-Buffer: Hardware Acceleration for Irregular Data Structures. ACM TOG 24,
+// 2005.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// Marks the receivers of a tile that a caster blocks and that no caster before it does.
+/// @param Decide  decide(triangle, i): whether the triangle blocks receiver i, in doubles
+template <class Decide>
+struct occlusion_kernel {
+    const plane_caster& caster;
+    std::span<const insonify::detail::triangle_run> runs;
+    std::uint32_t number;  ///< of the caster
+    skip may_skip;
+    bool is_turned;  ///< triangles that face the light are clockwise
+    float error;     ///< of coordinates on the plane, beside what rounding to float adds
+    receiver_cells& receivers;
+    const Decide& decide;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        insonify::detail::run_reader reader(runs);
+        std::uint32_t ids[static_cast<unsigned>(2 * N)];
+        while (!reader.empty()) {
+            const int count = reader.take_small<N>(ids);
+            triangles<N>(ids, count);
+        }
+    }
+
+  private:
+    float height_error_of_receivers() const {
+        return 0x1.2p-24f * (std::max)(receivers.highest(), -receivers.lowest()) + error;
+    }
+
+    template <int N>
+    INSONIFY_INLINE void triangles(const std::uint32_t* ids, int count) const {
+        using namespace insonify::detail;
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        for (int k = 0; k<count; k += N / 2> 0 ? N / 2 : 1) caster.prefetch(ids[k] + 2 * N);
+        const plane_triangles<N> t([&](int k, int i) -> const plane_vertex& { return caster.corner(ids[k], i); });
+
+        // Cells, a little more than rounding can tell, and how large the numbers are that go into a comparison.
+        ints first[2], last[2], missed{};
+        floats extent[2], size{};
+        unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            floats low, high;
+            t.range(low, high, axis);
+            const float lower = receivers.lower()[axis], scale = receivers.scale()[axis];
+            const float most = static_cast<float>(axis == 0 ? receivers.columns() - 1 : receivers.rows() - 1);
+            const floats far_off = high < 0.0f - low ? 0.0f - low : high;
+            size = far_off > size ? far_off : size;
+            const floats margin = 0x1p-20f * (far_off + receivers.largest()) + error;
+            floats f = (low - margin - lower) * scale, l = (high + margin - lower) * scale;
+            missed |= ints(f >= most + 1.0f) | ints(l < 0.0f);
+            f = f > 0.0f ? f : floats{};
+            f = f < most ? f : floats{} + most;
+            l = l < most ? l : floats{} + most;
+            l = l > 0.0f ? l : floats{};
+            const ints behind = ints(t.state == plane_vertex::behind);
+            f = behind ? floats{} : f;
+            l = behind ? floats{} + most : l;
+            missed = missed & ~behind;
+            convert(first[axis], f);
+            convert(last[axis], l);
+            extent[axis] = (high - low) + 2.0f * receivers.cell()[axis];
+        });
+        floats low, high;
+        t.range(low, high, 2);
+        const floats height_off = 0x1.2p-24f * (high > 0.0f - low ? high : 0.0f - low) + height_error_of_receivers();
+        missed |= ints(high + 2.0f * height_off < receivers.lowest()) & ints(t.state == 0.0f);  // below all receivers
+        floats ab[3], ac[3];
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            ab[axis] = t.b[axis] - t.a[axis];
+            ac[axis] = t.c[axis] - t.a[axis];
+        });
+        floats area = ab[0] * ac[1] - ab[1] * ac[0];
+        const floats area_off = 0x1p-20f * (size + receivers.largest()) * (extent[0] + extent[1]);
+        const ints facing = ints((is_turned ? 0.0f - area : area) > area_off) & ints(t.state == 0.0f);
+        const bool skips_own = may_skip == skip::facing_its_own;
+        if (may_skip == skip::facing || (skips_own && !receivers.has_others(number))) missed |= facing;
+        const unsigned open = ~set_lanes<N>(missed) & ((2u << (count - 1)) - 1);
+        if (open == 0) return;
+        const unsigned for_others = skips_own ? set_lanes<N>(facing) : 0;
+        // Counter-clockwise on the plane.
+        const ints turned = ints(area < 0.0f);
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            const floats other = ab[axis];
+            ab[axis] = turned ? ac[axis] : ab[axis];
+            ac[axis] = turned ? other : ac[axis];
+        });
+        area = turned ? 0.0f - area : area;
+        // A coordinate is off by half a unit in the last place, a difference by twice as much; two products round.
+        const floats off = 0x1.2p-24f * (size > receivers.largest() ? size : floats{} + receivers.largest()) + error;
+        const floats box = extent[0] * extent[1];
+        floats edge_error = 4.5f * off * (extent[0] + extent[1]) + 0x1p-21f * box;
+        const floats slopes = (ab[2] < 0.0f ? 0.0f - ab[2] : ab[2]) + (ac[2] < 0.0f ? 0.0f - ac[2] : ac[2]);
+        floats height_error = (edge_error + 0x1p-20f * box) * slopes + 10.0f * box * height_off;
+        const floats height_share = 3.0f * edge_error + 0x1p-21f * box;  // for each unit between a and the receiver
+        edge_error = t.state == 0.0f ? edge_error : floats{} + std::numeric_limits<float>::infinity();
+        height_error = t.state == 0.0f ? height_error : floats{} + std::numeric_limits<float>::infinity();
+
+        float values[12][static_cast<unsigned>(N)];
+        std::int32_t cells[4][static_cast<unsigned>(N)];
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            store(values[axis], t.a[axis]);
+            store(values[3 + axis], ab[axis]);
+            store(values[6 + axis], ac[axis]);
+        });
+        store(values[9], edge_error);
+        store(values[10], height_error);
+        store(values[11], height_share);
+        unroll<2>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            store(cells[axis], first[axis]);
+            store(cells[2 + axis], last[axis]);
+        });
+        for (unsigned left = open; left != 0; left &= left - 1) {
+            const auto k = static_cast<std::size_t>(std::countr_zero(left));
+            const float one[12] = {values[0][k], values[1][k], values[2][k],  values[3][k],
+                                   values[4][k], values[5][k], values[6][k],  values[7][k],
+                                   values[8][k], values[9][k], values[10][k], values[11][k]};
+            const bool is_for_others = (for_others >> k & 1) != 0;
+            for (int row = cells[1][k]; row <= cells[3][k]; ++row)
+                compare<N>(one, ids[k], is_for_others, receivers.start(row, cells[0][k]),
+                           receivers.start(row, cells[2][k] + 1));
+        }
+    }
+
+    /// One triangle with the receivers [first, last).
+    template <int N>
+    INSONIFY_INLINE void compare(const float (&t)[12], std::uint32_t id, bool is_for_others, std::uint32_t first,
+                                 std::uint32_t last) const {
+        using namespace insonify::detail;
+        using floats = lanes<float, N>;
+        using ints = lanes<std::int32_t, N>;
+        ints column;
+        count_up<std::int32_t, N>(column);
+        const float *const us = receivers.u.data(), *const vs = receivers.v.data(),
+                           *const heights = receivers.height.data();
+        std::int32_t* const casters = receivers.caster.data();
+        const float area = t[3] * t[7] - t[4] * t[6];
+        for (std::uint32_t i = first; i < last; i += N) {
+            floats u, v, height;
+            ints mesh, triangle, blocked;
+            load(u, us + i);
+            load(v, vs + i);
+            load(height, heights + i);
+            load(blocked, casters + i);
+            u = u - t[0];
+            v = v - t[1];
+            height = height - t[2];
+            const floats to_c = t[3] * v - t[4] * u, to_b = t[7] * u - t[6] * v;  // weights of c and b, times the area
+            const floats to_a = area - to_b - to_c;
+            const floats above = area * height - (to_b * t[5] + to_c * t[8]);
+            const floats doubt = t[10] + t[11] * (height < 0.0f ? 0.0f - height : height);
+            const ints out = ints(to_b < -t[9]) | ints(to_c < -t[9]) | ints(to_a < -3 * t[9]) | ints(above > doubt);
+            const ints open = ints(out == 0) & ints(blocked == receiver_cells::open) &
+                              ints(column < static_cast<std::int32_t>(last - i));
+            if (!any(open)) continue;
+            load(mesh, receivers.mesh.data() + i);
+            load(triangle, receivers.triangle.data() + i);
+            ints own = ints(mesh == static_cast<std::int32_t>(number));
+            if (!is_for_others) own = own & ints(triangle == static_cast<std::int32_t>(id));
+            const ints asked = open & ~own;
+            const ints certain =
+                asked & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) & ints(above < 0.0f - doubt);
+            store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
+            for (unsigned left = set_lanes<N>(ints(asked & ~certain)); left != 0; left &= left - 1) {
+                const std::size_t at = i + static_cast<std::size_t>(std::countr_zero(left));
+                if (decide(id, at)) casters[at] = static_cast<std::int32_t>(number);
+            }
+        }
+    }
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/exact.hpp -----------------------------------------------------------------
+// Hard shadows without a map: every point is tested against every triangle that can block its light.
+//
+// Casters and points meet on a plane that the light's rays cross upright (detail/light_planes.hpp). The plane is cut
+// into tiles; casters' triangles are noted in the tiles that they touch when the structure is built, points are sorted
+// into the tiles' cells when they are tested, and each triangle walks over the points under it
+// (detail/occlusion_kernel.hpp). The cost is linear in both, and there is no resolution and no bias.
+//
+// Every answer is that of one rule in doubles (detail/blocking.hpp), whatever the mesh: open, closed,
+// self-intersecting, inside out. Triangles are left out where a proof allows it (shadow::skip).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
+
+/// Casters that block one light, as `exact` builds them.
+class exact_occlusion {
+  public:
+    /// See casting_policy.
+    /// @throws invalid_input for an index without a position, or a light as light_frame refuses it
+    template <executor E>
+    exact_occlusion(std::span<const caster> casters, const any_light& light, const bounding_box& bounds, E& ex)
+        : casters_(casters.begin(), casters.end()), rays_(light, reach_of(bounds)) {
+        if (const auto* point = std::get_if<point_light>(&light)) near_light_ = *point;
+        std::size_t triangles = 0;
+        for (const caster& c : casters_) {
+            insonify::detail::require_indices(c.mesh, ex);
+            triangles += c.mesh.triangles.size();
+        }
+        if (triangles == 0 || bounds.empty()) return;
+        int side = 4;
+        while (side < 64 && static_cast<std::size_t>(side * side) * 1024 < triangles) side *= 2;
+        const double reach = reach_of(bounds);
+        if (const auto* parallel = std::get_if<directional_light>(&light)) {
+            const light_frame frame(*parallel);
+            const detail::light_plane plane(frame);
+            glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
+            for (int i = 0; i < 8; ++i) {
+                const glm::dvec3 at = plane(bounds.corner(i));
+                lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
+                upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
+            }
+            add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach * (1 + frame.cot_elevation()), 0, ex);
+            for (const caster& c : casters_) add_horizon(c, frame, ex);
+        } else {
+            const auto& point = std::get<point_light>(light);
+            for (int i = 0; i < 6; ++i) {
+                const detail::light_plane plane(point, i);
+                if (!is_seen(plane, bounds)) {
+                    planes_.emplace_back();
+                    continue;
+                }
+                add_plane(plane, {glm::dvec2(-1), glm::dvec2(2), side, side}, 0x1p-30, 0x1p-20 * reach, ex);
+            }
+        }
+    }
+
+    /// See collective_occlusion.
+    void screen(const points& at, const shares& into) const {
+        std::fill(into.caster.begin(), into.caster.end(), invalid_id);
+        if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
+        const horizon_state* own = nullptr;
+        std::uint32_t mesh = invalid_id;
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            into.lit[i] = unknown;
+            if (at.mesh[i] != mesh) {
+                mesh = at.mesh[i];
+                own = at.face_light && mesh < horizons_.size() && horizons_[mesh].bounds ? &horizons_[mesh] : nullptr;
+            }
+            const glm::dvec3 p = at[i];
+            auto known = detail::horizon_bounds::answer::unknown;
+            if (own != nullptr) known = own->bounds->at(transform_point(own->to_mesh, p));
+            if (near_light_) continue;
+            const plane_state& state = planes_.front();
+            const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(p))];
+            if (occupant == no_caster) {
+                into.lit[i] = 1;
+            } else if (occupant == mesh && known != detail::horizon_bounds::answer::unknown) {
+                const bool is_dark = known == detail::horizon_bounds::answer::dark;
+                into.lit[i] = is_dark ? 0.0f : 1.0f;
+                if (is_dark) into.caster[i] = mesh;
+            }
+        }
+    }
+
+    /// See occlusion.
+    void test(const points& at, const shares& into) const {
+        serial_executor serial;
+        std::vector<points> parts;
+        std::vector<shares> results;
+        for (std::size_t first = 0; first < at.size(); first += most_points) {
+            const std::size_t count = (std::min)(most_points, at.size() - first);
+            parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
+                             at.mesh.subspan(first, count), at.triangle.subspan(first, count), at.casters});
+            results.push_back({into.lit.subspan(first, count), into.caster.subspan(first, count)});
+        }
+        test(std::span<const points>(parts), std::span<const shares>(results), serial);
+    }
+
+    /// The same for many batches of at most 2^16 points each, all of them at once.
+    template <executor E>
+    void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
+        // A run of batches sorts its points by tile; then each tile collects its own from all runs.
+        const std::size_t grain = (std::max)(std::size_t{8}, (at.size() + 127) / 128);
+        std::vector<sorted_points> runs((at.size() + grain - 1) / grain);
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            if (i % grain == 0) runs[i / grain].first = count;
+            count += at[i].size();
+        }
+        receivers_of all(count);
+        bulk_ranges(ex, at.size(), grain, [&](std::size_t first, std::size_t last) {
+            sort(at, into, first, last, all, runs[first / grain]);
+        });
+        bulk_ranges(ex, tile_count(), 4, [&](std::size_t first, std::size_t last) {
+            detail::receiver_cells cells;
+            receivers_of own;
+            for (std::size_t tile = first; tile < last; ++tile) {
+                std::size_t size = 0;
+                for (const sorted_points& run : runs) size += run.in(all, tile).size();
+                if (size == 0) continue;
+                own.resize(size);
+                auto to = own.begin();
+                for (const sorted_points& run : runs) {
+                    const auto some = run.in(all, tile);
+                    to = std::copy(some.begin(), some.end(), to);
+                }
+                test_tile(tile, own, cells, at, into);
+            }
+        });
+    }
+
+  private:
+    static constexpr std::size_t most_points = 65536;
+    static constexpr std::uint32_t no_caster = invalid_id, several_casters = invalid_id - 1;
+    static constexpr double shared_mesh_grid_error = 0x1p-12;  ///< see shared_mesh::grid_error
+
+    struct plane_state {
+        detail::light_plane plane;
+        detail::plane_tiles tiles;
+        float error = 0;  ///< of coordinates on it
+        std::vector<detail::plane_caster> casters;
+        glm::dvec2 scale{};                     ///< tiles a unit
+        std::vector<std::uint32_t> occupant{};  ///< of each tile: the caster whose triangles alone touch it,
+                                                ///< or one of the following
+    };
+    struct horizon_state {
+        affine to_mesh;
+        std::optional<detail::horizon_bounds> bounds;
+    };
+    using receivers_of = insonify::detail::unfilled_vector<detail::receiver>;
+    /// Points of a run of batches by tile.
+    struct sorted_points {
+        std::size_t first = 0;              ///< among all
+        std::vector<std::uint32_t> starts;  ///< of tiles, from there
+
+        std::span<const detail::receiver> in(const receivers_of& all, std::size_t tile) const {
+            if (starts.empty()) return {};
+            return std::span(all).subspan(first + starts[tile], starts[tile + 1] - starts[tile]);
+        }
+    };
+
+    /// No coordinate of a point is larger. Casters may reach farther; what they block does not.
+    static double reach_of(const bounding_box& bounds) {
+        double reach = 0;
+        for (int i = 0; i < 3 && !bounds.empty(); ++i) reach = (std::max)({reach, -bounds.lower[i], bounds.upper[i]});
+        return reach;
+    }
+    /// Whether anything within a box may lie over a plane of a near light.
+    static bool is_seen(const detail::light_plane& plane, const bounding_box& box) {
+        bool outside[4] = {true, true, true, true};
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 p = plane(box.corner(i));
+            for (int k = 0; k < 4; ++k)
+                outside[k] = outside[k] && (k % 2 == 0 ? 1 : -1) * p[k / 2] > p.z * (1 + 0x1p-30);
+        }
+        return !(outside[0] || outside[1] || outside[2] || outside[3]);
+    }
+
+    /// What is known beforehand of most points of a heightfield on a grid.
+    template <executor E>
+    void add_horizon(const caster& c, const light_frame& frame, E& ex) {
+        horizon_state& state = horizons_.emplace_back();
+        if (c.grid == nullptr || c.may_skip != skip::facing_its_own) return;
+        state.to_mesh = inverse(c.placement);
+        state.bounds.emplace(c.mesh, *c.grid, transform_direction(state.to_mesh, -frame.to_light()),
+                             shared_mesh_grid_error, ex);
+    }
+    template <executor E>
+    void add_plane(const detail::light_plane& plane, detail::plane_tiles tiles, double error, double least_depth,
+                   E& ex) {
+        const double margin = error + 0x1p-20 * (std::max)(tiles.size.x, tiles.size.y) + 1e-30;
+        tiles.lower -= margin;
+        tiles.size += 2 * margin;
+        plane_state state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
+        for (const caster& c : casters_) state.casters.emplace_back(c, plane, tiles, least_depth, ex);
+        state.occupant.assign(tiles.count(), no_caster);
+        for (std::size_t tile = 0; tile < tiles.count(); ++tile)
+            for (std::size_t i = 0; i < state.casters.size(); ++i)
+                if (!state.casters[i].bin(tile).empty())
+                    state.occupant[tile] =
+                        state.occupant[tile] == no_caster ? static_cast<std::uint32_t>(i) : several_casters;
+        planes_.push_back(std::move(state));
+    }
+
+    std::size_t tile_count() const {
+        std::size_t count = 0;
+        for (const plane_state& p : planes_) count += p.casters.empty() ? 0 : p.tiles.count();
+        return count;
+    }
+    /// The plane of a tile, and its number there.
+    std::pair<const plane_state*, std::size_t> plane_of(std::size_t tile) const {
+        for (const plane_state& p : planes_) {
+            if (p.casters.empty()) continue;
+            if (tile < p.tiles.count()) return {&p, tile};
+            tile -= p.tiles.count();
+        }
+        return {nullptr, 0};
+    }
+
+    /// Puts the points of some batches where they belong among all, by tile; those that nothing lies above are lit.
+    void sort(std::span<const points> at, std::span<const shares> into, std::size_t first, std::size_t last,
+              receivers_of& all, sorted_points& out) const {
+        std::array<std::size_t, 6> plane_start{};
+        std::size_t tiles = 0;
+        for (std::size_t i = 0; i < planes_.size(); ++i) {
+            plane_start[i] = tiles;
+            tiles += planes_[i].casters.empty() ? 0 : planes_[i].tiles.count();
+        }
+        std::size_t most = 0, count = 0;
+        for (std::size_t part = first; part < last; ++part) {
+            std::fill(into[part].lit.begin(), into[part].lit.end(), 1.0f);
+            std::fill(into[part].caster.begin(), into[part].caster.end(), invalid_id);
+            most += at[part].size();
+        }
+        if (tiles == 0) return;
+        receivers_of found(most);
+        insonify::detail::unfilled_vector<std::uint32_t> keys(most);
+        out.starts.assign(tiles + 1, 0);
+        for (std::size_t part = first; part < last; ++part) {
+            const points& some = at[part];
+            for (std::size_t i = 0; i < some.size(); ++i) {
+                const glm::dvec3 p = some[i];
+                const auto which =
+                    near_light_ ? static_cast<std::size_t>(detail::light_plane::side_of(*near_light_, p)) : 0;
+                const plane_state& state = planes_[which];
+                if (state.casters.empty()) continue;
+                glm::dvec3 seen = state.plane(p);
+                if (near_light_) seen = detail::light_plane::seen(seen);
+                const glm::dvec2 from = glm::dvec2(seen) - state.tiles.lower;
+                const std::size_t tile = tile_of(state, seen);
+                if (state.occupant[tile] == no_caster) continue;
+                found[count] = {static_cast<float>(from.x),
+                                static_cast<float>(from.y),
+                                static_cast<float>(seen.z),
+                                static_cast<std::uint32_t>(part << 16 | i),
+                                some.mesh[i],
+                                some.triangle[i],
+                                some.casters};
+                keys[count] = static_cast<std::uint32_t>(plane_start[which] + tile);
+                ++out.starts[keys[count] + 1];
+                ++count;
+            }
+        }
+        for (std::size_t tile = 0; tile < tiles; ++tile) out.starts[tile + 1] += out.starts[tile];
+        std::vector<std::uint32_t> next(out.starts.begin(), out.starts.end() - 1);
+        for (std::size_t i = 0; i < count; ++i) all[out.first + next[keys[i]]++] = found[i];
+    }
+    static std::size_t tile_of(const plane_state& state, const glm::dvec3& seen) {
+        const int column = hold((seen.x - state.tiles.lower.x) * state.scale.x, state.tiles.columns),
+                  row = hold((seen.y - state.tiles.lower.y) * state.scale.y, state.tiles.rows);
+        return static_cast<std::size_t>(row * state.tiles.columns + column);
+    }
+    static int hold(double at, int count) { return static_cast<int>((std::min)((std::max)(at, 0.0), count - 1.0)); }
+
+    void test_tile(std::size_t number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
+                   std::span<const points> at, std::span<const shares> into) const {
+        const auto [state, tile] = plane_of(number);
+        const glm::dvec2 size = state->tiles.tile();
+        const auto columns = static_cast<std::size_t>(state->tiles.columns);
+        const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
+        cells.sort(all, glm::vec2(place * size), glm::vec2(size));
+        for (std::size_t i = 0; i < state->casters.size(); ++i) {
+            cells.close(static_cast<std::uint32_t>(i));
+            const detail::plane_caster& caster = state->casters[i];
+            if (caster.bin(tile).empty()) continue;
+            const shadow::caster& c = casters_[i];
+            const auto decide = [&](std::uint32_t triangle, std::size_t k) {
+                const glm::uvec3& t = c.mesh.triangles[triangle];
+                const auto corner = [&](int j) {
+                    return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]]));
+                };
+                return rays_.are_blocked(corner(0), corner(1), corner(2),
+                                         at[cells.point[k] >> 16][cells.point[k] & 0xFFFFu]);
+            };
+            insonify::detail::dispatch(
+                detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{
+                    caster, caster.bin(tile), static_cast<std::uint32_t>(i), c.may_skip, is_turned(c, *state),
+                    state->error, cells, decide},
+                best_isa());
+        }
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (cells.caster[i] < 0) continue;
+            const shares& to = into[cells.point[i] >> 16];
+            to.lit[cells.point[i] & 0xFFFFu] = 0;
+            to.caster[cells.point[i] & 0xFFFFu] = static_cast<std::uint32_t>(cells.caster[i]);
+        }
+    }
+
+    /// Whether a triangle that faces the light is clockwise on the plane.
+    static bool is_turned(const caster& c, const plane_state& state) {
+        return (numeric::determinant(c.placement.linear) < 0) != state.plane.is_mirrored();
+    }
+
+    std::vector<caster> casters_;
+    std::optional<point_light> near_light_;
+    detail::light_rays rays_;
+    std::vector<plane_state> planes_;      ///< one, or six of which some are empty
+    std::vector<horizon_state> horizons_;  ///< of the casters, under parallel light
+};
+
+/// Hard shadows, exact for every point: the default.
+struct exact {
+    /// See casting_policy.
+    template <executor E>
+    exact_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
+                          E& ex) const {
+        return {casters, light, bounds.box, ex};
+    }
+};
+
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/backscatter.hpp ------------------------------------------------------------
+// How much of the sound comes back from a surface that is met at an angle.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// What a surface is made of, as far as a picture shows it.
+struct material {
+    float reflectivity = 0.5f;  ///< relative, 0 to 1 and above: tunes highlights as the paper tunes its light
+};
+
+/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. One that
+/// has `in_lanes` too is asked for several pixels at a time, by reference.
+template <class L>
+concept backscatter_law = requires(const L& law, float s) {
+    { law(s) } -> std::convertible_to<float>;
+};
+
+/// Optical Lambert, s: what the paper's game engine draws.
+struct lambert {
+    float operator()(float s) const { return s; }
+    template <class Lanes>
+    INSONIFY_INLINE void in_lanes(Lanes& into, const Lanes& s) const {
+        into = s;
+    }
+};
+
+/// Lambert's law for backscattered intensity, s^2 (K. V. Mackenzie. Bottom Reverberation for 530- and 1030-cps Sound in
+/// Deep Water. JASA 33, 1961, without its level): both the sound that arrives and the sound that returns spread by s.
+struct lambert_backscatter {
+    float operator()(float s) const { return s * s; }
+    template <class Lanes>
+    INSONIFY_INLINE void in_lanes(Lanes& into, const Lanes& s) const {
+        into = s * s;
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI
 
 INSONIFY_ARITHMETIC_END
 
@@ -5901,1955 +7510,6 @@ inline ground_box casting_ground(const overhead_geometry& view, const seabed::he
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/shadow/box_tree.hpp --------------------------------------------------------------
-// Boxes over a plane, and which of them lie over a point: a tree with eight branches at every node, all eight of which
-// are compared at once.
-//
-// The boxes are sorted along Morton's curve and taken eight by eight, and the eights eight by eight again: a node's
-// place says which its branches are, so there are no links. Sides are measured in mean boxes, because under grazing
-// light boxes are long. What is found doesn't depend on the tree: it is every box that the point is in.
-//
-// Based on: Guy M. Morton. A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing. IBM, 1966.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::shadow {
-
-/// Floats that aren't above and not below a double, for bounds.
-inline float rounded_down(double value) {
-    const auto nearest = static_cast<float>(value);
-    const float size = nearest < 0 ? -nearest : nearest;
-    return nearest - (size * 0x1p-23f + (std::numeric_limits<float>::min)());
-}
-inline float rounded_up(double value) {
-    return -rounded_down(-value);
-}
-
-/// A rectangle of (u, v) under something that reaches up to `top`.
-struct topped_box {
-    float u_low, u_high, v_low, v_high, top;
-    std::uint32_t name;  ///< the caller's
-};
-
-/// A point of the plane and a height over it, known to within a little.
-struct point_range {
-    float u_low = 0, u_high = 0, v_low = 0, v_high = 0, above = 0;
-
-    point_range() = default;
-    /// @param slack  how far u, v and the height may be off
-    point_range(double u, double v, double height, double slack)
-        : u_low(rounded_down(u - slack)),
-          u_high(rounded_up(u + slack)),
-          v_low(rounded_down(v - slack)),
-          v_high(rounded_up(v + slack)),
-          above(rounded_down(height - slack)) {}
-};
-
-/// Boxes sorted such that those over a point are found in a few steps.
-class box_tree {
-  public:
-    static constexpr std::size_t branches = 8;
-
-    box_tree() = default;
-
-    /// @param boxes  finite, below 2^32 of them
-    template <executor E>
-    box_tree(const std::vector<topped_box>& boxes, E& ex) {
-        if (boxes.empty()) return;
-        const std::vector<std::uint64_t> order = sorted(boxes, ex);
-        names_ = std::make_unique_for_overwrite<std::uint32_t[]>(boxes.size());
-        count_ = boxes.size();
-        for (std::size_t nodes = up(count_);; nodes = up(nodes)) {
-            starts_[levels_++] = nodes_.size();
-            nodes_.resize(nodes_.size() + nodes);
-            if (nodes == 1) break;
-        }
-        bulk_ranges(ex, up(count_), 4096, [&](std::size_t first, std::size_t last) {
-            for (std::size_t n = first; n < last; ++n)
-                for (std::size_t k = 0; k < branches && branches * n + k < count_; ++k) {
-                    const topped_box& b = boxes[static_cast<std::uint32_t>(order[branches * n + k])];
-                    nodes_[n].set(k, b);
-                    names_[branches * n + k] = b.name;
-                }
-        });
-        for (std::size_t level = 1; level < levels_; ++level)
-            for (std::size_t n = starts_[level - 1]; n < starts_[level]; ++n) {
-                const std::size_t at = n - starts_[level - 1];
-                nodes_[starts_[level] + at / branches].set(at % branches, nodes_[n].around());
-            }
-    }
-
-    bool empty() const { return count_ == 0; }
-
-    /// Asks about every pair of a point and a box that it is in and that reaches above it.
-    /// @param points  whose bits are set, of at[0] to at[N - 1]: they should be neighbours, as they go down the tree
-    ///                together
-    /// @param ask     ask(name, k): whether the box settles it for point k, which is then asked about no more
-    /// @returns which points are settled
-    template <int N, class Ask>
-    INSONIFY_INLINE unsigned find(const point_range* at, unsigned points, const Ask& ask) const {
-        if (empty() || points == 0) return 0;
-        const point_lanes<N> each(at);
-        unsigned open = points;
-        point_range all = around(at, open);
-        // Seven branches a level can wait, below 2^32 boxes and hence in eleven levels.
-        std::array<waiting, 80> stack;
-        std::size_t height = 0;
-        stack[height++] = {static_cast<std::uint32_t>(levels_ - 1), 0};
-        while (height > 0) {
-            const waiting now = stack[--height];
-            const node& here = nodes_[starts_[now.level] + now.node];
-            for (unsigned over = here.template over<N>(all); over != 0; over &= over - 1) {
-                const int k = std::countr_zero(over);
-                const std::uint32_t branch = static_cast<std::uint32_t>(branches) * now.node + static_cast<unsigned>(k);
-                if (now.level > 0) {
-                    stack[height++] = {now.level - 1, branch};
-                    continue;
-                }
-                for (unsigned in = each.in(here, k) & open; in != 0; in &= in - 1) {
-                    const int point = std::countr_zero(in);
-                    if (!ask(names_[branch], point)) continue;
-                    open &= ~(1u << point);
-                    if (open == 0) return points;
-                    all = around(at, open);
-                }
-            }
-        }
-        return points & ~open;
-    }
-
-  private:
-    /// Eight boxes; none where there are fewer.
-    struct alignas(32) node {
-        float u_low[branches], u_high[branches], v_low[branches], v_high[branches], top[branches];
-
-        node() {
-            constexpr float nowhere = std::numeric_limits<float>::infinity();
-            for (std::size_t k = 0; k < branches; ++k) {
-                u_low[k] = v_low[k] = nowhere;
-                u_high[k] = v_high[k] = top[k] = -nowhere;
-            }
-        }
-        void set(std::size_t k, const topped_box& b) {
-            u_low[k] = b.u_low;
-            u_high[k] = b.u_high;
-            v_low[k] = b.v_low;
-            v_high[k] = b.v_high;
-            top[k] = b.top;
-        }
-        topped_box around() const {
-            topped_box all{u_low[0], u_high[0], v_low[0], v_high[0], top[0], 0};
-            for (std::size_t k = 1; k < branches; ++k) {
-                all.u_low = (std::min)(all.u_low, u_low[k]);
-                all.u_high = (std::max)(all.u_high, u_high[k]);
-                all.v_low = (std::min)(all.v_low, v_low[k]);
-                all.v_high = (std::max)(all.v_high, v_high[k]);
-                all.top = (std::max)(all.top, top[k]);
-            }
-            return all;
-        }
-        /// Bit k: branch k may hold one of the points within and reach above it.
-        template <int N>
-        INSONIFY_INLINE unsigned over(const point_range& at) const {
-            using namespace insonify::detail;
-            using floats = lanes<float, N>;
-            using ints = lanes<std::int32_t, N>;
-            unsigned bits = 0;
-            for (int first = 0; first < static_cast<int>(branches); first += N) {
-                floats a, b, c, d, e;
-                load(a, u_low + first);
-                load(b, u_high + first);
-                load(c, v_low + first);
-                load(d, v_high + first);
-                load(e, top + first);
-                const ints held = ints(a <= at.u_high) & ints(b >= at.u_low) & ints(c <= at.v_high) &
-                                  ints(d >= at.v_low) & ints(e > at.above);
-                bits |= set_lanes<N>(held) << first;
-            }
-            return bits;
-        }
-    };
-    /// The points as lanes, to compare all with one box.
-    template <int N>
-    struct point_lanes {
-        insonify::detail::lanes<float, N> u_low, u_high, v_low, v_high, above;
-
-        INSONIFY_INLINE explicit point_lanes(const point_range* at) {
-            using insonify::detail::gather;
-            gather<N>(u_low, [&](int k) { return at[k].u_low; });
-            gather<N>(u_high, [&](int k) { return at[k].u_high; });
-            gather<N>(v_low, [&](int k) { return at[k].v_low; });
-            gather<N>(v_high, [&](int k) { return at[k].v_high; });
-            gather<N>(above, [&](int k) { return at[k].above; });
-        }
-        /// Bit k: point k is in box `b` of a node and below its top.
-        INSONIFY_INLINE unsigned in(const node& n, int b) const {
-            using ints = insonify::detail::lanes<std::int32_t, N>;
-            return insonify::detail::set_lanes<N>(ints(n.u_low[b] <= u_high) & ints(n.u_high[b] >= u_low) &
-                                                  ints(n.v_low[b] <= v_high) & ints(n.v_high[b] >= v_low) &
-                                                  ints(n.top[b] > above));
-        }
-    };
-    /// The range that holds several points.
-    static point_range around(const point_range* at, unsigned points) {
-        point_range all = at[std::countr_zero(points)];
-        for (points &= points - 1; points != 0; points &= points - 1) {
-            const point_range& p = at[std::countr_zero(points)];
-            all.u_low = (std::min)(all.u_low, p.u_low);
-            all.u_high = (std::max)(all.u_high, p.u_high);
-            all.v_low = (std::min)(all.v_low, p.v_low);
-            all.v_high = (std::max)(all.v_high, p.v_high);
-            all.above = (std::min)(all.above, p.above);
-        }
-        return all;
-    }
-
-    struct waiting {
-        std::uint32_t level, node;
-    };
-
-    static std::size_t up(std::size_t count) { return (count + branches - 1) / branches; }
-
-    /// Sixteen bits, each followed by a zero.
-    static std::uint32_t spread(std::uint32_t v) {
-        v = (v | v << 8) & 0x00FF00FFu;
-        v = (v | v << 4) & 0x0F0F0F0Fu;
-        v = (v | v << 2) & 0x33333333u;
-        return (v | v << 1) & 0x55555555u;
-    }
-
-    /// Place on Morton's curve in the upper half, index in the lower, sorted.
-    template <executor E>
-    static std::vector<std::uint64_t> sorted(const std::vector<topped_box>& boxes, E& ex) {
-        constexpr std::size_t grain = 65536;
-        struct summary {
-            double u = std::numeric_limits<double>::infinity(), v = u;  // lowest centres, doubled
-            double u_end = -u, v_end = -u;                              // highest
-            double width = 0, length = 0;                               // summed
-        };
-        const auto centre = [](float low, float high) { return static_cast<double>(low) + static_cast<double>(high); };
-        const auto side = [](float low, float high) { return static_cast<double>(high) - static_cast<double>(low); };
-        std::vector<summary> parts((boxes.size() + grain - 1) / grain);
-        bulk_ranges(ex, boxes.size(), grain, [&](std::size_t first, std::size_t last) {
-            summary s;
-            for (std::size_t i = first; i < last; ++i) {
-                const topped_box& b = boxes[i];
-                const double u = centre(b.u_low, b.u_high), v = centre(b.v_low, b.v_high);
-                s.u = (std::min)(s.u, u);
-                s.v = (std::min)(s.v, v);
-                s.u_end = (std::max)(s.u_end, u);
-                s.v_end = (std::max)(s.v_end, v);
-                s.width += side(b.u_low, b.u_high);
-                s.length += side(b.v_low, b.v_high);
-            }
-            parts[first / grain] = s;
-        });
-        summary all;
-        for (const summary& s : parts) {
-            all = {(std::min)(all.u, s.u),         (std::min)(all.v, s.v), (std::max)(all.u_end, s.u_end),
-                   (std::max)(all.v_end, s.v_end), all.width + s.width,    all.length + s.length};
-        }
-        // As many steps of the curve to a mean box along u as along v, and 2^16 to the longer way.
-        const double u_boxes = (all.u_end - all.u) / all.width, v_boxes = (all.v_end - all.v) / all.length;
-        const double steps = 65535 / (std::max)((std::max)(u_boxes, v_boxes), 1e-300);
-        const double u_scale = steps / all.width, v_scale = steps / all.length;
-
-        std::vector<std::uint64_t> keys(boxes.size()), other(boxes.size());
-        bulk_ranges(ex, boxes.size(), grain, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) {
-                const topped_box& b = boxes[i];
-                // In this order, because boxes that all have one centre make a NaN, which is not less than anything.
-                const auto step = [](double s) { return static_cast<std::uint32_t>((std::min)(65535.0, s)); };
-                const std::uint32_t u = step((centre(b.u_low, b.u_high) - all.u) * u_scale);
-                const std::uint32_t v = step((centre(b.v_low, b.v_high) - all.v) * v_scale);
-                keys[i] = std::uint64_t{spread(u) | spread(v) << 1} << 32 | i;
-            }
-        });
-        for (const int shift : {32, 43, 54}) {
-            pass(keys, other, shift, ex);
-            keys.swap(other);
-        }
-        return keys;
-    }
-
-    /// A stable counting sort by eleven bits: each run of keys counts its own, and knows from the others' counts where
-    /// its first of every kind goes.
-    template <executor E>
-    static void pass(const std::vector<std::uint64_t>& from, std::vector<std::uint64_t>& to, int shift, E& ex) {
-        constexpr std::size_t grain = 131072, kinds = 2048;
-        const auto kind = [shift](std::uint64_t key) { return static_cast<std::size_t>(key >> shift) % kinds; };
-        std::vector<std::array<std::uint32_t, kinds>> next((from.size() + grain - 1) / grain);
-        bulk_ranges(ex, from.size(), grain, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) ++next[first / grain][kind(from[i])];
-        });
-        std::uint32_t sum = 0;
-        for (std::size_t k = 0; k < kinds; ++k)
-            for (auto& run : next) sum += std::exchange(run[k], sum);
-        bulk_ranges(ex, from.size(), grain, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) to[next[first / grain][kind(from[i])]++] = from[i];
-        });
-    }
-
-    std::size_t count_ = 0, levels_ = 0;
-    std::array<std::size_t, 12> starts_{};  ///< of the levels in nodes_, boxes' own first
-    std::vector<node> nodes_;
-    std::unique_ptr<std::uint32_t[]> names_;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::shadow
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/shadow/light_rays.hpp ------------------------------------------------------------
-// The rays of a light, parallel or from a point, and planes over which each of them stands upright: there whatever may
-// stop a ray lies over one point.
-//
-// Of parallel light it is the sea floor in the light's frame. Around a point it is the six sides of a cube, each as its
-// centre sees it; a triangle that lies before several of them is over each.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::shadow {
-
-/// Where light comes from, to be asked in doubles. Everything it is asked about lies within `reach` of the origin.
-///
-/// Bounds are meant for coordinates that are themselves off by a few units in the last place: `slack` and the margins
-/// are 2^-40 of the largest number that goes into a coordinate, of which the rounding of a handful of sums and products
-/// is less than 2^-49.
-class light_rays {
-  public:
-    light_rays(const light_frame& light, double reach)
-        : source_(light.to_light()),
-          frame_(light),
-          reach_(reach),
-          size_(reach),
-          slack_(small_share * (1 + frame_.cot_elevation()) * reach) {}
-    /// @throws invalid_input for a position that isn't finite
-    light_rays(const point_light& light, double reach)
-        : source_(light.position), frame_(directional_light{}), is_near_(true) {
-        for (int i = 0; i < 3; ++i)
-            insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
-                                      "finite coordinates");
-        size_ = reach_ = reach;
-        for (int i = 0; i < 3; ++i) size_ = (std::max)(size_, numeric::magnitude(source_[i]));
-    }
-
-    /// From a point to the light: unit length if it is parallel, the whole way if it isn't.
-    glm::dvec3 toward(const glm::dvec3& p) const { return is_near_ ? source_ - p : source_; }
-    /// Whether rays end where `toward` does.
-    bool end() const { return is_near_; }
-    double reach() const { return reach_; }
-    /// Of the coordinates of all that is asked about and of the light, if it is near.
-    double size() const { return size_; }
-
-    std::size_t planes() const { return is_near_ ? 6 : 1; }
-
-    /// Of parallel light, rays outside of a rectangle of its frame will not be asked about.
-    void keep_to(const glm::dvec2& lowest, const glm::dvec2& highest) {
-        lowest_ = lowest;
-        highest_ = highest;
-    }
-
-    /// Over which plane a point is.
-    std::size_t plane_of(const glm::dvec3& p) const {
-        if (!is_near_) return 0;
-        const glm::dvec3 d = p - source_;
-        const glm::dvec3 size{numeric::magnitude(d.x), numeric::magnitude(d.y), numeric::magnitude(d.z)};
-        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
-        return static_cast<std::size_t>(2 * axis + (d[axis] < 0 ? 1 : 0));
-    }
-    /// Where it is over it, and how near to the light.
-    point_range range_of(std::size_t plane, const glm::dvec3& p) const {
-        if (!is_near_) {
-            const glm::dvec3 uvz = frame_(p);
-            return {uvz.x, uvz.y, uvz.z, slack_};
-        }
-        const int axis = static_cast<int>(plane / 2);
-        const glm::dvec3 d = p - source_;
-        const double depth = (std::max)(numeric::magnitude(d[axis]), smallest_depth());
-        return {d[(axis + 1) % 3] / depth, d[(axis + 2) % 3] / depth, 1 / depth * (1 - small_share),
-                small_share * size_ / depth};
-    }
-
-    /// What a triangle covers of a plane, and how near it comes to the light there; none if it isn't over the plane.
-    /// A little too large, never too small.
-    std::optional<topped_box> over(std::size_t plane, const glm::dvec3& a, const glm::dvec3& b,
-                                   const glm::dvec3& c) const {
-        if (!is_near_) {
-            const topped_box box = around(frame_(a), frame_(b), frame_(c), slack_);
-            const bool is_asked =
-                static_cast<double>(box.u_low) <= highest_.x && static_cast<double>(box.u_high) >= lowest_.x &&
-                static_cast<double>(box.v_low) <= highest_.y && static_cast<double>(box.v_high) >= lowest_.y;
-            return is_asked ? std::optional(box) : std::nullopt;
-        }
-        const int axis = static_cast<int>(plane / 2), next = (axis + 1) % 3, last = (axis + 2) % 3;
-        const double sign = plane % 2 == 0 ? 1 : -1;
-        // (u, v, depth) before the division.
-        const auto before = [&](const glm::dvec3& p) {
-            const glm::dvec3 d = p - source_;
-            return glm::dvec3(d[next], d[last], sign * d[axis]);
-        };
-        const glm::dvec3 corner[3] = {before(a), before(b), before(c)};
-        const double little = small_share * size_;
-        bool outside[4] = {true, true, true, true};
-        double nearest = corner[0].z;
-        for (const glm::dvec3& p : corner) {
-            outside[0] = outside[0] && p.x - p.z > little;
-            outside[1] = outside[1] && -p.x - p.z > little;
-            outside[2] = outside[2] && p.y - p.z > little;
-            outside[3] = outside[3] && -p.y - p.z > little;
-            nearest = (std::min)(nearest, p.z);
-        }
-        if (outside[0] || outside[1] || outside[2] || outside[3]) return std::nullopt;
-        if (nearest < smallest_depth()) {
-            // It comes past the light, close by: it may be anywhere.
-            return topped_box{-2, 2, -2, 2, (std::numeric_limits<float>::max)(), 0};
-        }
-        const auto seen = [](const glm::dvec3& p) { return glm::dvec3(p.x / p.z, p.y / p.z, 1 / p.z); };
-        std::optional<topped_box> box =
-            around(seen(corner[0]), seen(corner[1]), seen(corner[2]), small_share * size_ / nearest);
-        box->top = rounded_up(1 / nearest * (1 + small_share));
-        return box;
-    }
-
-  private:
-    static constexpr double small_share = 0x1p-40;
-    /// Nearer to the light than this, directions aren't told apart.
-    double smallest_depth() const { return 0x1p-20 * size_; }
-
-    static topped_box around(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double margin) {
-        const auto least = [](double x, double y, double z) { return (std::min)((std::min)(x, y), z); };
-        const auto most = [](double x, double y, double z) { return (std::max)((std::max)(x, y), z); };
-        return {rounded_down(least(a.x, b.x, c.x) - margin), rounded_up(most(a.x, b.x, c.x) + margin),
-                rounded_down(least(a.y, b.y, c.y) - margin), rounded_up(most(a.y, b.y, c.y) + margin),
-                rounded_up(most(a.z, b.z, c.z) + margin),    0};
-    }
-
-    glm::dvec3 source_;  ///< direction, or position
-    light_frame frame_;
-    bool is_near_ = false;
-    double reach_ = 0, size_ = 0, slack_ = 0;
-    glm::dvec2 lowest_{-(std::numeric_limits<double>::max)()}, highest_{(std::numeric_limits<double>::max)()};
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::shadow
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/shadow/exact.hpp -----------------------------------------------------------------
-// Hard shadows without a map: whether a triangle stands between a point and the light, asked in doubles of every
-// triangle that might.
-//
-// The rule. A point is dark if its own facet faces away from the light or is grazed by it, or if its ray towards the
-// light passes through a triangle, edges included, that the point lies behind by more than rounding can have moved it
-// (2^-40 of the scene's size). It is lit otherwise. There is no bias: a point's own facet holds the point to 2^-49, and
-// neighbours in its plane meet the ray at their edges alone. Of solids only the sides that face away from the light
-// are asked: a ray that starts outside of one and runs through it leaves it through a lit side and so has entered it
-// through one of those.
-//
-// Why none is missed. A triangle's box on the light's plane (light_rays) holds every ray through it, rounding included,
-// and a point is compared with every triangle in whose box it is. Why nothing leaks between neighbours: whether a ray
-// passes an edge on its left is the sign of toward . (a x b) over the edge's ends as seen from the point; for the
-// triangle on the other side the ends change places, which changes the sign of each rounded product and of the sum and
-// nothing else; and a zero counts for both.
-//
-// Based on: Sven Woop, Carsten Benthin, Ingo Wald. Watertight Ray/Triangle Intersection. JCGT 2, 2013.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::shadow {
-
-/// A mesh's corners in the frame in which the light is described, in doubles.
-template <executor_argument E = serial_executor>
-std::vector<glm::dvec3> placed_corners(const mesh_view& m, const affine& placement, E&& ex = {}) {
-    std::vector<glm::dvec3> corners(m.positions.size());
-    bulk_ranges(ex, corners.size(), 16384, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) corners[i] = transform_point(placement, m.positions[i]);
-    });
-    return corners;
-}
-
-/// How far from the origin the farthest finite corner lies, along an axis.
-inline double reach_of(std::span<const glm::dvec3> corners) {
-    double reach = 0;
-    for (const glm::dvec3& c : corners)
-        for (int i = 0; i < 3; ++i) {
-            const double size = numeric::magnitude(c[i]);
-            if (size > reach && numeric::is_finite(size)) reach = size;
-        }
-    return reach;
-}
-
-/// Whether light falls on the side of a triangle from which it is seen, more than grazing it: corners that were rounded
-/// to float are off by 2^-24, and what is parallel to the light but for that is dark.
-/// @param normal  of the triangle, of any length
-/// @param toward  to the light, and `back` to whoever sees it
-inline bool is_faced(const glm::dvec3& normal, const glm::dvec3& toward, const glm::dvec3& back) {
-    const double along = numeric::dot(normal, toward), grazed = 0x1p-22;
-    const bool seen_from_above = numeric::dot(normal, back) > 0;
-    const double facing = seen_from_above ? along : -along;
-    return facing > 0 &&
-           facing * facing > grazed * grazed * numeric::dot(normal, normal) * numeric::dot(toward, toward);
-}
-
-/// One mesh as what may stand in one light.
-class light_blockers {
-  public:
-    /// Stands in nobody's light.
-    light_blockers() = default;
-
-    /// @param rays         of the light; corners lie within its reach, or aren't asked
-    /// @param corners      of the mesh, see placed_corners; both have to outlive this
-    /// @param is_solid     nothing that can be asked about lies inside or below it
-    /// @param is_mirrored  the placement turned its triangles round
-    /// @param ex           who makes the trees; they are the same for any executor
-    template <executor E>
-    light_blockers(const light_rays& rays, const mesh_view& m, std::span<const glm::dvec3> corners, bool is_solid,
-                   bool is_mirrored, E& ex)
-        : triangles_(m.triangles), corners_(corners) {
-        constexpr std::size_t grain = 16384;
-        trees_.resize(rays.planes());
-        std::vector<std::vector<topped_box>> parts((triangles_.size() + grain - 1) / grain);
-        for (std::size_t plane = 0; plane < trees_.size(); ++plane) {
-            bulk_ranges(ex, triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
-                std::vector<topped_box>& part = parts[first / grain];
-                part.clear();
-                part.reserve(last - first);
-                for (std::size_t i = first; i < last; ++i) {
-                    const glm::uvec3& t = triangles_[i];
-                    const glm::dvec3 &a = corners_[t.x], &b = corners_[t.y], &c = corners_[t.z];
-                    if (!is_within(a, rays) || !is_within(b, rays) || !is_within(c, rays)) continue;
-                    if (is_solid) {
-                        const glm::dvec3 normal = numeric::cross(b - a, c - a);
-                        const double facing = numeric::dot(normal, rays.toward(a));
-                        if (is_mirrored ? facing < 0 : facing > 0) continue;
-                    }
-                    if (std::optional<topped_box> box = rays.over(plane, a, b, c)) {
-                        box->name = static_cast<std::uint32_t>(i);
-                        part.push_back(*box);
-                    }
-                }
-            });
-            trees_[plane] = box_tree(joined(parts, ex), ex);
-        }
-    }
-
-    /// Which of up to N points have something between them and the light.
-    /// @param from    where they are; they should be neighbours
-    /// @param points  bit k: ask about from[k]
-    template <int N>
-    INSONIFY_INLINE unsigned stop(const light_rays& rays, const glm::dvec3* from, unsigned points) const {
-        unsigned dark = 0;
-        for (std::size_t plane = 0; plane < trees_.size(); ++plane) {
-            point_range at[static_cast<unsigned>(N)];
-            unsigned over = 0;
-            for (unsigned rest = points; rest != 0; rest &= rest - 1) {
-                const int k = std::countr_zero(rest);
-                if (rays.plane_of(from[k]) != plane) continue;
-                at[k] = rays.range_of(plane, from[k]);
-                over |= 1u << k;
-            }
-            dark |= trees_[plane].template find<N>(
-                at, over, [&](std::uint32_t name, int k) { return blocks(triangles_[name], rays, from[k]); });
-        }
-        return dark;
-    }
-
-  private:
-    static bool is_within(const glm::dvec3& p, const light_rays& rays) {
-        for (int i = 0; i < 3; ++i)
-            if (!(p[i] <= rays.reach() && p[i] >= -rays.reach())) return false;
-        return true;
-    }
-
-    template <executor E>
-    static std::vector<topped_box> joined(const std::vector<std::vector<topped_box>>& parts, E& ex) {
-        std::vector<std::size_t> starts(parts.size() + 1, 0);
-        for (std::size_t i = 0; i < parts.size(); ++i) starts[i + 1] = starts[i] + parts[i].size();
-        std::vector<topped_box> all(starts.back());
-        ex.bulk(parts.size(), [&](std::size_t i) {
-            std::copy(parts[i].begin(), parts[i].end(), all.begin() + static_cast<std::ptrdiff_t>(starts[i]));
-        });
-        return all;
-    }
-
-    bool blocks(const glm::uvec3& t, const light_rays& rays, const glm::dvec3& from) const {
-        const glm::dvec3 toward = rays.toward(from);
-        const glm::dvec3 a = corners_[t.x] - from, b = corners_[t.y] - from, c = corners_[t.z] - from;
-        const double bc = numeric::dot(toward, numeric::cross(b, c));
-        const double ca = numeric::dot(toward, numeric::cross(c, a));
-        const double ab = numeric::dot(toward, numeric::cross(a, b));
-        const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
-        if (!is_left && !is_right) return false;
-        const glm::dvec3 normal = numeric::cross(b - a, c - a);
-        const double along = numeric::dot(normal, toward), behind = numeric::dot(normal, a);
-        const double sign = is_left ? 1 : -1;
-        const double hair =
-            0x1p-40 * (numeric::magnitude(normal.x) + numeric::magnitude(normal.y) + numeric::magnitude(normal.z));
-        if (!(sign * along > 0 && sign * behind > hair * rays.reach())) return false;
-        // What the light itself touches doesn't stop it.
-        return !rays.end() || sign * (along - behind) > hair * rays.size();
-    }
-
-    std::span<const glm::uvec3> triangles_;
-    std::span<const glm::dvec3> corners_;
-    std::vector<box_tree> trees_;  ///< one for each plane of the light
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::shadow
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/shadow/map.hpp -------------------------------------------------------------------
-// The shadow map: for every ray of a parallel light, the height of the first thing it meets.
-//
-// It is an image over the light's sheared frame, drawn by the rasterizer with height as depth. See light.hpp for why
-// this frame; the resolution it needs is the picture's ground sampling, whatever the elevation.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::shadow {
-
-/// A rectangle of the light's frame and the heights that count within it.
-struct map_extent {
-    glm::dvec2 lowest{(std::numeric_limits<double>::max)()};  ///< (u, v), metres
-    glm::dvec2 highest{-(std::numeric_limits<double>::max)()};
-    double floor = (std::numeric_limits<double>::max)();  ///< z
-    double ceiling = -(std::numeric_limits<double>::max)();
-
-    bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
-    /// How far from the frame's origin it goes along v and z, which a low light doesn't stretch.
-    double reach() const { return (std::max)({-lowest.y, highest.y, -floor, ceiling}); }
-
-    void include(const glm::dvec3& uvz) {
-        lowest = {(std::min)(lowest.x, uvz.x), (std::min)(lowest.y, uvz.y)};
-        highest = {(std::max)(highest.x, uvz.x), (std::max)(highest.y, uvz.y)};
-        floor = (std::min)(floor, uvz.z);
-        ceiling = (std::max)(ceiling, uvz.z);
-    }
-
-    /// Only rays that both meet matter; all casters' heights do.
-    map_extent clipped_to(const map_extent& receivers) const {
-        map_extent both = *this;
-        both.lowest = {(std::max)(lowest.x, receivers.lowest.x), (std::max)(lowest.y, receivers.lowest.y)};
-        both.highest = {(std::min)(highest.x, receivers.highest.x), (std::min)(highest.y, receivers.highest.y)};
-        return both;
-    }
-};
-
-/// The smallest extent that holds both.
-inline map_extent merge(const map_extent& a, const map_extent& b) {
-    map_extent both = a;
-    both.include({b.lowest.x, b.lowest.y, b.floor});
-    both.include({b.highest.x, b.highest.y, b.ceiling});
-    return both;
-}
-
-/// The extent of a mesh under a light; positions that aren't finite are passed over.
-template <executor_argument E = serial_executor>
-map_extent extent_of(const mesh_view& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
-    constexpr std::size_t grain = 16384;
-    std::vector<map_extent> parts((m.positions.size() + grain - 1) / grain);
-    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
-        map_extent part;
-        for (std::size_t i = first; i < last; ++i) {
-            const glm::dvec3 world = transform_point(to_world, m.positions[i]);
-            if (numeric::is_finite(world.x + world.y + world.z)) part.include(frame(world));
-        }
-        parts[first / grain] = part;
-    });
-    map_extent whole;
-    for (const map_extent& part : parts)
-        if (!part.empty()) whole = merge(whole, part);
-    return whole;
-}
-
-/// The vertex callable of maps: from a mesh's own coordinates to clip space, where w is one.
-struct map_placement {
-    glm::mat3 axes;
-    glm::vec3 start;
-
-    glm::vec4 operator()(const vertex& v) const { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); }
-    /// See lane_shader.
-    template <class Floats>
-    INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats*, const Floats (&position)[3],
-                                    const Floats (&)[3]) const {
-        numeric::product(clip, axes, position);
-        for (int i = 0; i < 3; ++i) clip[i] = clip[i] + start[i];
-        clip[3] = Floats{} + 1.0f;
-    }
-};
-
-/// A grid of rays: where its texels lie in the light's frame, and between which heights it tells things apart.
-struct map_grid {
-    glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
-    glm::dvec2 texel{1};  ///< metres along u and v
-    double floor = 0, relief = 1;
-    int columns = 0, rows = 0;
-
-    map_grid() = default;
-
-    /// @param texel_length  metres along v; grows if more than `largest` texels a side were needed
-    /// @param stretch       how much longer texels are along u
-    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
-    map_grid(const map_extent& extent, double texel_length, int largest, double stretch = 1)
-        : origin(extent.lowest), floor(extent.floor) {
-        detail::require(texel_length > 0 && numeric::is_finite(texel_length), "texel", texel_length,
-                        "a positive length");
-        detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
-        if (extent.empty()) return;
-        const glm::dvec2 size = extent.highest - extent.lowest;
-        const double longer_side = (std::max)(size.x / stretch, size.y);
-        texel = (std::max)(texel_length, longer_side / (largest - 0.5)) * glm::dvec2(stretch, 1);
-        const auto texels = [&](int axis) {
-            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(size[axis] / texel[axis])) + 1);
-        };
-        // A little room below and above, so that rounding can't clip the highest caster away.
-        const double height = extent.ceiling - extent.floor;
-        const double room = 1e-3 * height + 1e-6;
-        floor -= room;
-        relief = height + 2 * room;
-        columns = texels(0);
-        rows = texels(1);
-    }
-
-    bool empty() const { return columns == 0; }
-
-    /// The vertex callable that puts a mesh on the grid. The whole way from mesh to clip space is one affine map; it is
-    /// made in double and small when narrowed. Row 0 is where v is smallest, so triangles appear mirrored.
-    auto placing(const light_frame& frame, const affine& to_world) const {
-        const glm::dvec2 scale{2 / (texel.x * columns), 2 / (texel.y * rows)};
-        const auto to_clip = [&](const glm::dvec3& uvz) {
-            return glm::dvec3((uvz.x - origin.x) * scale.x - 1, 1 - (uvz.y - origin.y) * scale.y,
-                              (uvz.z - floor) / relief);
-        };
-        const glm::dvec3 zero = to_clip(frame(to_world.offset));
-        glm::mat3 axes;
-        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame(to_world.offset + to_world.linear[i])) - zero);
-        return map_placement{axes, glm::vec3(zero)};
-    }
-};
-
-/// An extent that holds everything in a box, a little larger than it has to be.
-inline map_extent extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
-    map_extent extent;
-    if (box.empty()) return extent;
-    for (const double x : {box.lower.x, box.upper.x})
-        for (const double y : {box.lower.y, box.upper.y})
-            for (const double z : {box.lower.z, box.upper.z})
-                extent.include(frame(transform_point(to_world, {x, y, z})));
-    return extent;
-}
-
-/// Heights of casters over a grid of rays.
-class height_map {
-  public:
-    /// An empty map: nothing casts, everything is lit.
-    height_map() : frame_(directional_light{}) {}
-
-    /// @param frame    of the light
-    /// @param extent   which rays, and between which heights; casters outside are left out
-    /// @throws invalid_input as map_grid does
-    height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
-        : frame_(frame),
-          grid_(extent, texel, largest),
-          heights_(grid_.columns, grid_.rows, empty_depth(keep_depth::larger)) {}
-
-    /// Lets a mesh cast; several may share a map.
-    /// @param to_world  from the mesh's frame to the one in which the light is described
-    template <executor_argument E = serial_executor>
-    draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
-        if (heights_.empty()) return {};
-        return draw(m, grid_.placing(frame_, to_world), quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
-    }
-
-    const light_frame& frame() const { return frame_; }
-    bool empty() const { return heights_.empty(); }
-    int columns() const { return heights_.width(); }
-    int rows() const { return heights_.height(); }
-    /// Metres between texels.
-    double texel() const { return grid_.texel.y; }
-
-    /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
-    /// and its height as the map stores heights.
-    glm::vec3 on_map(const glm::dvec3& uvz) const {
-        return glm::vec3((uvz.x - grid_.origin.x) / grid_.texel.x, (uvz.y - grid_.origin.y) / grid_.texel.y,
-                         (uvz.z - grid_.floor) / grid_.relief);
-    }
-    /// A slope dz / du in stored heights per texel.
-    float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel.y / grid_.relief)); }
-    /// What a texel's ray meets first: a stored height, minus infinity for nothing.
-    float operator()(int column, int row) const { return heights_(column, row); }
-
-  private:
-    light_frame frame_;
-    map_grid grid_;
-    image<float> heights_;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::shadow
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/shadow/policy.hpp ----------------------------------------------------------------
-// Which shadows a picture has, as types: what is not asked for is not compiled.
-
-namespace insonify::inline INSONIFY_ABI::shadow {
-
-/// No shadows: no map, no look-up, no memory.
-struct none {};
-
-/// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
-struct map {
-    float texels_per_pixel = 1.5f;  ///< of the picture's ground sampling; a shadow edge is off by half a texel at most
-    int largest = 8192;             ///< texels a side; what would need more gets coarser texels
-};
-
-/// The same map, averaged over (2 radius + 1)^2 texels: edges are soft over as many.
-struct pcf {
-    float texels_per_pixel = 1.5f;
-    int largest = 8192;
-    int radius = 1;  ///< texels, 0 to 8
-};
-
-/// Hard edges where the casters' triangles have them. A heightfield over a regular grid, as seabeds mostly are, is
-/// swept along lines of the light, two thirds of a texel apart. Of anything else a map says who casts near a point, and
-/// where its texels disagree the triangles are asked. What lies between two lines or meets no texel's centre is missed,
-/// so texels should not be larger than pixels.
-struct refined {
-    float texels_per_pixel = 1;  ///< across the light; along it up to a third fewer
-    int largest = 8192;          ///< texels a side, or lines
-};
-
-/// The edges of the casters themselves in every pixel: each is asked about every triangle that may stand in its light.
-/// No map, no resolution, no bias; the only shadows that light from nearby can cast.
-struct exact {};
-
-/// Soft edges: the same for several points of a round light that isn't small, of which a pixel gets its share. Each
-/// point costs as much as `exact`. Labels are those of the light's middle.
-struct penumbra {
-    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< of the light, in radians as the ground sees it
-    int samples = 16;                                               ///< points of it, the first in the middle
-};
-
-/// Radius of the light over its distance; of all but `penumbra` 0.
-inline double radius_of(const auto&) {
-    return 0;
-}
-inline double radius_of(const penumbra& p) {
-    return numeric::tan(0.5 * static_cast<double>(p.diameter));
-}
-
-/// @throws invalid_input for a value out of its range
-inline void validate(const none&) {}
-inline void validate(const exact&) {}
-inline void validate(const penumbra& p) {
-    detail::require(p.diameter >= 0 && p.diameter <= 1, "diameter", p.diameter, "0 to 1 radian");
-    detail::require(p.samples >= 1 && p.samples <= 1024, "samples", p.samples, "1 to 1024");
-}
-inline void validate(const map& m) {
-    detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel), "texels_per_pixel",
-                    m.texels_per_pixel, "above 0");
-    detail::require(m.largest >= 1 && m.largest <= 32768, "largest", m.largest, "1 to 32768");
-}
-inline void validate(const pcf& p) {
-    validate(map{p.texels_per_pixel, p.largest});
-    detail::require(p.radius >= 0 && p.radius <= 8, "radius", p.radius, "0 to 8 texels");
-}
-
-inline void validate(const refined& r) {
-    validate(map{r.texels_per_pixel, r.largest});
-}
-
-template <class P>
-concept policy = std::same_as<P, none> || std::same_as<P, map> || std::same_as<P, pcf> || std::same_as<P, refined> ||
-    std::same_as<P, exact> || std::same_as<P, penumbra>;
-
-/// Those that ask rays instead of a map.
-template <class P>
-concept ray_policy = std::same_as<P, exact> || std::same_as<P, penumbra>;
-
-}  // namespace insonify::inline INSONIFY_ABI::shadow
-
-// ------------ insonify/shadow/lookup.hpp ----------------------------------------------------------------
-// Whether a point is lit, asked of a shadow map: at the nearest texel, or averaged over some (PCF).
-//
-// The point's own surface is in the map too. Its facet's plane is carried to each texel's centre before heights are
-// compared, and what lies on a neighbouring facet is covered by a bias of one texel's rise along the slope, as the
-// light sees it. Level ground has no slope in the light's frame, hence no bias and no gap between an object and its
-// shadow; where the slope goes to infinity, the surface faces away and is dark anyway. Half the bias leaves three times
-// as much false shadow on rubble at 60 degrees, twice of it a third more leaks at 6 degrees.
-//
-// Based on: William T. Reeves, David H. Salesin, Robert L. Cook. Rendering Antialiased Shadows with Depth Maps. 1987
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::shadow {
-
-/// A surface point as a light sees it: where it lies in the light's frame, and how its plane rises there.
-struct receiver {
-    /// What gets less than this share of the light on level ground counts as facing away: the last 2 %, where the slope
-    /// goes to infinity and every map leaks.
-    static constexpr double grazed = 0.02;
-
-    glm::dvec3 uvz{};
-    double slope_u = 0, slope_v = 0;  ///< dz / du, dz / dv; 0 where it faces away
-    bool faces_light = false;
-
-    receiver() = default;
-
-    /// @param position  in the frame in which the light is described, metres
-    /// @param facet     normal of the triangle it lies on, of any length; a smoothed one costs half of the accuracy
-    receiver(const light_frame& frame, const glm::dvec3& position, const glm::dvec3& facet) : uvz(frame(position)) {
-        const glm::dvec2& travel = frame.travel();
-        const double along = facet.x * travel.x + facet.y * travel.y;
-        const double across = facet.y * travel.x - facet.x * travel.y;
-        const double facing = facet.z - along * frame.cot_elevation();
-        faces_light = facing > 0 && facing * facing > grazed * grazed * numeric::dot(facet, facet);
-        if (faces_light) {
-            slope_u = -along / facing;
-            slope_v = -across / facing;
-        }
-    }
-};
-
-namespace detail {
-
-/// A receiver in the units of one map.
-class map_receiver {
-  public:
-    map_receiver(const height_map& map, const receiver& r)
-        : map_(map), at_(map.on_map(r.uvz)), slope_u_(map.on_map(r.slope_u)), slope_v_(map.on_map(r.slope_v)) {
-        bias_ = 1e-6f + numeric::magnitude(slope_u_) + numeric::magnitude(slope_v_);  // heights are rounded to 1e-7
-    }
-
-    /// Whether no texel within `radius` of the nearest one is on the map: nothing can be in the way.
-    bool is_beyond(int radius) const {
-        const auto reach = static_cast<float>(radius);
-        return !(at_.x >= -reach && at_.y >= -reach && at_.x < static_cast<float>(map_.columns()) + reach &&
-                 at_.y < static_cast<float>(map_.rows()) + reach);
-    }
-
-    /// How many of the (2 radius + 1)^2 rays around the point get past the map to this surface. Expects !is_beyond.
-    int open_rays(int radius) const {
-        const int column = static_cast<int>(at_.x + 64) - 64, row = static_cast<int>(at_.y + 64) - 64;  // rounds down
-        int open = 0;
-        for (int j = row - radius; j <= row + radius; ++j)
-            for (int i = column - radius; i <= column + radius; ++i) open += is_open(i, j) ? 1 : 0;
-        return open;
-    }
-
-  private:
-    bool is_open(int column, int row) const {
-        if (column < 0 || row < 0 || column >= map_.columns() || row >= map_.rows()) return true;
-        const float plane = at_.z + slope_u_ * (static_cast<float>(column) + 0.5f - at_.x) +
-                            slope_v_ * (static_cast<float>(row) + 0.5f - at_.y);
-        return map_(column, row) <= plane + bias_;
-    }
-
-    const height_map& map_;
-    glm::vec3 at_;
-    float slope_u_, slope_v_, bias_;
-};
-
-}  // namespace detail
-
-/// Share of light that reaches a point: 0 or 1, from the nearest texel. Surfaces that face away count as level.
-inline float lit(const height_map& map, const receiver& r, const shadow::map&) {
-    const detail::map_receiver at(map, r);
-    return at.is_beyond(0) || at.open_rays(0) == 1 ? 1.0f : 0.0f;
-}
-
-/// Share of light that reaches a point, averaged over (2 radius + 1)^2 texels; radius from 0 to 8.
-inline float lit(const height_map& map, const receiver& r, const pcf& how) {
-    const detail::map_receiver at(map, r);
-    if (at.is_beyond(how.radius)) return 1;
-    const int rays = (2 * how.radius + 1) * (2 * how.radius + 1);
-    return static_cast<float>(at.open_rays(how.radius)) / static_cast<float>(rays);
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::shadow
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/shadow/caster_map.hpp ------------------------------------------------------------
-// Hard shadows with the edges of the casters themselves: a map says who stands in the light near a point, and where its
-// texels disagree about the point, the triangles that they name are asked.
-//
-// A ray towards the light that leaves the outside of something solid enters through a side that faces away from the
-// light. So for solids only those sides are drawn into the map: half of the triangles, and no lit surface is ever
-// compared with itself, which needs no bias.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::shadow {
-
-/// One mesh as a caster: for every ray of a grid of them the height of what it meets first, and which triangle that is.
-class caster_map {
-  public:
-    /// Casts nothing.
-    caster_map() : frame_(directional_light{}) {}
-
-    /// @param frame     of the light
-    /// @param m         the mesh, which has to outlive the map
-    /// @param to_world  from the mesh's frame to the one in which the light is described
-    /// @param is_solid  nothing that can be asked about lies inside or below it
-    /// @param extent    which rays, and between which heights
-    /// @param reach     how far from the frame's origin what is asked about lies, along v and z
-    /// @param texel     metres, the same along u and v; grows if more than `largest` texels a side were needed
-    /// @throws invalid_input as height_map does
-    template <executor E>
-    caster_map(const light_frame& frame, const mesh_view& m, const affine& to_world, bool is_solid,
-               const map_extent& extent, double reach, double texel, int largest, E& ex)
-        : frame_(frame), mesh_(m), grid_(extent, texel, largest, stretch(frame)) {
-        if (grid_.empty()) return;
-        tolerance_ = static_cast<float>(0x1p-21 * reach);
-        const std::size_t width = pitch(), height = static_cast<std::size_t>(grid_.rows) + 2;
-        heights_.resize(width * height);
-        names_.resize(width * height);
-        // A frame of empty texels around it all saves asking whether a neighbour is on the map.
-        const float nothing = empty_depth(keep_depth::larger);
-        std::fill_n(heights_.begin(), width, nothing);
-        std::fill_n(heights_.end() - static_cast<std::ptrdiff_t>(width), width, nothing);
-        for (std::size_t row = 1; row + 1 < height; ++row)
-            heights_[row * width] = heights_[(row + 1) * width - 1] = nothing;
-
-        const glm::dvec2 texels = 1.0 / grid_.texel;
-        const glm::dvec2& travel = frame.travel();
-        to_map_[0] = glm::vec3(texels.x * glm::dvec3(travel.x, travel.y, frame.cot_elevation()));
-        to_map_[1] = glm::vec3(texels.y * glm::dvec3(-travel.y, travel.x, 0));
-        to_map_[2] = {0, 0, static_cast<float>(1 / grid_.relief)};
-        start_ =
-            glm::vec3(0.5 - texels.x * grid_.origin.x, 0.5 - texels.y * grid_.origin.y, -grid_.floor / grid_.relief);
-
-        to_light_.offset = frame(to_world.offset);
-        for (int i = 0; i < 3; ++i)
-            to_light_.linear[i] = frame(to_world.offset + to_world.linear[i]) - to_light_.offset;
-        axes_ = glm::mat3(to_light_.linear);
-
-        const bool mirrored = numeric::determinant(to_world.linear) < 0;
-        const cull_mode lit_side = mirrored ? cull_mode::front : cull_mode::back;  // see map_grid::placing
-        insonify::detail::draw_names(
-            m, grid_.placing(frame, to_world),
-            image_view<float>(heights_.data() + width + 1, grid_.columns, grid_.rows,
-                              static_cast<std::ptrdiff_t>(width)),
-            image_view<std::uint32_t>(names_.data() + width + 1, grid_.columns, grid_.rows,
-                                      static_cast<std::ptrdiff_t>(width)),
-            {.cull = is_solid ? lit_side : cull_mode::none, .keep = keep_depth::larger, .load = depth_load::clear}, ex);
-    }
-
-    bool empty() const { return grid_.empty(); }
-
-    /// Marks which of the `asked` points are dark; positions are in the frame in which the light is described.
-    template <int N>
-    INSONIFY_INLINE void darken(insonify::detail::lanes<std::int32_t, N>& dark,
-                                const insonify::detail::lanes<std::int32_t, N>& asked,
-                                const insonify::detail::lanes<float, N> (&position)[3]) const {
-        using namespace insonify::detail;
-        using ints = lanes<std::int32_t, N>;
-        using floats = lanes<float, N>;
-        dark = ints{};
-        if (empty()) return;
-        // Continuous texels from the outer frame's first centre, so the four around a point are those of its floor and
-        // one on.
-        const floats& x = position[0];
-        const floats& y = position[1];
-        const floats& z = position[2];
-        const floats column = x * to_map_[0].x + y * to_map_[0].y + z * to_map_[0].z + start_.x;
-        const floats row = x * to_map_[1].x + y * to_map_[1].y + start_.y;
-        const floats height = z * to_map_[2].z + start_.z;
-        const ints on_map = asked & ints(column >= 0.0f) & ints(column < static_cast<float>(grid_.columns + 1)) &
-                            ints(row >= 0.0f) & ints(row < static_cast<float>(grid_.rows + 1));
-        if (!any(on_map)) return;
-        ints first_column, first_row;
-        convert(first_column, floats(on_map ? column : floats{}));
-        convert(first_row, floats(on_map ? row : floats{}));
-        const auto width = static_cast<std::int32_t>(pitch());
-        const ints first = first_row * width + first_column;
-        floats h[4];
-        const float* const heights = heights_.data();
-        gather_pairs<N>(h[0], h[1], [&](int k) { return heights + lane(first, k); });
-        gather_pairs<N>(h[2], h[3], [&](int k) { return heights + lane(first, k) + width; });
-        floats low = h[0], high = h[0];
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            low = h[i + 1] < low ? h[i + 1] : low;
-            high = h[i + 1] > high ? h[i + 1] : high;
-        });
-        // All four below; or all four above by more than they differ, which is how far a surface may go on changing.
-        // Nothing is minus infinity: beside something, it makes the difference infinite.
-        const floats spread = high - low;
-        const ints is_lit = (ints(height > high) & ints(low >= 0.0f)) | ints(high < 0.0f);
-        const ints is_dark = ints(height < low - spread);
-        dark = on_map & is_dark;
-        const ints doubtful = on_map & ints(ints(is_lit | is_dark) == 0);
-        if (!any(doubtful)) return;
-        for (int k = 0; k < N; ++k)
-            if (lane(doubtful, k) != 0) {
-                const glm::dvec3 uvz = frame_(glm::dvec3(lane(x, k), lane(y, k), lane(z, k)));
-                const bool behind = is_behind_one_of(static_cast<std::size_t>(lane(first, k)), uvz);
-                set_lane(dark, k, behind ? std::int32_t{-1} : std::int32_t{0});
-            }
-    }
-
-  private:
-    /// How much longer than wide a texel is: low light spreads heights so far along u that it still tells them apart.
-    static double stretch(const light_frame& frame) { return (std::min)((std::max)(frame.cot_elevation(), 1.0), 1.5); }
-
-    std::size_t pitch() const { return static_cast<std::size_t>(grid_.columns) + 2; }
-
-    /// Asks the triangles that the four texels from `first` on name. One that covers the point decides if it is above.
-    /// Else, if any of their planes passes above, the point may lie between them or at an edge, where triangles are
-    /// thin under grazing light and may have met no texel's centre: there their neighbours in the mesh are asked too.
-    INSONIFY_RARE bool is_behind_one_of(std::size_t first, const glm::dvec3& uvz) const {
-        const glm::vec3 start(to_light_.offset - uvz);
-        std::uint32_t names[4];
-        int count = 0;
-        for (const std::size_t texel : {first, first + 1, first + pitch(), first + pitch() + 1})
-            if (heights_[texel] >= 0) names[count++] = names_[texel];
-        if (count == 0) return false;
-        const sight named = see(start, [&](int k) { return names[(std::min)(k, count - 1)]; });
-        if (named.is_behind) return true;
-        if (!named.is_above) return false;
-
-        neighbourhood around{*this, start};
-        for (int i = 0; i < count; ++i)
-            if (around.is_behind(names[i])) return true;
-        for (int i = 0; i < count; ++i)
-            if (around.is_behind(before(names[i], strip(names[i]))) ||
-                around.is_behind(after(names[i], strip(names[i]))))
-                return true;
-        return false;
-    }
-
-    /// Four triangles, as the light sees them at a point.
-    struct sight {
-        bool is_behind;  ///< one of them covers the point and passes above
-        bool is_above;   ///< the plane of one of them does
-    };
-    /// @param start  from the point to the mesh's origin, in the light's frame
-    /// @param name   name(k): the triangles
-    template <class Name>
-    sight see(const glm::vec3& start, const Name& name) const {
-        using namespace insonify::detail;
-        constexpr int N = INSONIFY_SIMD ? 4 : 1;
-        using floats = lanes<float, N>;
-        using ints = lanes<std::int32_t, N>;
-        sight all{false, false};
-        for (int first = 0; first < 4; first += N) {
-            floats u[3], v[3], z[3];
-            for (int i = 0; i < 3; ++i) {
-                const auto corner = [&](int k) -> const glm::vec3& {
-                    return mesh_.positions[mesh_.triangles[name(first + k)][i]];
-                };
-                floats px, py, pz;
-                gather_pairs<N>(px, py, [&](int k) { return &corner(k).x; });
-                gather<N>(pz, [&](int k) { return corner(k).z; });
-                u[i] = px * axes_[0].x + py * axes_[1].x + pz * axes_[2].x + start.x;
-                v[i] = px * axes_[0].y + py * axes_[1].y + pz * axes_[2].y + start.y;
-                z[i] = px * axes_[0].z + py * axes_[1].z + pz * axes_[2].z + start.z;
-            }
-            const floats a = u[1] * v[2] - v[1] * u[2], b = u[2] * v[0] - v[2] * u[0], c = u[0] * v[1] - v[0] * u[1];
-            const ints covered = (ints(a >= 0.0f) & ints(b >= 0.0f) & ints(c >= 0.0f)) |
-                                 (ints(a <= 0.0f) & ints(b <= 0.0f) & ints(c <= 0.0f));
-            const floats height = (a * z[0] + b * z[1] + c * z[2]) / (a + b + c);
-            all.is_behind |= any(ints(covered & ints(height > tolerance_)));
-            all.is_above |= any(ints(height > tolerance_));
-        }
-        return all;
-    }
-
-    /// Meshes are mostly written such that neighbours come after one another; grids, strip by strip. How many triangles
-    /// a grid's strip has shows in the indices of each: its corners lie in two rows of vertices.
-    std::uint32_t strip(std::uint32_t name) const {
-        const glm::uvec3& t = mesh_.triangles[name];
-        return 2 * ((std::max)({t.x, t.y, t.z}) - (std::min)({t.x, t.y, t.z}) - 1);
-    }
-    std::uint32_t before(std::uint32_t name, std::uint32_t steps) const { return name - (std::min)(name, steps); }
-    std::uint32_t after(std::uint32_t name, std::uint32_t steps) const {
-        return name + (std::min)(static_cast<std::uint32_t>(mesh_.triangles.size() - 1) - name, steps);
-    }
-
-    /// What has been asked around a point.
-    struct neighbourhood {
-        const caster_map& map;
-        const glm::vec3& start;
-        std::uint32_t asked[12]{};
-        int count = 0;
-
-        /// Whether one of the four triangles before a name or of the four after it is in the way, and news.
-        bool is_behind(std::uint32_t name) {
-            for (int i = 0; i < count; ++i)
-                if (name - asked[i] + 2 <= 4) return false;  // as good as asked
-            asked[count++] = name;
-            const auto steps = [](int k) { return static_cast<std::uint32_t>(k + 1); };
-            return map.see(start, [&](int k) { return map.before(name, steps(k)); }).is_behind ||
-                   map.see(start, [&](int k) { return map.after(name, steps(k)); }).is_behind;
-        }
-    };
-
-    light_frame frame_;
-    mesh_view mesh_;
-    affine to_light_;  ///< from the mesh to (u, v, z)
-    glm::mat3 axes_;   ///< its linear part
-    map_grid grid_;
-    float tolerance_ = 0;          ///< metres that floats hold places to; what lies no higher than that touches
-    glm::vec3 to_map_[3], start_;  ///< from positions to column, row and height
-    insonify::detail::unfilled_vector<float> heights_;        ///< with the frame of empty texels
-    insonify::detail::unfilled_vector<std::uint32_t> names_;  ///< the same texels
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::shadow
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/geometry/regular_grid.hpp --------------------------------------------------------
-// Meshes that are a heightfield over a regular grid, as seabeds mostly are: found out by looking, so that whoever gives
-// one need not say so, and nobody gets another result for saying so wrongly.
-
-#include <atomic>
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// Vertex (i, j) is number j columns + i and lies at origin + i right + j up in x and y, at any height; rows may go
-/// down from the top, as those of pictures, `up` being to the right of `right`. Each cell is cut into two triangles the
-/// same way; all of them are counter-clockwise seen from +z.
-struct regular_grid {
-    int columns = 0, rows = 0;              ///< vertices
-    glm::dvec2 origin{0}, right{0}, up{0};  ///< metres, in the mesh's frame
-    /// Cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1).
-    bool is_rising = true;
-};
-
-namespace detail {
-
-/// Compares numbers, Period of them a block, with what goes on in equal steps from block to block.
-template <class T, int Period>
-struct pattern_kernel {
-    struct term {
-        T start, step;  ///< in the first block, and from block to block
-        T tolerance;    ///< how far off it may be
-    };
-    const T* numbers;
-    std::size_t blocks;
-    const term (&pattern)[static_cast<unsigned>(Period)];
-    std::atomic<bool>& differs;  ///< set if a number is farther off, or isn't one
-
-    template <int N>
-    INSONIFY_INLINE void run() const {
-        const std::size_t whole = blocks / N * N;
-        if (differ<N>(0, whole) || differ<1>(whole, blocks)) differs = true;
-    }
-
-  private:
-    /// N blocks are Period vectors.
-    template <int N>
-    INSONIFY_INLINE bool differ(std::size_t first, std::size_t last) const {
-        using numbers_of = lanes<T, N>;
-        constexpr auto period = static_cast<unsigned>(Period);
-        numbers_of block[period], start[period], step[period], tolerance[period];
-        unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
-            for (int k = 0; k < N; ++k) {
-                const int at = v * N + k;
-                const term& t = pattern[at % Period];
-                set_lane(block[v], k, static_cast<T>(at / Period));
-                set_lane(start[v], k, t.start);
-                set_lane(step[v], k, t.step);
-                set_lane(tolerance[v], k, t.tolerance);
-            }
-        });
-        lanes<std::int32_t, N> wrong{};
-        for (std::size_t i = first; i < last; i += N) {
-            const T before = static_cast<T>(i);
-            unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
-                numbers_of number;
-                load(number, numbers + i * Period + static_cast<std::size_t>(v * N));
-                const numbers_of off = number - (start[v] + (block[v] + before) * step[v]);
-                wrong |= lanes<std::int32_t, N>((off > tolerance[v]) | (off < 0 - tolerance[v]) | (off != off));
-            });
-        }
-        return any(wrong);
-    }
-};
-
-/// Columns of the grid that a mesh's first two triangles belong to, and how they cut its first cell; or nothing.
-struct cell_cut {
-    std::uint32_t columns;
-    bool is_rising;
-    bool is_mirrored;  ///< triangles are counter-clockwise if `up` is to the right of `right`
-
-    static std::optional<cell_cut> of(const glm::uvec3 (&cell)[2]) {
-        std::uint32_t opposite = 0;
-        for (const glm::uvec3& t : cell) opposite = (std::max)({opposite, t.x, t.y, t.z});
-        if (opposite < 3) return std::nullopt;
-        const std::uint32_t columns = opposite - 1,
-                            around[2][4] = {{0, 1, opposite, columns}, {0, columns, opposite, 1}};
-        for (const bool is_mirrored : {false, true})
-            if (const auto left_out = missing_corner(cell, around[is_mirrored]))
-                return cell_cut{columns, *left_out % 2 == 1, is_mirrored};
-        return std::nullopt;
-    }
-
-  private:
-    /// Each triangle goes around the cell and leaves one corner out, the two of them opposite ones.
-    /// @returns the first's
-    static std::optional<int> missing_corner(const glm::uvec3 (&cell)[2], const std::uint32_t (&around)[4]) {
-        int left_out[2];
-        for (int i = 0; i < 2; ++i) {
-            left_out[i] = -1;
-            for (int skipped = 0; skipped < 4; ++skipped)
-                for (int turn = 0; turn < 3; ++turn) {
-                    const auto corner = [&](int k) { return around[(skipped + 1 + (k + turn) % 3) % 4]; };
-                    if (cell[i] == glm::uvec3(corner(0), corner(1), corner(2))) left_out[i] = skipped;
-                }
-            if (left_out[i] < 0) return std::nullopt;
-        }
-        if ((left_out[0] + 2) % 4 != left_out[1]) return std::nullopt;
-        return left_out[0];
-    }
-};
-
-}  // namespace detail
-
-/// How a mesh lies on a regular grid; nothing if it doesn't. Vertices may be off by a 256th of a step; all heights are
-/// finite.
-template <executor_argument E = serial_executor>
-std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}) {
-    if (m.triangles.size() < 2) return std::nullopt;
-    const glm::uvec3 cell[2] = {m.triangles[0], m.triangles[1]};
-    const auto cut = detail::cell_cut::of(cell);
-    if (!cut) return std::nullopt;
-    const std::size_t columns = cut->columns, rows = m.positions.size() / columns;
-    if (rows < 2 || columns > 1 << 20 || rows > 1 << 20 || rows * columns != m.positions.size() ||
-        m.triangles.size() != 2 * (columns - 1) * (rows - 1))
-        return std::nullopt;
-
-    regular_grid grid{static_cast<int>(columns), static_cast<int>(rows), {}, {}, {}, cut->is_rising};
-    const auto place = [&](std::size_t i) { return glm::dvec2(m.positions[i].x, m.positions[i].y); };
-    grid.origin = place(0);
-    grid.right = (place(columns - 1) - grid.origin) / static_cast<double>(columns - 1);
-    grid.up = (place((rows - 1) * columns) - grid.origin) / static_cast<double>(rows - 1);
-    const double area = grid.right.x * grid.up.y - grid.right.y * grid.up.x;
-    if (!(cut->is_mirrored ? area < 0 : area > 0)) return std::nullopt;  // written so that NaN doesn't pass
-    const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
-    const double shorter = numeric::square_root((std::min)(square(grid.right), square(grid.up)));
-    const auto tolerance = static_cast<float>(shorter / 256);
-
-    std::atomic<bool> differs = false;
-    bulk_ranges(ex, rows, 16, [&](std::size_t first, std::size_t last) {
-        for (std::size_t j = first; j < last && !differs; ++j) {
-            const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;
-            const detail::pattern_kernel<float, 3>::term along[3] = {
-                {static_cast<float>(start.x), static_cast<float>(grid.right.x), tolerance},
-                {static_cast<float>(start.y), static_cast<float>(grid.right.y), tolerance},
-                {0, 0, (std::numeric_limits<float>::max)()}};
-            dispatch(detail::pattern_kernel<float, 3>{&m.positions[j * columns].x, columns, along, differs},
-                     best_isa());
-            if (j + 1 == rows) continue;
-            const auto corner = static_cast<std::uint32_t>(j * columns);
-            detail::pattern_kernel<std::uint32_t, 6>::term cells[6];
-            for (int i = 0; i < 6; ++i) cells[i] = {cell[i / 3][i % 3] + corner, 1, 0};
-            dispatch(detail::pattern_kernel<std::uint32_t, 6>{&m.triangles[j * 2 * (columns - 1)].x, columns - 1, cells,
-                                                              differs},
-                     best_isa());
-        }
-    });
-    if (differs) return std::nullopt;
-    return grid;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/shadow/sweep.hpp -----------------------------------------------------------------
-// A sweep along parallel light over a heightfield on a regular grid: for every cell, and for lines that run with the
-// light, how far the surfaces before it block the light.
-//
-// A line crosses the edges of cells at known places, between two vertices each, and u is linear from one to the next:
-// so what stands highest on a line is at a crossing, and a line's sweep is exact.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::shadow::detail {
-
-using insonify::detail::convert, insonify::detail::count_up, insonify::detail::lanes, insonify::detail::prefetch,
-    insonify::detail::store, insonify::detail::store_pairs, insonify::detail::transpose,
-    insonify::detail::unfilled_vector;
-
-/// A grid as a sweep sees it: X counts its vertices along the axis that the light follows most, Y those across, both
-/// turned so that the light goes towards larger ones, by `slope` of Y for each of X. All points of a ray share
-/// u = X + drop z: where it meets z = 0.
-struct sweep_grid {
-    int columns = 0, rows = 0;  ///< vertices along X, and along Y
-    bool is_rising = true;      ///< cells are cut from (X, Y) to (X + 1, Y + 1), or else from (X, Y + 1) to (X + 1, Y)
-    double slope = 0;           ///< in [0, 1]
-    double drop = 0;            ///< columns that the light passes while it sinks by 1 m
-    std::ptrdiff_t first = 0, along = 1, across = 1;  ///< the mesh's number of vertex (0, 0), and steps to the next
-    affine to_mesh;                                   ///< from (X, Y, z)
-
-    /// @param travel  where the light goes, in the mesh's frame: down
-    sweep_grid(const regular_grid& grid, const glm::dvec3& travel)
-        : columns(grid.columns), rows(grid.rows), is_rising(grid.is_rising), across(grid.columns) {
-        glm::dvec2 x = grid.right, y = grid.up, origin = grid.origin;
-        const double area = x.x * y.y - x.y * y.x;
-        double travel_x = (travel.x * y.y - travel.y * y.x) / area, travel_y = (x.x * travel.y - x.y * travel.x) / area;
-        if (numeric::magnitude(travel_y) > numeric::magnitude(travel_x)) {
-            std::swap(columns, rows);
-            std::swap(along, across);
-            std::swap(x, y);
-            std::swap(travel_x, travel_y);
-        }
-        const auto turn = [&](double& steps, int count, std::ptrdiff_t& stride, glm::dvec2& axis) {
-            if (steps >= 0) return;
-            steps = -steps;
-            first += (count - 1) * stride;
-            origin += static_cast<double>(count - 1) * axis;
-            stride = -stride;
-            axis = -axis;
-            is_rising = !is_rising;
-        };
-        turn(travel_x, columns, along, x);
-        turn(travel_y, rows, across, y);
-        slope = travel_x > 0 ? travel_y / travel_x : 0;
-        drop = travel_x / -travel.z;
-        to_mesh = {glm::dmat3(glm::dvec3(x, 0), glm::dvec3(y, 0), glm::dvec3(0, 0, 1)), glm::dvec3(origin, 0)};
-    }
-};
-
-/// Which columns of a grid are kept, and which lines: line k passes through Y = start + k spacing at X = 0.
-struct sweep_window {
-    int entry = 0;  ///< the first column from which anything can block what is asked about
-    int first_column = 0, columns = 0;
-    int slots = 1;             ///< of a column, side by side for each line: where it enters and, if cells fall, behind
-                               ///< the edge of a row
-    int lines = 0, pitch = 0;  ///< that count, and that are kept
-    float start = 0, spacing = 1, slope = 0;
-
-    int last_column() const { return first_column + columns - 1; }
-};
-
-/// u of a grid's vertices as far as a window needs them, column by column, and less than anything around them.
-struct sweep_relief {
-    static constexpr int below = 2, above = 4;  ///< rows around
-    static constexpr float nothing = -1e30f;
-    static constexpr float least = -1e20f;  ///< of any u; what is interpolated with nothing lies below it
-
-    template <executor E>
-    sweep_relief(const mesh_view& m, const sweep_grid& grid, const sweep_window& window, E& ex)
-        : first_(window.entry), pitch_(grid.rows + below + above) {
-        const int columns = (std::min)(window.last_column() + 2, grid.columns) - first_;
-        u_.resize(static_cast<std::size_t>(columns * pitch_));
-        // In squares, so that both the mesh and what is made of it are read and written in runs; the next one is on its
-        // way.
-        constexpr int square = 32;
-        const auto drop = static_cast<float>(grid.drop);
-        bulk_ranges(ex, static_cast<std::size_t>(columns), square, [&](std::size_t from, std::size_t to) {
-            const int left = first_ + static_cast<int>(from), right = first_ + static_cast<int>(to);
-            for (int x = left; x < right; ++x) {
-                std::fill_n(column(x), below, nothing);
-                std::fill_n(column(x) + below + grid.rows, above, nothing);
-            }
-            for (int bottom = 0; bottom < grid.rows; bottom += square)
-                for (int x = left; x < right; ++x) {
-                    float* const heights = column(x) + below;
-                    const auto start = static_cast<float>(x);
-                    const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
-                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y) {
-                        prefetch(vertex + (std::min)(y + square, grid.rows - 1) * grid.across);
-                        heights[y] = start + drop * vertex[y * grid.across].z;
-                    }
-                }
-        });
-    }
-
-    const float* column(int x) const { return u_.data() + (x - first_) * pitch_; }
-
-  private:
-    float* column(int x) { return u_.data() + (x - first_) * pitch_; }
-
-    int first_;
-    std::ptrdiff_t pitch_;
-    unfilled_vector<float> u_;
-};
-
-/// Carries crests along some lines over the columns of a grid, as far as they are kept.
-struct sweep_kernel {
-    static constexpr int block = 32;  ///< lines
-    const sweep_grid& grid;
-    const sweep_relief& relief;
-    const sweep_window& window;
-    int first_line;
-    float* crests;
-
-    template <int N>
-    INSONIFY_INLINE void run() const {
-        line_lanes<N> lines[static_cast<unsigned>(block / N)];
-        // Before the first of the lines enters the grid, and when the last of them has left it, nothing changes.
-        const float lowest = window.start + window.spacing * static_cast<float>(first_line),
-                    highest = lowest + window.spacing * static_cast<float>(block);
-        const int end = window.last_column() + 1,
-                  first = (std::min)((std::max)(window.entry, column_at(-1.0f - highest)), end - 1),
-                  last = (std::min)(end, column_at(static_cast<float>(grid.rows) - lowest) + 2);
-        for (int i = 0; i < block / N; ++i) lines[i].enter(*this, first_line + i * N, first);
-        keep<N>(lines, window.first_column, first);
-        for (int column = first; column < last; ++column) {
-            approach<N>(lines, column + 4);
-            float* const kept = kept_at(column);
-            for (int i = 0; i < block / N; ++i) {
-                float* const to = kept == nullptr ? nullptr : kept + i * N * window.slots;
-                if (column + 1 == grid.columns)
-                    lines[i].leave(*this, to);
-                else if (grid.is_rising)
-                    lines[i].template step<true>(*this, column, to);
-                else
-                    lines[i].template step<false>(*this, column, to);
-            }
-        }
-        keep<N>(lines, (std::max)(first, last), end);
-    }
-
-  private:
-    template <int N>
-    struct line_lanes;
-
-    /// Where a line has climbed so many rows, held to the grid.
-    int column_at(float climb) const {
-        if (!(climb > 0)) return 0;
-        const auto most = static_cast<float>(grid.columns - 1);
-        return climb < window.slope * most ? static_cast<int>(climb / window.slope) : grid.columns - 1;
-    }
-    /// Where a column's crests go, if they are kept.
-    float* kept_at(int column) const {
-        const int at = column - window.first_column;
-        if (at < 0 || at >= window.columns) return nullptr;
-        return crests + (std::ptrdiff_t{at} * window.pitch + first_line) * window.slots;
-    }
-    /// A column soon to be passed: columns lie so far apart that no processor sees the next one coming.
-    template <int N>
-    INSONIFY_INLINE void approach(const line_lanes<N>* lines, int column) const {
-        if (column > window.last_column()) return;
-        constexpr int cache_line = 64 / sizeof(float);
-        const float* const heights = relief.column(column);
-        const int lowest = insonify::detail::lane(lines[0].row, 0),
-                  highest = insonify::detail::lane(lines[block / N - 1].row, N - 1);
-        for (int row = lowest; row < highest; row += cache_line) prefetch(heights + row);
-        prefetch(heights + highest);
-        const float* const kept = kept_at(column);
-        if (kept == nullptr) return;
-        for (int i = 0; i < block * window.slots; i += cache_line) prefetch(kept + i);
-    }
-    /// The same crests in some columns.
-    template <int N>
-    INSONIFY_INLINE void keep(const line_lanes<N>* lines, int first, int last) const {
-        for (int column = first; column < last; ++column) {
-            float* const kept = kept_at(column);
-            if (kept == nullptr) continue;
-            for (int i = 0; i < block / N; ++i) lines[i].keep(kept + i * N * window.slots, window.slots);
-        }
-    }
-
-    /// N lines where they cross a column.
-    template <int N>
-    struct line_lanes {
-        using floats = lanes<float, N>;
-        using ints = lanes<std::int32_t, N>;
-        floats start;      ///< Y at X = 0, counted from the relief's first row
-        ints row;          ///< of the vertex before
-        floats beyond;     ///< how far beyond it, in [0, 1]
-        floats vertex[3];  ///< u there and at the next two
-        floats u, crest;
-
-        INSONIFY_INLINE void enter(const sweep_kernel& of, int first, int column) {
-            floats number;
-            count_up<float, N>(number);
-            number = number + static_cast<float>(first);
-            start = number * of.window.spacing + (of.window.start + static_cast<float>(sweep_relief::below));
-            floats y, four[4];
-            y_at(y, of, column);
-            convert(row, y);
-            convert(beyond, row);
-            beyond = y - beyond;
-            read(four, of, column);
-            for (int i = 0; i < 3; ++i) vertex[i] = four[i];
-            between(u, vertex[0], vertex[1], beyond);
-            crest = floats{} + sweep_relief::nothing;
-        }
-
-        /// From one column to the next, over edges whose ends are vertices of both.
-        /// @param kept  where the column's crests go, or null
-        template <bool Rising>
-        INSONIFY_INLINE void step(const sweep_kernel& of, int column, float* kept) {
-            const float slope = of.window.slope;
-            floats ahead[4], y;
-            read(ahead, of, column + 1);
-            y_at(y, of, column + 1);
-            ints next_row;
-            convert(next_row, y);
-            const ints climbs = ints(next_row > row);  // over the edge of a row
-            next_row = climbs ? row + 1 : row;
-            floats next_beyond, next_u, on_edge;
-            convert(next_beyond, next_row);
-            next_beyond = y - next_beyond;
-            const floats next[3] = {climbs ? ahead[1] : ahead[0], climbs ? ahead[2] : ahead[1],
-                                    climbs ? ahead[3] : ahead[2]};
-            between(next_u, next[0], next[1], next_beyond);
-            between(on_edge, vertex[1], ahead[1], (1.0f - beyond) * (slope > 0 ? 1 / slope : 0.0f));
-            if constexpr (Rising) {
-                floats on_diagonal;
-                between(on_diagonal, vertex[0], ahead[1], beyond * (slope < 1 ? 1 / (1 - slope) : 0.0f));
-                const floats middle = climbs ? on_edge : on_diagonal;
-                fall(u, middle);
-                if (kept != nullptr) store(kept, crest);
-                fall(middle, next_u);
-            } else {
-                floats on_first, on_second;
-                between(on_first, vertex[1], ahead[0], (1.0f - beyond) * (1 / (1 + slope)));
-                between(on_second, vertex[2], ahead[1], (2.0f - beyond) * (1 / (1 + slope)));
-                const floats third = climbs ? on_edge : next_u, fourth = climbs ? on_second : next_u;
-                fall(u, on_first);
-                const floats before = crest;
-                fall(on_first, third);
-                fall(third, fourth);
-                if (kept != nullptr) store_pairs<N>(kept, before, crest);
-                fall(fourth, next_u);
-            }
-            row = next_row;
-            beyond = next_beyond;
-            for (int i = 0; i < 3; ++i) vertex[i] = next[i];
-            u = next_u;
-        }
-
-        /// Behind the last column there is nothing.
-        INSONIFY_INLINE void leave(const sweep_kernel& of, float* kept) {
-            fall(u, floats{} + sweep_relief::nothing);
-            if (kept == nullptr) return;
-            keep(kept, of.window.slots);
-        }
-        /// The same in all slots.
-        INSONIFY_INLINE void keep(float* kept, int slots) const {
-            if (slots == 1)
-                store(kept, crest);
-            else
-                store_pairs<N>(kept, crest, crest);
-        }
-
-      private:
-        /// Held to the relief's rows.
-        INSONIFY_INLINE void y_at(floats& y, const sweep_kernel& of, int column) const {
-            const auto most = static_cast<float>(of.grid.rows + sweep_relief::below);
-            y = start + of.window.slope * static_cast<float>(column);
-            y = y > 0.0f ? y : floats{};
-            y = y < most ? y : floats{} + most;
-        }
-        /// u of the vertex in the line's row, and of the next three.
-        INSONIFY_INLINE void read(floats (&four)[4], const sweep_kernel& of, int column) const {
-            const float* const from = of.relief.column(column);
-            transpose<N>(four, [&](int k) { return from + insonify::detail::lane(row, k); });
-        }
-        /// Exact at both ends, though one may be nothing; never beyond the second.
-        INSONIFY_INLINE static void between(floats& into, const floats& a, const floats& b, const floats& share) {
-            const floats held = share < 1.0f ? share : floats{} + 1.0f;
-            into = a * (1.0f - held) + b * held;
-        }
-        INSONIFY_INLINE void fall(const floats& from, const floats& to) {
-            crest = ints(to < from) & ints(from > crest) ? from : crest;
-        }
-    };
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::shadow::detail
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/shadow/horizon.hpp ---------------------------------------------------------------
-// Hard shadows of a heightfield over a regular grid: how far the light is blocked, swept once over its cells.
-//
-// All points of a ray of parallel light share their u (see sweep.hpp), so a point is dark if some surface up the light
-// from it has a larger u. The largest so far is carried along lines that run with the light, kept where they enter a
-// cell, and interpolated between two lines.
-//
-// Only crests count, from where u falls along the light: there a surface turns away from it. So what faces the light is
-// never compared with itself, and needs no bias; what faces away has to be known to be dark.
-//
-// Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. 1988
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::shadow {
-
-/// One mesh as a caster, if it is a heightfield over a regular grid.
-class horizon {
-  public:
-    /// Casts nothing.
-    horizon() = default;
-
-    /// @param frame      of the light
-    /// @param m          the mesh
-    /// @param box        around it, in its own frame
-    /// @param grid       how it lies; nothing that can be asked about lies below it
-    /// @param to_world   from the mesh's frame to the one in which the light is described; it comes from above in both
-    /// @param receivers  what can be asked about lies in this box, in the latter frame
-    /// @param texel      metres, of which lines lie two thirds apart; grows if more than `largest` lines were needed,
-    ///                   or 2^30 values
-    /// @param level      the widest instruction set to use; the answers are the same
-    template <executor E>
-    horizon(const light_frame& frame, const mesh_view& m, const bounding_box& box, const regular_grid& grid,
-            const affine& to_world, const bounding_box& receivers, double texel, int largest, E& ex,
-            isa level = best_isa()) {
-        if (receivers.empty()) return;
-        const glm::dvec3 travel = numeric::product(inverse(to_world).linear, -frame.to_light());
-        const detail::sweep_grid sweep(grid, travel);
-        const affine placed = compose(to_world, sweep.to_mesh);
-        const affine back = inverse(placed);
-        const linear_map x = linear_map::row_of(back, 0), y = linear_map::row_of(back, 1),
-                         z = linear_map::row_of(back, 2);
-        const linear_map line{y.along - sweep.slope * x.along, y.start - sweep.slope * x.start};  // its Y at X = 0
-        const linear_map u{x.along + sweep.drop * z.along, x.start + sweep.drop * z.start};
-        // From line to line, if they are a row apart.
-        const glm::dvec3 run = placed.linear[0] + sweep.slope * placed.linear[1];
-        const auto length = [](const glm::dvec3& v) { return numeric::square_root(numeric::dot(v, v)); };
-        const double apart = length(numeric::cross(run, placed.linear[1])) / length(run);
-
-        const glm::dvec2 asked_x = x.range(receivers), asked_lines = line.range(receivers),
-                         asked_u = u.range(receivers);
-        const double first = (std::max)(asked_lines.x, -sweep.slope * (sweep.columns - 1));
-        const double last = (std::min)(asked_lines.y, static_cast<double>(sweep.rows - 1));
-        if (!(first <= last) || asked_x.y < 0) return;
-        const auto column = [&](double at) {
-            return static_cast<int>((std::min)((std::max)(at, 0.0), static_cast<double>(sweep.columns - 1)));
-        };
-        window_.first_column = column(asked_x.x);
-        window_.columns = column(asked_x.y) + 1 - window_.first_column;
-        // Up the light from there, even the highest lies below all that is asked about.
-        window_.entry = (std::min)(column(asked_u.x - sweep.drop * box.upper.z - 1), window_.first_column);
-        window_.slots = sweep.is_rising ? 1 : 2;
-        const int most = (std::min)(largest, (1 << 30) / (window_.columns * window_.slots));
-        constexpr double closer = 1.5;  // than texels: a dB or two for one part in forty of a picture's time
-        const double finest = texel / (closer * apart);
-        const double step = (std::max)(finest, (last - first) / (std::max)(1, most - 3));
-        window_.start = static_cast<float>(first - step);  // one more on either side, to interpolate
-        window_.spacing = static_cast<float>(step);
-        window_.slope = static_cast<float>(sweep.slope);
-        window_.lines = static_cast<int>((last - first) / step) + 4;
-        window_.pitch = (window_.lines + detail::sweep_kernel::block - 1) / detail::sweep_kernel::block *
-                        detail::sweep_kernel::block;
-
-        const detail::sweep_relief relief(m, sweep, window_, ex);
-        const std::size_t kept = static_cast<std::size_t>(window_.columns) * static_cast<std::size_t>(window_.pitch);
-        crests_.resize((kept + lines_ahead) * static_cast<std::size_t>(window_.slots));
-        bulk_ranges(ex, static_cast<std::size_t>(window_.pitch), detail::sweep_kernel::block,
-                    [&](std::size_t start, std::size_t) {
-                        insonify::detail::dispatch(
-                            detail::sweep_kernel{sweep, relief, window_, static_cast<int>(start), crests_.data()},
-                            level);
-                    });
-
-        to_x_ = lane_map(x);
-        to_line_ = lane_map({line.along / step, (line.start - first) / step + 1});
-        const double slack = 0x1p-21 * (std::max)(-asked_u.x, asked_u.y);  // floats hold places no better
-        to_u_ = lane_map(u, static_cast<float>(slack));
-        last_line_ = static_cast<float>(window_.lines - 1);
-        first_ = static_cast<float>(window_.first_column);
-        last_ = static_cast<float>(window_.first_column + window_.columns - 1);
-        first_column_ = window_.first_column;
-        pitch_ = window_.pitch;
-        // Pictures are drawn row by row towards -y: what the next rows will ask is on its way.
-        ahead_ = (line.along.y > 0 ? -lines_ahead : lines_ahead) * window_.slots;
-    }
-
-    bool empty() const { return crests_.empty(); }
-
-    /// Marks which of the `asked` points are dark, unless they face away; positions are in the frame in which the light
-    /// is described.
-    template <int N>
-    INSONIFY_INLINE void darken(insonify::detail::lanes<std::int32_t, N>& dark,
-                                const insonify::detail::lanes<std::int32_t, N>& asked,
-                                const insonify::detail::lanes<float, N> (&position)[3]) const {
-        using namespace insonify::detail;
-        using ints = lanes<std::int32_t, N>;
-        using floats = lanes<float, N>;
-        dark = ints{};
-        if (empty()) return;
-        floats x, line, last_line;
-        to_x_(x, position);
-        to_line_(line, position);
-        load(last_line, last_line_);
-        const ints on_map = asked & ints(x >= 0.0f) & ints(line >= 0.0f) & ints(line < last_line);
-        if (!any(on_map)) return;
-        floats crest, u;
-        find_crest<N>(crest, on_map, x, line);
-        to_u_(u, position);
-        dark = on_map & ints(u < crest);
-    }
-
-  private:
-    /// along . point + start.
-    struct linear_map {
-        glm::dvec3 along;
-        double start;
-
-        static linear_map row_of(const affine& map, int i) {
-            return {{map.linear[0][i], map.linear[1][i], map.linear[2][i]}, map.offset[i]};
-        }
-        /// The least and the largest in a box.
-        glm::dvec2 range(const bounding_box& box) const {
-            glm::dvec2 both(start);
-            for (int i = 0; i < 3; ++i) {
-                const double a = along[i] * box.lower[i], b = along[i] * box.upper[i];
-                both += glm::dvec2((std::min)(a, b), (std::max)(a, b));
-            }
-            return both;
-        }
-    };
-
-    /// The same in floats, for many points.
-    struct lane_map {
-        insonify::detail::spread<float> along[3], start;
-
-        lane_map() = default;
-        explicit lane_map(const linear_map& map, float more = 0)
-            : along{static_cast<float>(map.along.x), static_cast<float>(map.along.y), static_cast<float>(map.along.z)},
-              start(static_cast<float>(map.start) + more) {}
-        template <class Floats>
-        INSONIFY_INLINE void operator()(Floats& into, const Floats (&position)[3]) const {
-            Floats a, b, c, d;
-            load(a, along[0]), load(b, along[1]), load(c, along[2]), load(d, start);
-            into = position[0] * a + position[1] * b + position[2] * c + d;
-        }
-    };
-
-    /// How far the light is blocked where lines enter the cells of some points, which lie between two lines each.
-    /// @param x     the points' columns, continuous, and `line` their lines; where they aren't on the map, anything
-    template <int N>
-    INSONIFY_INLINE void find_crest(insonify::detail::lanes<float, N>& crest,
-                                    const insonify::detail::lanes<std::int32_t, N>& on_map,
-                                    const insonify::detail::lanes<float, N>& point_x,
-                                    const insonify::detail::lanes<float, N>& point_line) const {
-        using namespace insonify::detail;
-        using ints = lanes<std::int32_t, N>;
-        using floats = lanes<float, N>;
-        // Behind the last column, what it says goes on.
-        floats first, last;
-        load(first, first_), load(last, last_);
-        floats x = point_x > first ? point_x : first;
-        x = x < last ? x : last;
-        const floats line = on_map ? point_line : floats{};
-        ints column, number;
-        convert(column, x);
-        convert(number, line);
-        floats entered_x, left_line;
-        convert(entered_x, column);
-        convert(left_line, number);
-        const floats share = line - left_line;
-
-        ints first_column, pitch, ahead;
-        load(first_column, first_column_), load(pitch, pitch_), load(ahead, ahead_);
-        ints start = (column - first_column) * pitch + number;
-        if (window_.slots > 1) start = start + start;
-        start = on_map ? start : ints{};
-        ints soon = start + ahead;
-        soon = soon > 0 ? soon : ints{};
-        for (int k = 0; k < N; k += 2) prefetch(crests_.data() + lane(soon, k));
-
-        floats left, right;
-        if (window_.slots == 1) {
-            gather_pairs<N>(left, right, [&](int k) { return crests_.data() + lane(start, k); });
-        } else {
-            // Behind the edge of a row that a line has passed since it entered the cell, its second slot counts. Rows
-            // are counted from the one before the first.
-            const floats left_y = (window_.start + 1.0f) + left_line * window_.spacing + entered_x * window_.slope;
-            const floats y = left_y + share * window_.spacing + (x - entered_x) * window_.slope;
-            ints row;
-            floats edge;
-            convert(row, y);
-            convert(edge, row);
-            floats both[4];  // slots of both lines
-            transpose<N>(both, [&](int k) { return crests_.data() + lane(start, k); });
-            left = left_y < edge ? both[1] : both[0];
-            right = left_y + window_.spacing < edge ? both[3] : both[2];
-        }
-        // One line may have met nothing yet.
-        const ints is_open = ints(left < detail::sweep_relief::least) | ints(right < detail::sweep_relief::least);
-        crest = is_open ? (share < 0.5f ? left : right) : left + share * (right - left);
-    }
-
-    static constexpr int lines_ahead = 20;
-
-    detail::sweep_window window_;
-    lane_map to_x_, to_line_, to_u_;
-    insonify::detail::spread<float> last_line_, first_, last_;  ///< lines, columns
-    insonify::detail::spread<std::int32_t> first_column_, pitch_, ahead_;
-    insonify::detail::unfilled_vector<float> crests_;  ///< largest u of a crest so far, by column, slot and line
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::shadow
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/shadow/refined.hpp ---------------------------------------------------------------
-// An object as a caster of refined shadows, by what suits its shape: a heightfield over a regular grid by its horizon,
-// anything else by a map that names its triangles.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::shadow {
-
-/// One mesh as a caster, whatever its shape.
-class refined_caster {
-  public:
-    /// Casts nothing.
-    refined_caster() = default;
-
-    /// @param frame      of the light
-    /// @param m          the mesh, which has to outlive this
-    /// @param box        around it, in its own frame
-    /// @param to_world   from the mesh's frame to the one in which the light is described
-    /// @param is_solid   nothing that can be asked about lies inside or below it
-    /// @param receivers  what can be asked about, in the latter frame
-    /// @param texel      metres between the rays that tell what is near a point; see refined::largest, too
-    /// @throws invalid_input as map_grid does
-    template <executor E>
-    refined_caster(const light_frame& frame, const mesh_view& m, const bounding_box& box, const affine& to_world,
-                   bool is_solid, const bounding_box& receivers, double texel, int largest, E& ex) {
-        if (is_solid && is_lit_from_above(frame, to_world))
-            if (const auto grid = regular_grid_of(m, ex)) {
-                horizon_ = horizon(frame, m, box, *grid, to_world, receivers, texel, largest, ex);
-                return;
-            }
-        const map_extent all = extent_of(receivers, {}, frame);
-        map_ = caster_map(frame, m, to_world, is_solid, extent_of(box, to_world, frame).clipped_to(all), all.reach(),
-                          texel, largest, ex);
-    }
-
-    /// Marks which of the `asked` points are dark, unless they face away; positions are in the frame in which the light
-    /// is described.
-    template <int N>
-    INSONIFY_INLINE void darken(insonify::detail::lanes<std::int32_t, N>& dark,
-                                const insonify::detail::lanes<std::int32_t, N>& asked,
-                                const insonify::detail::lanes<float, N> (&position)[3]) const {
-        if (!horizon_.empty())
-            horizon_.darken<N>(dark, asked, position);
-        else
-            map_.darken<N>(dark, asked, position);
-    }
-
-  private:
-    /// Whether light that comes from above does so in the mesh's own frame, which is no mirror's.
-    static bool is_lit_from_above(const light_frame& frame, const affine& to_world) {
-        return numeric::determinant(to_world.linear) > 0 &&
-               numeric::product(inverse(to_world).linear, frame.to_light()).z > 0;
-    }
-
-    horizon horizon_;
-    caster_map map_;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::shadow
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/core/filled.hpp ------------------------------------------------------------------
 // Images of one value, made by all threads: filling a large one takes as long as drawing a small picture, most of it
 // to get hold of the memory.
@@ -7875,6 +7535,89 @@ image<T> filled(int width, int height, T value, E& ex) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
+
+// ------------ insonify/geometry/detail/coherent_order.hpp -----------------------------------------------
+// Triangles in an order in which neighbours follow one another, so that what draws them finds its memory warm.
+//
+// Based on: Guy M. Morton. A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing. IBM, 1966.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// Whether most triangles share no vertex with the one before, as those of shuffled meshes and of triangle soups don't.
+inline bool is_incoherent(const mesh& m) {
+    std::size_t jumps = 0;
+    for (std::size_t i = 1; i < m.triangles.size(); ++i) {
+        const glm::uvec3 &a = m.triangles[i - 1], &b = m.triangles[i];
+        bool is_near = false;
+        for (int j = 0; j < 3; ++j) {
+            const std::uint32_t v = b[j];
+            // Nearby numbers are nearby in memory, too.
+            for (int k = 0; k < 3; ++k) is_near = is_near || (v > a[k] ? v - a[k] : a[k] - v) < 64;
+        }
+        jumps += is_near ? 0u : 1u;
+    }
+    return jumps > m.triangles.size() / 2;
+}
+
+/// Every third bit of the result is a bit of the value.
+inline std::uint64_t every_third_bit(std::uint64_t value) {
+    value = (value | value << 32) & 0x001F00000000FFFFu;
+    value = (value | value << 16) & 0x001F0000FF0000FFu;
+    value = (value | value << 8) & 0x100F00F00F00F00Fu;
+    value = (value | value << 4) & 0x10C30C30C30C30C3u;
+    return (value | value << 2) & 0x1249249249249249u;
+}
+
+/// Sorts triangles along Morton's curve through their centres, and vertices by the first triangle that uses them.
+inline void order_along_curve(mesh& m, const bounding_box& box) {
+    const glm::dvec3 size = box.size();
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order(m.triangles.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        std::uint64_t key = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            double sum = 0;
+            for (int k = 0; k < 3; ++k) sum += static_cast<double>(m.positions[m.triangles[i][k]][axis]);
+            const double share = size[axis] > 0 ? (sum / 3 - box.lower[axis]) / size[axis] : 0;
+            const double held = share > 0 ? (share < 1 ? share : 1.0) : 0.0;  // NaN, too
+            key |= every_third_bit(static_cast<std::uint64_t>(held * 2097151)) << axis;
+        }
+        order[i] = {key, static_cast<std::uint32_t>(i)};
+    }
+    std::sort(order.begin(), order.end());
+
+    constexpr std::uint32_t unused = 0xFFFFFFFFu;
+    std::vector<std::uint32_t> number(m.positions.size(), unused);
+    mesh sorted;
+    sorted.triangles.reserve(m.triangles.size());
+    sorted.positions.reserve(m.positions.size());
+    sorted.normals.reserve(m.normals.size());
+    const auto add_vertex = [&](std::uint32_t v) {
+        number[v] = static_cast<std::uint32_t>(sorted.positions.size());
+        sorted.positions.push_back(m.positions[v]);
+        if (!m.normals.empty()) sorted.normals.push_back(m.normals[v]);
+    };
+    for (const auto& [key, i] : order) {
+        glm::uvec3 t = m.triangles[i];
+        for (int k = 0; k < 3; ++k) {
+            if (number[t[k]] == unused) add_vertex(t[k]);
+            t[k] = number[t[k]];
+        }
+        sorted.triangles.push_back(t);
+    }
+    for (std::uint32_t v = 0; v < number.size(); ++v)
+        if (number[v] == unused) add_vertex(v);
+    m = std::move(sorted);
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/normals.hpp -------------------------------------------------------------
 // Shading normals for meshes that come without.
@@ -8028,6 +7771,164 @@ inline topology inspect(const mesh& m) {
 }  // namespace insonify::inline INSONIFY_ABI
 
 INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/surface_kind.hpp --------------------------------------------------------
+// What a mesh is as a surface, as far as it is proved: renderers leave out triangles only where that changes nothing.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+enum class surface_kind {
+    open,         ///< nothing is known
+    closed,       ///< each edge is run along as often one way as the other: a ray that comes from outside and ends
+                  ///< outside crosses as many triangles from behind as from the front, whatever the surface intersects
+    heightfield,  ///< z over a convex part of the xy plane, all triangles counter-clockwise from above
+};
+
+namespace detail {
+
+/// Net directed edges of a mesh: those that triangles run along more often one way than the other.
+inline std::vector<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(const mesh& m) {
+    const std::vector<std::uint32_t> first = weld(m.positions);
+    // Edges under their lower vertex, counted, then placed.
+    struct half_edge {
+        std::uint32_t other;
+        std::int32_t way;  ///< 1 upwards in numbers, -1 downwards
+    };
+    std::vector<std::uint32_t> starts(m.positions.size() + 1, 0);
+    const auto each = [&](const auto& visit) {
+        for (const glm::uvec3& t : m.triangles)
+            for (int i = 0; i < 3; ++i) {
+                const std::uint32_t a = first[t[i]], b = first[t[(i + 1) % 3]];
+                if (a < b) visit(a, half_edge{b, 1});
+                if (b < a) visit(b, half_edge{a, -1});
+            }
+    };
+    each([&](std::uint32_t low, const half_edge&) { ++starts[low + 1]; });
+    for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
+    std::vector<half_edge> edges(starts.back());
+    std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+    each([&](std::uint32_t low, const half_edge& e) { edges[next[low]++] = e; });
+
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> open;
+    for (std::uint32_t low = 0; low < m.positions.size(); ++low) {
+        const auto begin = edges.begin() + starts[low], end = edges.begin() + starts[low + 1];
+        std::sort(begin, end, [](const half_edge& a, const half_edge& b) { return a.other < b.other; });
+        for (auto e = begin; e != end;) {
+            std::int32_t sum = 0;
+            const std::uint32_t other = e->other;
+            for (; e != end && e->other == other; ++e) sum += e->way;
+            for (; sum > 0; --sum) open.emplace_back(low, other);
+            for (; sum < 0; ++sum) open.emplace_back(other, low);
+        }
+    }
+    return open;
+}
+
+/// Whether directed edges make one loop that goes once around a convex polygon, seen from above.
+inline bool is_convex_loop(const mesh& m, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& edges) {
+    std::vector<std::uint32_t> after(m.positions.size(), 0xFFFFFFFFu);
+    for (const auto& [from, to] : edges) {
+        if (after[from] != 0xFFFFFFFFu) return false;
+        after[from] = to;
+    }
+    const auto way = [&](std::uint32_t from) {
+        const glm::vec3 &a = m.positions[from], &b = m.positions[after[from]];
+        return glm::dvec2(static_cast<double>(b.x) - static_cast<double>(a.x),
+                          static_cast<double>(b.y) - static_cast<double>(a.y));
+    };
+    const std::uint32_t start = edges.front().first;
+    std::size_t count = 0;
+    int turns = 0;
+    for (std::uint32_t at = start; count == 0 || at != start; at = after[at], ++count) {
+        if (count > edges.size() || after[at] == 0xFFFFFFFFu || after[after[at]] == 0xFFFFFFFFu) return false;
+        const glm::dvec2 now = way(at), then = way(after[at]);
+        const double turn = now.x * then.y - now.y * then.x;
+        if (turn < 0 || (turn == 0 && now.x * then.x + now.y * then.y <= 0)) return false;
+        turns += now.y < 0 && then.y >= 0;
+    }
+    return count == edges.size() && turns == 1;
+}
+
+}  // namespace detail
+
+/// Finds out what a mesh is. Linear in its triangles, but for sorting positions.
+/// @param m  its indices have positions
+inline surface_kind kind_of(const mesh& m) {
+    if (m.triangles.empty()) return surface_kind::open;
+    bool is_finite = true, is_upward = true;
+    for (const glm::uvec3& t : m.triangles) {
+        const glm::dvec3 a(m.positions[t.x]), b(m.positions[t.y]), c(m.positions[t.z]);
+        const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        is_upward = is_upward && area > 0;
+        is_finite = is_finite && numeric::is_finite(a.x + a.y + a.z) && numeric::is_finite(b.x + b.y + b.z) &&
+                    numeric::is_finite(c.x + c.y + c.z);
+    }
+    if (!is_finite) return surface_kind::open;
+    const auto edges = detail::unbalanced_edges(m);
+    if (edges.empty()) return surface_kind::closed;
+    return is_upward && detail::is_convex_loop(m, edges) ? surface_kind::heightfield : surface_kind::open;
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/shared_mesh.hpp ---------------------------------------------------------
+// A mesh that many objects share and none changes, with what is known of it.
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// An immutable mesh: copies refer to the same triangles. A mesh whose triangles follow one another without order, as
+/// those of a shuffled one, is renumbered, triangles and vertices: otherwise it keeps its numbers. What renderers need
+/// of it is found once, when it is made: its bounds, smooth normals if it brings none, whether it is closed or a
+/// heightfield, and the regular grid that a heightfield's vertices lie on, if they do.
+class shared_mesh {
+  public:
+    /// No triangles.
+    shared_mesh() : state_(empty()) {}
+    /// @throws invalid_input for indices or normals that don't match the positions
+    shared_mesh(mesh m) : state_(std::make_shared<const state>(std::move(m))) {}
+
+    const mesh& operator*() const { return state_->shape; }
+    const mesh* operator->() const { return &state_->shape; }
+    operator mesh_view() const { return state_->shape; }
+
+    /// Around all finite positions, in the mesh's own frame.
+    const bounding_box& box() const { return state_->box; }
+    surface_kind kind() const { return state_->kind; }
+    /// The grid of a heightfield whose vertices lie on one, within `grid_error` steps; null otherwise.
+    const regular_grid* grid() const { return state_->grid ? &*state_->grid : nullptr; }
+    static constexpr double grid_error = 0x1p-12;
+
+  private:
+    struct state {
+        mesh shape;
+        bounding_box box;
+        surface_kind kind = surface_kind::open;
+        std::optional<regular_grid> grid;
+
+        state() = default;
+        explicit state(mesh m) : shape(std::move(m)) {
+            validate(shape);
+            box = bounds(shape);
+            if (detail::is_incoherent(shape)) detail::order_along_curve(shape, box);
+            if (shape.normals.empty()) shape.normals = smooth_normals(shape);
+            kind = kind_of(shape);
+            if (kind == surface_kind::heightfield) grid = regular_grid_of(shape, serial_executor{}, grid_error);
+        }
+    };
+    static std::shared_ptr<const state> empty() { return std::make_shared<const state>(); }
+
+    std::shared_ptr<const state> state_;
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 // ------------ insonify/core/random_lanes.hpp ------------------------------------------------------------
 // The numbers of random.hpp, several at a time and to the same bits: blocks of Philox, uniform and normal draws.
@@ -11081,48 +10982,6 @@ inline ripples rippled(sediment s, ripples shape = {}) {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/backscatter.hpp ------------------------------------------------------------
-// How much of the sound comes back from a surface that is met at an angle.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// What a surface is made of, as far as a picture shows it.
-struct material {
-    float reflectivity = 0.5f;  ///< relative, 0 to 1 and above: tunes highlights as the paper tunes its light
-};
-
-/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. One that
-/// has `in_lanes` too is asked for several pixels at a time, by reference.
-template <class L>
-concept backscatter_law = requires(const L& law, float s) {
-    { law(s) } -> std::convertible_to<float>;
-};
-
-/// Optical Lambert, s: what the paper's game engine draws.
-struct lambert {
-    float operator()(float s) const { return s; }
-    template <class Lanes>
-    INSONIFY_INLINE void in_lanes(Lanes& into, const Lanes& s) const {
-        into = s;
-    }
-};
-
-/// Lambert's law for backscattered intensity, s^2 (K. V. Mackenzie. Bottom Reverberation for 530- and 1030-cps Sound in
-/// Deep Water. JASA 33, 1961, without its level): both the sound that arrives and the sound that returns spread by s.
-struct lambert_backscatter {
-    float operator()(float s) const { return s * s; }
-    template <class Lanes>
-    INSONIFY_INLINE void in_lanes(Lanes& into, const Lanes& s) const {
-        into = s * s;
-    }
-};
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/sonar/sediment.hpp ---------------------------------------------------------------
 // How bright sediments are: the table of seabed/sediment.hpp as materials.
 
@@ -11161,16 +11020,12 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// An object with a class of its own.
+/// An object with a class of its own. Both sides of its triangles show and block light; it may be open or closed.
 struct target {
-    mesh shape;
+    shared_mesh shape;
     pose placement;
     std::string class_name;
     material surface{.reflectivity = 0.9f};
-    /// Nothing that a picture shows lies inside or below it: a closed surface whose triangles face outwards, or one
-    /// that lies on everything, as a heightfield does. Pictures are then cheaper; said of something open, its back side
-    /// is missing, and so are shadows of it.
-    bool is_solid = false;
 };
 
 /// The bottom and what lies on it. Heights are metres above the datum z = 0.
@@ -11179,23 +11034,19 @@ struct scene {
     std::array<material, insonify::seabed::type_count> bottom = default_bottom();  ///< by seabed::type
     std::vector<target> targets;
 
-    /// Adds a mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
+    /// Adds a mesh, a shared mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
     /// Targets are told apart by instance numbers, 1 for the first. A mesh without normals gets smooth ones.
-    /// Whether it is solid is found out for up to 2^16 triangles; of larger ones you may know.
+    /// Several targets of one shape share it: make a `shared_mesh` once and add it as often as needed.
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
     target& add(Shape&& shape, const pose& placement, std::string class_name, const material& surface = {0.9f}) {
         targets.push_back({mesh_of(std::forward<Shape>(shape)), placement, std::move(class_name), surface});
-        mesh& added = targets.back().shape;
-        validate(added);
-        if (added.normals.empty()) added.normals = smooth_normals(added);
-        targets.back().is_solid = added.triangles.size() <= (std::size_t{1} << 16) && inspect(added).solid();
         return targets.back();
     }
 
     template <class Shape>
-    static mesh mesh_of(Shape&& shape) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<Shape>, mesh>)
+    static shared_mesh mesh_of(Shape&& shape) {
+        if constexpr (std::is_convertible_v<Shape&&, shared_mesh>)
             return std::forward<Shape>(shape);
         else
             return to_mesh(shape);
@@ -11203,6 +11054,18 @@ struct scene {
 
     const material& bottom_of(insonify::seabed::type type) const { return bottom[static_cast<std::size_t>(type)]; }
 };
+
+/// @throws invalid_input for a material whose reflectivity is negative or not finite. Poses, meshes and seabeds are
+///         checked by what draws them
+inline void validate(const scene& s) {
+    const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
+        if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
+        detail::refuse(list + ("[" + detail::to_text(i)) + member, m.reflectivity, "0 or more, finite");
+    };
+    for (std::size_t i = 0; i < s.bottom.size(); ++i) check(s.bottom[i], "scene.bottom", i, "].reflectivity");
+    for (std::size_t i = 0; i < s.targets.size(); ++i)
+        check(s.targets[i].surface, "scene.targets", i, "].surface.reflectivity");
+}
 
 /// The same pose lowered or raised until the shape just touches the seabed: no vertex is below it, one is on it.
 /// `burial` then sinks it from there.
@@ -11351,19 +11214,8 @@ struct placed_mesh {
     mesh_view shape;
     bounding_box box;  ///< of the shape, in its own frame
     affine to_rig;
-    bool is_solid;      ///< see target
-    glm::mat3 normals;  ///< takes normals along
-
-    placed_mesh(const mesh_view& m, const bounding_box& around, const affine& map, bool solid)
-        : shape(m), box(around), to_rig(map), is_solid(solid), normals(numeric::cofactors(map.linear)) {}
-
-    /// Whether its triangles run the other way in the rig's frame.
-    bool is_mirrored() const { return numeric::determinant(to_rig.linear) < 0; }
-    /// The sides that nobody sees of it.
-    cull_mode hidden() const {
-        if (!is_solid) return cull_mode::none;
-        return is_mirrored() ? cull_mode::front : cull_mode::back;
-    }
+    surface_kind kind = surface_kind::open;
+    const regular_grid* grid = nullptr;  ///< see shared_mesh
 };
 
 /// Which pixels may show an object, or something in its shadow that lies no lower than `lowest`, in the rig's frame:
@@ -11409,370 +11261,19 @@ inline pixel_box shown_pixels(const overhead_geometry& view, const placed_mesh& 
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/illumination.hpp -----------------------------------------------------------
-// Who is in whose shadow: one caster for the seabed, and a small tight one for each target, so that a target's shadow
-// is fine whatever the size of the picture, and the label of a shadow is the name of who casts it.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-/// How much light arrives at N points, and who stops the rest.
-template <int N>
-struct light_shares {
-    lanes<float, N> lit{};
-    lanes<std::int32_t, N> caster{};  ///< as in labels::shadow
-
-    INSONIFY_INLINE light_shares() { lit = lanes<float, N>{} + 1.0f; }
-
-    /// Less light, by `by`'s fault if nobody has been blamed before.
-    INSONIFY_INLINE void darken(const lanes<float, N>& share, std::uint16_t by) {
-        using ints = lanes<std::int32_t, N>;
-        const ints blamed = ints(share < 0.5f) & ints(caster == labels::is_lit);
-        caster = blamed ? ints{} + std::int32_t{by} : caster;
-        lit = share < lit ? share : lit;
-    }
-};
-
-/// N points of a surface, in the rig's frame.
-template <int N>
-struct surface_points {
-    int x, y;  ///< the first one's pixel; the others are the next of its row
-    lanes<std::int32_t, N> visible;
-    lanes<float, N> position[3];
-    lanes<float, N> facet[3];  ///< normal of the triangle, of any length, on the side that is seen
-    std::uint16_t itself;      ///< to blame where the surface faces away and nobody else stands in the light
-};
-
-/// Nothing is ever dark.
-struct no_shadow_maps {
-    const no_shadow_maps& within(const pixel_box&) const { return *this; }
-    template <int N>
-    INSONIFY_INLINE void operator()(light_shares<N>&, const surface_points<N>&, const lanes<std::int32_t, N>&) const {}
-};
-
-/// All casters of a scene, each in the form that the policy asks for.
-template <class Policy>
-class shadow_maps {
-    static constexpr bool refined = std::same_as<Policy, shadow::refined>;
-    using caster_form = std::conditional_t<refined, shadow::refined_caster, shadow::height_map>;
-
-  public:
-    /// @param bottom     the seabed, which also receives; it need not cast beyond `receivers`. Null for none
-    /// @param targets    in the order of their instance numbers
-    /// @param receivers  around all that the picture may show
-    /// @param texel      metres
-    template <executor E>
-    shadow_maps(const Policy& policy, const overhead_geometry& view, const placed_mesh* bottom,
-                std::span<const placed_mesh> targets, const bounding_box& receivers, double texel, E& ex)
-        : policy_(policy),
-          light_(view.light()),
-          cot_elevation_(static_cast<float>(light_.cot_elevation())),
-          travel_{static_cast<float>(light_.travel().x), static_cast<float>(light_.travel().y)} {
-        if (bottom != nullptr) bottom_ = cast(*bottom, receivers, texel, ex);
-        targets_.reserve(targets.size());
-        for (const placed_mesh& t : targets)
-            targets_.push_back({cast(t, receivers, texel, ex), shadowed_pixels(view, t, receivers.lower.z)});
-    }
-
-    /// What of it may darken a part of the picture.
-    class part {
-      public:
-        part(const shadow_maps& all, const pixel_box& pixels) : all_(all) {
-            for (std::size_t i = 0; i < all.targets_.size(); ++i)
-                if (!intersect(all.targets_[i].shadowed, pixels).empty())
-                    instances_.push_back(static_cast<std::uint16_t>(i + 1));
-        }
-
-        /// @param useful  where a shadow would change what is seen; the others' shares need not be right
-        template <int N>
-        INSONIFY_INLINE void operator()(light_shares<N>& shares, const surface_points<N>& at,
-                                        const lanes<std::int32_t, N>& useful) const {
-            if constexpr (refined)
-                all_.ask_in_lanes(shares, at, useful, instances_);
-            else
-                all_.ask_one_by_one(shares, at);
-        }
-
-      private:
-        const shadow_maps& all_;
-        std::vector<std::uint16_t> instances_;  ///< of targets
-    };
-    part within(const pixel_box& pixels) const { return {*this, pixels}; }
-
-  private:
-    struct target_caster {
-        caster_form form;
-        pixel_box shadowed;
-    };
-
-    template <int N>
-    INSONIFY_INLINE void ask_in_lanes(light_shares<N>& shares, const surface_points<N>& at,
-                                      const lanes<std::int32_t, N>& useful,
-                                      std::span<const std::uint16_t> instances) const {
-        using ints = lanes<std::int32_t, N>;
-        using floats = lanes<float, N>;
-        // A target's shadow goes on over what would be dark without it.
-        ints dark;
-        for (const std::uint16_t instance : instances) {
-            const target_caster& target = targets_[instance - 1u];
-            const pixel_box& shadowed = target.shadowed;
-            if (at.y < shadowed.y0 || at.y > shadowed.y1 || at.x > shadowed.x1 || at.x + N <= shadowed.x0) continue;
-            target.form.template darken<N>(dark, useful, at.position);
-            shares.darken(dark ? floats{} : floats{} + 1.0f, instance);
-        }
-        floats cot_elevation, travel_x, travel_y;
-        load(cot_elevation, cot_elevation_), load(travel_x, travel_[0]), load(travel_y, travel_[1]);
-        const floats facing = at.facet[2] - cot_elevation * (at.facet[0] * travel_x + at.facet[1] * travel_y);
-        dark = ints(facing <= 0.0f);
-        shares.darken(dark ? floats{} : floats{} + 1.0f, at.itself);
-        bottom_.template darken<N>(dark, ints(useful & ints(shares.lit > 0.0f)), at.position);
-        shares.darken(dark ? floats{} : floats{} + 1.0f, labels::by_seabed);
-    }
-
-    template <int N>
-    INSONIFY_INLINE void ask_one_by_one(light_shares<N>& shares, const surface_points<N>& at) const {
-        for (int k = 0; k < N; ++k) {
-            if (lane(at.visible, k) == 0) continue;
-            light_shares<1> share;
-            const glm::dvec3 position(lane(at.position[0], k), lane(at.position[1], k), lane(at.position[2], k));
-            const glm::dvec3 facet(lane(at.facet[0], k), lane(at.facet[1], k), lane(at.facet[2], k));
-            ask_one(share, position, facet, at.itself);
-            set_lane(shares.lit, k, share.lit);
-            set_lane(shares.caster, k, share.caster);
-        }
-    }
-    void ask_one(light_shares<1>& share, const glm::dvec3& position, const glm::dvec3& facet,
-                 std::uint16_t itself) const {
-        if constexpr (!refined) {
-            const shadow::receiver at(light_, position, facet);
-            for (std::size_t i = 0; i < targets_.size(); ++i)
-                share.darken(shadow::lit(targets_[i].form, at, policy_), static_cast<std::uint16_t>(i + 1));
-            if (!at.faces_light)
-                share.darken(0, itself);
-            else if (share.lit > 0)
-                share.darken(shadow::lit(bottom_, at, policy_), labels::by_seabed);
-        }
-    }
-
-    template <executor E>
-    caster_form cast(const placed_mesh& caster, const bounding_box& receivers, double texel, E& ex) const {
-        if constexpr (refined) {
-            return caster_form(light_, caster.shape, caster.box, caster.to_rig, caster.is_solid, receivers, texel,
-                               policy_.largest, ex);
-        } else {
-            const shadow::map_extent all = shadow::extent_of(receivers, {}, light_);
-            const shadow::map_extent own = shadow::extent_of(caster.box, caster.to_rig, light_).clipped_to(all);
-            shadow::height_map map(light_, own, texel, policy_.largest);
-            map.cast(caster.shape, caster.to_rig, ex);
-            return map;
-        }
-    }
-
-    Policy policy_;
-    shadow::light_frame light_;
-    spread<float> cot_elevation_, travel_[2];  ///< the light's, again
-    caster_form bottom_;
-    std::vector<target_caster> targets_;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/exact_light.hpp ------------------------------------------------------------
-// Who is in whose shadow, asked ray by ray: every pixel's own point on its own triangle, and every triangle that may
-// stand between it and the light.
-//
-// The point is where the ray through the pixel's centre meets the triangle's plane, in doubles: what the rasterizer
-// interpolates lies beside it by what rounding the corners to sub-pixels moves, and that moves a shadow's edge too.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-/// The lights of a scene, and who stands in each.
-class exact_shadows {
-  public:
-    /// @param bottom     the seabed, or null; it has to outlive this, and so do the targets
-    /// @param targets    in the order of their instance numbers
-    /// @param shown      around all that the picture may show
-    template <executor E>
-    exact_shadows(const shadow::exact&, const overhead_geometry& view, const placed_mesh* bottom,
-                  std::span<const placed_mesh> targets, const bounding_box& shown, E& ex)
-        : exact_shadows(view, bottom, targets, ex) {
-        lights_.push_back(light_at(view, {0, 0}));
-        // Rays of parallel light that reach none of it need not be asked.
-        const shadow::map_extent asked = shadow::extent_of(shown, {}, view.light());
-        if (!asked.empty()) lights_[0].rays.keep_to(asked.lowest, asked.highest);
-        cast(ex);
-    }
-    template <executor E>
-    exact_shadows(const shadow::penumbra& p, const overhead_geometry& view, const placed_mesh* bottom,
-                  std::span<const placed_mesh> targets, const bounding_box&, E& ex)
-        : exact_shadows(view, bottom, targets, ex) {
-        const double radius = shadow::radius_of(p);
-        for (int i = 0; i < p.samples; ++i) {
-            // A sunflower's seeds fill a disc evenly, ring by ring.
-            const double share = i == 0 ? 0 : numeric::square_root((i + 0.5) / p.samples);
-            const auto [sine, cosine] = numeric::sin_cos_turns(0.6180339887498949 * i);
-            const glm::dvec2 at = radius * share * glm::dvec2(cosine, sine);
-            if (is_up(view, at)) lights_.push_back(light_at(view, at));
-        }
-        points_ = p.samples;
-        cast(ex);
-    }
-
-    exact_shadows(const exact_shadows&) = delete;  // casters point to shapes
-
-    const exact_shadows& within(const pixel_box&) const { return *this; }
-
-    /// Marks how much of the light reaches what the `useful` pixels show.
-    /// @param f      their fragments
-    /// @param shape  what they show: 0 the seabed, else the instance
-    template <int N, class Fragments>
-    INSONIFY_INLINE void operator()(light_shares<N>& shares, const Fragments& f, std::uint16_t shape,
-                                    const lanes<std::int32_t, N>& useful) const {
-        receivers<N> at;
-        const unsigned asked = set_lanes<N>(useful);
-        for (unsigned rest = asked; rest != 0; rest &= rest - 1) {
-            const int k = std::countr_zero(rest);
-            at.find(k, view_, shapes_[shape], f.triangles[k], f.x + k, f.y,
-                    {lane(f.weights[1], k), lane(f.weights[2], k)});
-        }
-        int lit[static_cast<unsigned>(N)] = {};
-        for (const light& l : lights_) {
-            const unsigned dark = ask<N>(l, at, shape, asked, &l == &lights_[0] ? &shares : nullptr);
-            for (unsigned rest = asked & ~dark; rest != 0; rest &= rest - 1) ++lit[std::countr_zero(rest)];
-        }
-        for (unsigned rest = asked; rest != 0; rest &= rest - 1) {
-            const int k = std::countr_zero(rest);
-            set_lane(shares.lit, k, static_cast<float>(lit[k]) / static_cast<float>(points_));
-        }
-    }
-
-  private:
-    /// A mesh in the rig's frame, its corners in doubles.
-    struct placed_shape {
-        const placed_mesh* placed = nullptr;  ///< null for nothing
-        std::vector<glm::dvec3> corners;
-    };
-    /// A point of the light.
-    struct light {
-        shadow::light_rays rays;
-        std::vector<shadow::light_blockers> casters;  ///< one for each shape
-    };
-    /// The points that pixels show.
-    template <int N>
-    struct receivers {
-        glm::dvec3 position[static_cast<unsigned>(N)], normal[static_cast<unsigned>(N)],
-            back[static_cast<unsigned>(N)];  ///< back: to the camera
-
-        void find(int k, const overhead_geometry& view, const placed_shape& s, std::uint32_t triangle, int x, int y,
-                  const glm::dvec2& rounded) {
-            const glm::uvec3& t = s.placed->shape.triangles[triangle];
-            const glm::dvec3 &a = s.corners[t.x], ab = s.corners[t.y] - a, ac = s.corners[t.z] - a;
-            // Tomas Moeller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
-            const glm::dvec3 ray = view.ray(x, y), from = view.eye() - a, p = numeric::cross(ray, ac);
-            const double scale = 1 / numeric::dot(ab, p);
-            double b = numeric::dot(from, p) * scale, c = numeric::dot(ray, numeric::cross(from, ab)) * scale;
-            // A triangle that is seen from its edge may be shown by a pixel whose centre misses its plane.
-            constexpr double beside = 0x1p-6;
-            if (!(b >= -beside && c >= -beside && b + c <= 1 + beside)) {
-                b = rounded.x;
-                c = rounded.y;
-            }
-            position[k] = a + b * ab + c * ac;
-            normal[k] = numeric::cross(ab, ac);
-            back[k] = from;
-        }
-    };
-
-    template <executor E>
-    exact_shadows(const overhead_geometry& view, const placed_mesh* bottom, std::span<const placed_mesh> targets, E& ex)
-        : view_(view) {
-        shapes_.resize(targets.size() + 1);
-        reach_ = static_cast<double>(view.rig().altitude);
-        const auto place = [&](placed_shape& s, const placed_mesh& placed) {
-            s = {&placed, shadow::placed_corners(placed.shape, placed.to_rig, ex)};
-            reach_ = (std::max)(reach_, shadow::reach_of(s.corners));
-        };
-        if (bottom != nullptr) place(shapes_[0], *bottom);
-        for (std::size_t i = 0; i < targets.size(); ++i) place(shapes_[i + 1], targets[i]);
-    }
-
-    static bool is_up(const overhead_geometry& view, const glm::dvec2& beside) {
-        return view.has_near_light() || view.toward_light(beside).z > 0;
-    }
-    light light_at(const overhead_geometry& view, const glm::dvec2& beside) const {
-        if (view.has_near_light()) return {{shadow::point_light{view.light_position(beside)}, reach_}, {}};
-        if (beside == glm::dvec2(0)) return {{view.light(), reach_}, {}};
-        const glm::dvec3 d = view.toward_light(beside);
-        const double level = numeric::square_root(d.x * d.x + d.y * d.y);
-        return {{shadow::light_frame({numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)}), reach_}, {}};
-    }
-
-    template <executor E>
-    void cast(E& ex) {
-        for (light& l : lights_)
-            for (const placed_shape& s : shapes_) {
-                if (s.placed == nullptr) {
-                    l.casters.emplace_back();
-                    continue;
-                }
-                l.casters.emplace_back(l.rays, s.placed->shape, s.corners, s.placed->is_solid, s.placed->is_mirrored(),
-                                       ex);
-            }
-    }
-
-    /// Which points one light doesn't reach; a target's shadow goes on over what would be dark without it.
-    /// @param blame  where to leave who stops it, or null
-    template <int N>
-    INSONIFY_INLINE unsigned ask(const light& l, const receivers<N>& at, std::uint16_t itself, unsigned asked,
-                                 light_shares<N>* blame) const {
-        unsigned dark = 0;
-        const auto darken = [&](unsigned points, std::uint16_t by) {
-            dark |= points;
-            if (blame == nullptr) return;
-            for (; points != 0; points &= points - 1)
-                set_lane(blame->caster, std::countr_zero(points), std::int32_t{by});
-        };
-        for (std::size_t i = 1; i < l.casters.size(); ++i)
-            darken(l.casters[i].template stop<N>(l.rays, at.position, asked & ~dark), static_cast<std::uint16_t>(i));
-        unsigned turned = 0;
-        for (unsigned rest = asked & ~dark; rest != 0; rest &= rest - 1) {
-            const int k = std::countr_zero(rest);
-            if (!shadow::is_faced(at.normal[k], l.rays.toward(at.position[k]), at.back[k])) turned |= 1u << k;
-        }
-        darken(turned, itself == labels::no_instance ? labels::by_seabed : itself);
-        darken(l.casters[0].template stop<N>(l.rays, at.position, asked & ~dark), labels::by_seabed);
-        return dark;
-    }
-
-    overhead_geometry view_;
-    std::vector<placed_shape> shapes_;  ///< the seabed and the targets
-    std::vector<light> lights_;         ///< the middle first
-    int points_ = 1;                    ///< of the light, with those below the horizon
-    double reach_ = 0;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/sonar/shading.hpp ----------------------------------------------------------------
-// From what a pixel shows to its value and its labels, several pixels at a time.
+// From what a pixel shows to its light: the surface's smooth normal, the backscatter law, and what the surface sends
+// back without the light, several pixels at a time.
+//
+// Shadows and labels are no part of it: they are passes of their own over what this one leaves (render.hpp).
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
-
-/// Asks for no labels: none are stored or computed.
-struct no_labels {};
-
+namespace insonify {
+inline namespace INSONIFY_ABI {
 namespace detail {
 
-/// What pixels between the vertices are shaded from, in the rig's frame. Which pixel it is says the rest.
+/// What pixels between the vertices are shaded from, in the rig's frame. The pixel's place gives the rest.
 struct surface_varyings {
     glm::vec3 normal;
     float height;
@@ -11786,7 +11287,10 @@ struct surface_placement {
     glm::mat3 normals;
 
     surface_placement(const overhead_geometry& rig, const placed_mesh& shape)
-        : view(rig), linear(shape.to_rig.linear), offset(shape.to_rig.offset), normals(shape.normals) {}
+        : view(rig),
+          linear(shape.to_rig.linear),
+          offset(shape.to_rig.offset),
+          normals(numeric::cofactors(shape.to_rig.linear)) {}
 
     placed_vertex<surface_varyings> operator()(const vertex& v) const {
         const glm::vec3 position = place(v.position);
@@ -11806,51 +11310,48 @@ struct surface_placement {
     }
 };
 
-/// What is the same all over an object: one material, one name.
-struct whole_object {
-    material surface;
-    std::uint16_t instance;
-    std::uint8_t seabed;  ///< as in labels::seabed
-
-    static constexpr bool uniform = true;
+/// An object of the picture: what it is made of, and its number.
+struct surface {
+    mesh_view mesh;
+    affine to_rig;
+    std::uint32_t first_id = 0;           ///< of its triangles in the visibility buffer
+    std::uint32_t caster = 0;             ///< its number among the casters
+    std::uint16_t instance = 0;           ///< as in labels::instance
+    std::uint8_t seabed = 0;              ///< as in labels::seabed, unless there are types
+    material whole;                       ///< of all of it, unless there are types
+    const seabed::type* types = nullptr;  ///< by vertex: the bottom's, where there are several
+    const material* materials = nullptr;  ///< by type
 };
 
-/// The seabed: a material for each of its types, which a pixel takes from the vertex that weighs most.
-struct typed_bottom {
-    mesh_view surface;
-    const std::vector<seabed::type>& types;  ///< by vertex
-    const std::array<material, seabed::type_count>& materials;
-    static constexpr std::uint16_t instance = labels::no_instance;
-    static constexpr bool uniform = false;
+/// What shading leaves for each pixel. A null pointer leaves it out.
+struct shaded_images {
+    image<float>& direct;                  ///< what the light makes of it, unshadowed; with the rest, if there is no
+                                           ///< image for that
+    image<float>* rest = nullptr;          ///< what it shows without the light
+    image<std::uint32_t>* ids = nullptr;   ///< the visibility buffer
+    image<std::uint8_t>* types = nullptr;  ///< seabed::type, where an object has several
 
-    template <class Fragments>
-    INSONIFY_INLINE std::uint8_t type_at(const Fragments& f, int k) const {
-        const glm::uvec3& t = surface.triangles[f.triangles[k]];
-        const float a = lane(f.weights[0], k), b = lane(f.weights[1], k), c = lane(f.weights[2], k);
-        const std::uint32_t vertex = a >= b ? (a >= c ? t.x : t.z) : (b >= c ? t.y : t.z);
-        return static_cast<std::uint8_t>(types[vertex]);
+    void clear(const pixel_box& tile) const {
+        for (int y = tile.y0; y <= tile.y1; ++y) {
+            std::fill_n(&direct(tile.x0, y), tile.width(), 0.0f);
+            if (rest != nullptr) std::fill_n(&(*rest)(tile.x0, y), tile.width(), 0.0f);
+            if (ids != nullptr) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
+        }
     }
 };
 
-/// Shades an object's visible pixels into a picture and its labels.
-template <class Shadows, class Labels, class Law, class Object>
+/// Shades an object's visible pixels.
+template <class Law>
 class surface_shader {
   public:
-    surface_shader(const overhead_geometry& view, const surface_placement& placement, const mesh_view& shape,
-                   int subpixel_bits, const Law& law, const Shadows& shadows, const Object& object,
-                   image<float>& picture, Labels& marks)
-        : placement_(placement),
-          mesh_(shape),
-          is_near_(view.has_near_light()),
+    surface_shader(const overhead_geometry& view, const surface& object, const Law& law, const shaded_images& into)
+        : object_(object),
+          into_(into),
           law_(law),
-          shadows_(shadows),
-          object_(object),
-          picture_(picture),
-          labels_(marks),
+          is_near_(view.has_near_light()),
           left_(0.5f * static_cast<float>(1 - view.rig().size.x)),
           top_(0.5f * static_cast<float>(view.rig().size.y - 1)),
           ray_step_(static_cast<float>(view.ray_step())),
-          corner_step_(ray_step_.values[0] * (1 / static_cast<float>(1 << subpixel_bits))),
           altitude_(view.rig().altitude),
           intensity_(view.rig().intensity),
           sky_(view.rig().sky),
@@ -11859,90 +11360,84 @@ class surface_shader {
         for (int i = 0; i < 3; ++i) to_light_[i] = light[i];
     }
 
-    /// What shows nothing is black.
-    void clear(const pixel_box& tile) const {
-        for (int y = tile.y0; y <= tile.y1; ++y) std::fill_n(&picture_(tile.x0, y), tile.width(), 0.0f);
-    }
+    void clear(const pixel_box& tile) const { into_.clear(tile); }
 
     /// Shades the pixels of one tile.
     struct tile_shader {
         const surface_shader& whole;
-        decltype(std::declval<const Shadows&>().within(pixel_box{})) shadows;
 
         template <int N>
         INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
-            whole.shade(f, shadows);
+            whole.shade(f);
         }
     };
-    tile_shader on(const pixel_box& tile) const { return {*this, shadows_.within(tile)}; }
+    tile_shader on(const pixel_box&) const { return {*this}; }
 
   private:
-    static constexpr bool labelled = std::is_same_v<Labels, labels>;
-
-    template <int N, class TileShadows>
-    INSONIFY_INLINE void shade(const fragment_lanes<N, surface_varyings>& f, const TileShadows& shadows) const {
+    template <int N>
+    INSONIFY_INLINE void shade(const fragment_lanes<N, surface_varyings>& f) const {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
-        floats normal[3];
+        floats normal[3], length, to_light[3];
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(normal[i], i); });
         const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
-        floats length;
-        square_root<N>(length, square);
+        const ints unknown = f.visible & ~(ints(square > 0x1p-40f) & ints(square < 0x1p100f));
+        if (any(unknown)) use_facets<N>(normal, f, unknown);
+        square_root<N>(length, normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+        length = length > 0.0f ? length : floats{} + 1.0f;
         const floats turned = side / length;
-        floats to_light[3];
         point_to_light<N>(to_light, f);
         floats sine = turned * (normal[0] * to_light[0] + normal[1] * to_light[1] + normal[2] * to_light[2]);
         sine = sine < 1.0f ? sine : floats{} + 1.0f;
+        sine = sine > 0.0f ? sine : floats{};
 
-        light_shares<N> shares;
-        if constexpr (!std::is_same_v<Shadows, no_shadow_maps>) {
-            // A label wants to know who stands in the light even of what faces away.
-            const ints useful = labelled ? f.visible : ints(f.visible & ints(sine > 0.0f));
-            if constexpr (std::is_same_v<Shadows, exact_shadows>) {
-                if (any(useful)) shadows(shares, f, object_.instance, useful);
-            } else if (any(useful)) {
-                surface_points<N> at;
-                at.x = f.x;
-                at.y = f.y;
-                at.visible = f.visible;
-                at.itself = object_.instance == labels::no_instance ? labels::by_seabed : object_.instance;
-                const pixel_rays<N> rays(*this, f);
-                rays.position(at.position, f);
-                facet_normal<N>(at.facet, rays, f, side);
-                shadows(shares, at, useful);
+        floats reflectivity = floats{} + object_.whole.reflectivity;
+        if (object_.types != nullptr) {
+            std::uint8_t types[static_cast<unsigned>(N)];
+            for (int k = 0; k < N; ++k) {
+                types[k] = type_at(f, k);
+                if (into_.types != nullptr && lane(f.visible, k) != 0) (*into_.types)(f.x + k, f.y) = types[k];
             }
-        }
-
-        const floats open_sky = 0.5f * (1.0f + turned * normal[2]);
-        const ints is_bright = ints(sine > 0.0f) & ints(shares.lit > 0.0f);
-        floats direct;
-        law<N>(direct, is_bright ? sine : floats{});
-        direct = is_bright ? direct : floats{};
-        floats intensity, sky, ambient;
-        load(intensity, intensity_), load(sky, sky_), load(ambient, ambient_);
-        const floats light = intensity * direct * shares.lit + sky * open_sky + ambient;
-        std::uint8_t types[static_cast<unsigned>(N)];
-        floats reflectivity;
-        if constexpr (Object::uniform) {
-            reflectivity = floats{} + object_.surface.reflectivity;
-            if constexpr (labelled)
-                for (std::uint8_t& type : types) type = object_.seabed;
-        } else {
-            for (int k = 0; k < N; ++k) types[k] = object_.type_at(f, k);
             gather<N>(reflectivity, [&](int k) { return object_.materials[types[k]].reflectivity; });
         }
-        const floats one = floats{} + 1.0f;
-        floats value = reflectivity * light;
-        value = value > one ? one : value;
-        store_visible<N>(f, value, picture_);
-        if constexpr (labelled)
-            for (int k = 0; k < N; ++k) {
-                if (lane(f.visible, k) == 0) continue;
-                labels_.instance(f.x + k, f.y) = object_.instance;
-                labels_.shadow(f.x + k, f.y) = static_cast<std::uint16_t>(lane(shares.caster, k));
-                labels_.seabed(f.x + k, f.y) = types[k];
-            }
+        floats direct, intensity, sky, ambient;
+        law<N>(direct, sine);
+        load(intensity, intensity_), load(sky, sky_), load(ambient, ambient_);
+        direct = sine > 0.0f ? reflectivity * intensity * direct : floats{};
+        const floats rest = reflectivity * (sky * (0.5f * (1.0f + turned * normal[2])) + ambient);
+        if (into_.rest == nullptr) {
+            const floats one = floats{} + 1.0f, value = rest + direct;
+            store_visible<N>(f, floats(value < one ? value : one), into_.direct);
+        } else {
+            store_visible<N>(f, direct, into_.direct);
+            store_visible<N>(f, rest, *into_.rest);
+        }
+        if (into_.ids == nullptr) return;
+        lanes<std::uint32_t, N> ids;
+        load(ids, f.triangles);
+        store_visible<N>(f, lanes<std::uint32_t, N>(ids + object_.first_id), *into_.ids);
+    }
+
+    /// Normals that cancel between the vertices, or are none: the facet's.
+    template <int N>
+    INSONIFY_RARE void use_facets(lanes<float, N> (&normal)[3], const fragment_lanes<N, surface_varyings>& f,
+                                  const lanes<std::int32_t, N>& where) const {
+        for (int k = 0; k < N; ++k) {
+            if (lane(where, k) == 0) continue;
+            const glm::uvec3& t = object_.mesh.triangles[f.triangles[k]];
+            const auto corner = [&](int i) { return transform_point(object_.to_rig, object_.mesh.positions[t[i]]); };
+            const glm::dvec3 facet = unit(numeric::cross(corner(1) - corner(0), corner(2) - corner(0)));
+            for (int i = 0; i < 3; ++i) set_lane(normal[i], k, static_cast<float>(facet[i]));
+        }
+    }
+
+    /// The seabed's type at the corner that weighs most.
+    template <int N>
+    INSONIFY_INLINE std::uint8_t type_at(const fragment_lanes<N, surface_varyings>& f, int k) const {
+        const glm::uvec3& t = object_.mesh.triangles[f.triangles[k]];
+        const float a = lane(f.weights[0], k), b = lane(f.weights[1], k), c = lane(f.weights[2], k);
+        return static_cast<std::uint8_t>(object_.types[a >= b ? (a >= c ? t.x : t.z) : (b >= c ? t.y : t.z)]);
     }
 
     /// The unit vector to the light.
@@ -11950,10 +11445,15 @@ class surface_shader {
     INSONIFY_INLINE void point_to_light(lanes<float, N> (&into)[3],
                                         const fragment_lanes<N, surface_varyings>& f) const {
         using floats = lanes<float, N>;
-        for (int i = 0; i < 3; ++i) load(into[i], to_light_[i]);
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { load(into[i], to_light_[i]); });
         if (!is_near_) return;
-        floats position[3], square = floats{}, length;
-        pixel_rays<N>(*this, f).position(position, f);
+        floats altitude, step, column, height, square = floats{}, length;
+        load(altitude, altitude_), load(step, ray_step_);
+        count_up<float, N>(column);
+        f.interpolate(height, 3);
+        const floats down = altitude - height;
+        const floats position[3] = {(column + (static_cast<float>(f.x) + left_)) * step * down,
+                                    (top_ - static_cast<float>(f.y)) * step * down, height};
         for (int i = 0; i < 3; ++i) {
             into[i] = into[i] - position[i];
             square = square + into[i] * into[i];
@@ -11963,70 +11463,9 @@ class surface_shader {
         for (int i = 0; i < 3; ++i) into[i] = into[i] / length;
     }
 
-    /// Rays from the camera through pixels' centres, over what they go down.
-    template <int N>
-    struct pixel_rays {
-        using floats = lanes<float, N>;
-        using fragments = fragment_lanes<N, surface_varyings>;
-        floats altitude, corner_step;
-        floats x, y;
-
-        INSONIFY_INLINE pixel_rays(const surface_shader& s, const fragments& f) {
-            load(altitude, s.altitude_), load(corner_step, s.corner_step_);
-            floats column, step;
-            count_up<float, N>(column);
-            load(step, s.ray_step_);
-            x = (column + (static_cast<float>(f.x) + s.left_)) * step;
-            y = (s.top_ - static_cast<float>(f.y)) * step;
-        }
-        /// Of what the pixels show.
-        INSONIFY_INLINE void position(floats (&into)[3], const fragments& f) const {
-            f.interpolate(into[2], 3);
-            const floats down = altitude - into[2];
-            into[0] = x * down;
-            into[1] = y * down;
-        }
-        /// Of the corner of a compact triangle.
-        INSONIFY_INLINE void corner(floats (&into)[3], const fragments& f, int i) const {
-            into[2] = f.at_corner(i, 3);
-            const floats down = altitude - into[2];
-            into[0] = (x + f.right[i] * corner_step) * down;
-            into[1] = (y - f.down[i] * corner_step) * down;
-        }
-    };
-
-    /// Normal of the triangle that a pixel shows, on the side that is seen; not unit.
-    template <int N>
-    INSONIFY_INLINE void facet_normal(lanes<float, N> (&into)[3], const pixel_rays<N>& rays,
-                                      const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& side) const {
-        using floats = lanes<float, N>;
-        floats corner[3][3], ab[3], ac[3];
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { rays.corner(corner[i], f, i); });
-        if (f.wide != 0) place_corners<N>(corner, f);
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            ab[i] = corner[1][i] - corner[0][i];
-            ac[i] = corner[2][i] - corner[0][i];
-        });
-        into[0] = side * (ab[1] * ac[2] - ac[1] * ab[2]);
-        into[1] = side * (ab[2] * ac[0] - ac[2] * ab[0]);
-        into[2] = side * (ab[0] * ac[1] - ac[0] * ab[1]);
-    }
-    /// Those of wide triangles, from the mesh.
-    template <int N>
-    INSONIFY_INLINE void place_corners(lanes<float, N> (&corner)[3][3],
-                                       const fragment_lanes<N, surface_varyings>& f) const {
-        for (int k = 0; k < N; ++k) {
-            if ((f.wide >> k & 1) == 0) continue;
-            for (int i = 0; i < 3; ++i) {
-                const glm::vec3 at = placement_.place(mesh_.positions[mesh_.triangles[f.triangles[k]][i]]);
-                for (int axis = 0; axis < 3; ++axis) set_lane(corner[i][axis], k, at[axis]);
-            }
-        }
-    }
-
-    template <int N>
-    INSONIFY_INLINE static void store_visible(const fragment_lanes<N, surface_varyings>& f,
-                                              const lanes<float, N>& value, image<float>& picture) {
+    template <int N, class T>
+    INSONIFY_INLINE static void store_visible(const fragment_lanes<N, surface_varyings>& f, const lanes<T, N>& value,
+                                              image<T>& picture) {
         if (f.all_visible)
             store(&picture(f.x, f.y), value);
         else
@@ -12039,26 +11478,552 @@ class surface_shader {
         if constexpr (requires { law_.in_lanes(into, sine); })
             law_.in_lanes(into, sine);
         else
-            gather<N>(into, [&](int k) { return law_(lane(sine, k)); });
+            gather<N>(into, [&](int k) { return static_cast<float>(law_(lane(sine, k))); });
     }
 
-    const surface_placement& placement_;
-    mesh_view mesh_;
-    bool is_near_;
+    const surface& object_;
+    shaded_images into_;
     Law law_;
-    const Shadows& shadows_;
-    Object object_;
-    image<float>& picture_;
-    Labels& labels_;
-    float left_, top_;                      ///< from the picture's middle to the first pixel's centre, in pixels
-    spread<float> ray_step_, corner_step_;  ///< how far the ground is from pixel to pixel, and from sub-pixel to
-                                            ///< sub-pixel, seen from a height of one
+    bool is_near_;
+    float left_, top_;        ///< from the picture's middle to the first pixel's centre, in pixels
+    spread<float> ray_step_;  ///< how far the ground is from pixel to pixel, seen from a height of one
     spread<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
     spread<float> to_light_[3];                           ///< where it stands, if it is near
 };
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/point_pass.hpp -------------------------------------------------------------
+// From a visibility buffer to points: where the surfaces lie that pixels show, and which of them face the light.
+//
+// The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, held to
+// the triangle: rounding to sub-pixels may show a triangle beside its edge. Everything is computed in the mesh's own
+// frame, in which the camera and the light are placed once.
+//
+// Based on: Christopher A. Burns, Warren A. Hunt. The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading.
+// JCGT 2, 2013. Tomas Moeller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// Room for the points of all pixels of a picture.
+struct point_arrays {
+    unfilled_vector<double> x, y, z;
+    unfilled_vector<std::uint32_t> mesh, triangle;
+    unfilled_vector<std::uint32_t> pixel;  ///< the caller's number of it
+
+    explicit point_arrays(std::size_t count)
+        : x(count), y(count), z(count), mesh(count), triangle(count), pixel(count) {}
+};
+
+/// Points that are tested for shadows: those that face the light from the front of their room, those that face away
+/// from the back.
+class point_list {
+  public:
+    std::size_t facing = 0, averted = 0;
+
+    point_list() = default;
+    /// @param first  of the arrays, of `room` points
+    point_list(point_arrays& arrays, std::size_t first, std::size_t room)
+        : arrays_(&arrays), first_(first), room_(room) {}
+
+    std::size_t size() const { return facing + averted; }
+    shadow::points facing_points() const { return part(first_, facing); }
+    shadow::points averted_points() const { return part(first_ + room_ - averted, averted); }
+    /// The pixel and the caster of a point; facing ones are counted first.
+    std::size_t pixel(std::size_t point) const { return arrays_->pixel[at(point)]; }
+    std::uint32_t caster(std::size_t point) const { return arrays_->mesh[at(point)]; }
+    /// Adds a point of another list.
+    void add(const point_list& from, std::size_t point, std::uint32_t pixel) {
+        const std::size_t i = from.at(point);
+        const point_arrays& a = *from.arrays_;
+        add(point < from.facing, a.x[i], a.y[i], a.z[i], a.mesh[i], a.triangle[i], pixel);
+    }
+
+    INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
+                             std::uint32_t pixel) {
+        const std::size_t to = first_ + (is_facing ? facing++ : room_ - ++averted);
+        arrays_->x[to] = x;
+        arrays_->y[to] = y;
+        arrays_->z[to] = z;
+        arrays_->mesh[to] = mesh;
+        arrays_->triangle[to] = triangle;
+        arrays_->pixel[to] = pixel;
+    }
+
+  private:
+    std::size_t at(std::size_t point) const {
+        return first_ + (point < facing ? point : room_ - averted + (point - facing));
+    }
+    shadow::points part(std::size_t first, std::size_t n) const {
+        const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
+        return {some(arrays_->x), some(arrays_->y), some(arrays_->z), some(arrays_->mesh), some(arrays_->triangle)};
+    }
+
+    point_arrays* arrays_ = nullptr;
+    std::size_t first_ = 0, room_ = 0;
+};
+
+/// An object, the camera and the light from the object's own frame.
+struct point_finder {
+    const surface* object;
+    glm::dvec3 eye;                      ///< the camera
+    glm::dvec3 corner_ray, right, down;  ///< rays through pixels: of pixel (0, 0), and from pixel to pixel
+    glm::dvec3 light;                    ///< towards a parallel light, or where a near one is
+
+    point_finder(const overhead_geometry& view, const surface& s) : object(&s) {
+        const affine back = inverse(s.to_rig);
+        eye = transform_point(back, view.eye());
+        corner_ray = transform_direction(back, view.ray(0, 0));
+        right = transform_direction(back, view.ray(1, 0) - view.ray(0, 0));
+        down = transform_direction(back, view.ray(0, 1) - view.ray(0, 0));
+        light = view.has_near_light() ? transform_point(back, view.light_position())
+                                      : transform_direction(back, view.light().to_light());
+    }
+};
+
+/// A pixel whose point is looked for.
+struct shown_pixel {
+    std::uint16_t column, row;  ///< within the tile
+    std::uint32_t triangle;
+};
+
+/// Finds the points of some pixels of one object.
+struct point_kernel {
+    const point_finder& from;
+    std::span<const shown_pixel> pixels;
+    bool has_near_light;
+    bool wants_averted;
+    const pixel_box& box;
+    point_list& points;
+
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        constexpr int N = Width > 1 ? Width / 2 : 1;
+        for (std::size_t i = 0; i < pixels.size(); i += N) find<N>(i, (std::min)(pixels.size() - i, std::size_t{N}));
+    }
+
+  private:
+    template <class Reals>
+    INSONIFY_INLINE static void cross(Reals (&into)[3], const Reals (&a)[3], const Reals (&b)[3]) {
+        into[0] = a[1] * b[2] - b[1] * a[2];
+        into[1] = a[2] * b[0] - b[2] * a[0];
+        into[2] = a[0] * b[1] - b[0] * a[1];
+    }
+    template <class Reals>
+    INSONIFY_INLINE static void dot(Reals& into, const Reals (&a)[3], const Reals (&b)[3]) {
+        into = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    }
+    template <int N>
+    using corners = const glm::uvec3 * [static_cast<unsigned>(N)];
+
+    /// The vectors at one corner of each triangle. Whole rows of four floats are read where none is the array's last.
+    template <int N>
+    INSONIFY_INLINE static void fetch(lanes<float, N> (&into)[3], const glm::vec3* vectors, const corners<N>& t,
+                                      int corner, bool has_last) {
+#if INSONIFY_SIMD
+        if constexpr (N >= 4) {
+            if (!has_last) {
+                lanes<float, N> columns[4];
+                transpose<N>(columns, [&](int k) { return &vectors[(*t[k])[corner]].x; });
+                unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA { into[axis] = columns[axis]; });
+                return;
+            }
+        }
+#endif
+        (void)has_last;
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            gather<N>(into[axis], [&](int k) { return vectors[(*t[k])[corner]][axis]; });
+        });
+    }
+    template <int N>
+    INSONIFY_INLINE static void fetch(lanes<double, N> (&into)[3], const glm::vec3* vectors, const corners<N>& t,
+                                      int corner, bool has_last) {
+        lanes<float, N> narrow[3];
+        fetch<N>(narrow, vectors, t, corner, has_last);
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA { convert(into[axis], narrow[axis]); });
+    }
+
+    template <int N>
+    INSONIFY_INLINE void find(std::size_t start, std::size_t count) const {
+        using reals = lanes<double, N>;
+        using bits = lanes<std::int64_t, N>;
+        const surface& s = *from.object;
+        corners<N> t;
+        std::uint32_t greatest = 0;
+        reals column, row;
+        const auto pixel = [&](int k) -> const shown_pixel& {
+            return pixels[start + (std::min)(static_cast<std::size_t>(k), count - 1)];
+        };
+        for (int k = 0; k < N; ++k) {
+            t[k] = &s.mesh.triangles[pixel(k).triangle];
+            greatest = (std::max)(greatest, (std::max)((std::max)(t[k]->x, t[k]->y), t[k]->z));
+        }
+        gather<N>(column, [&](int k) { return static_cast<double>(box.x0 + pixel(k).column); });
+        gather<N>(row, [&](int k) { return static_cast<double>(box.y0 + pixel(k).row); });
+        const bool has_last = greatest + 1 >= s.mesh.positions.size();
+
+        // Where the ray through each pixel meets its triangle: a + b ab + c ac.
+        reals a[3], ab[3], ac[3], ray[3], to_eye[3], p[3], q[3], scale, b, c;
+        fetch<N>(a, s.mesh.positions.data(), t, 0, has_last);
+        fetch<N>(ab, s.mesh.positions.data(), t, 1, has_last);
+        fetch<N>(ac, s.mesh.positions.data(), t, 2, has_last);
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            ab[i] = ab[i] - a[i];
+            ac[i] = ac[i] - a[i];
+            ray[i] = from.corner_ray[i] + row * from.down[i] + column * from.right[i];
+            to_eye[i] = from.eye[i] - a[i];
+        });
+        cross(p, ray, ac);
+        cross(q, to_eye, ab);
+        dot(scale, ab, p);
+        scale = 1.0 / scale;
+        dot(b, to_eye, p);
+        dot(c, ray, q);
+        b = b * scale;
+        c = c * scale;
+        const bits inside = bits(b >= 0.0) & bits(c >= 0.0) & bits(b + c <= 1.0);
+        if (any(bits(inside == 0))) hold_inside<N>(b, c);
+
+        // Which side of the facet is seen, and whether the light meets it.
+        reals at[3], facet[3], toward[3], seen, along, size, way;
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            at[i] = a[i] + b * ab[i] + c * ac[i];
+            toward[i] = has_near_light ? from.light[i] - at[i] : reals{} + from.light[i];
+        });
+        cross(facet, ab, ac);
+        dot(seen, facet, to_eye);
+        dot(along, facet, toward);
+        dot(size, facet, facet);
+        dot(way, toward, toward);
+        along = seen > 0.0 ? along : 0.0 - along;
+        const bits faces = bits(along > 0.0) & bits(along * along > (grazed * grazed * size) * way);
+        double places[3][static_cast<unsigned>(N)];
+        std::int64_t facing[static_cast<unsigned>(N)];
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            store(places[i], reals(s.to_rig.linear[0][i] * at[0] + s.to_rig.linear[1][i] * at[1] +
+                                   s.to_rig.linear[2][i] * at[2] + s.to_rig.offset[i]));
+        });
+        store(facing, faces);
+        for (std::size_t k = 0; k < count; ++k) {
+            if (facing[k] == 0 && !wants_averted) continue;
+            const shown_pixel& shown = pixels[start + k];
+            points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
+                       static_cast<std::uint32_t>(shown.row * box.width() + shown.column));
+        }
+    }
+
+    /// Sine of the angle to the light below which a facet faces away: corners are rounded to 2^-24, and what is
+    /// parallel to the light but for that is dark.
+    static constexpr double grazed = 0x1p-22;
+
+    /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN.
+    template <int N>
+    INSONIFY_RARE static void hold_inside(lanes<double, N>& b, lanes<double, N>& c) {
+        b = b > 0.0 ? b : lanes<double, N>{};
+        c = c > 0.0 ? c : lanes<double, N>{};
+        lanes<double, N> sum = b + c;
+        sum = sum > 1.0 ? sum : lanes<double, N>{} + 1.0;
+        b = b / sum;
+        c = c / sum;
+        b = b < 1.0 ? b : lanes<double, N>{} + 1.0;
+        c = c < 1.0 ? c : lanes<double, N>{} + 1.0;
+    }
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/light_pass.hpp -------------------------------------------------------------
+// From a shadow policy to the light on a tile: who casts, which points are tested, and what is named as the caster.
+//
+// Casters are numbered as they are named: a point in several shadows belongs to the target with the lowest number; else
+// to its own surface, if that faces away from the light; else to the seabed.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// The light as a policy takes it.
+inline shadow::any_light light_of(const overhead_geometry& view) {
+    if (view.has_near_light()) return shadow::point_light{view.light_position()};
+    return shadow::directional_light{static_cast<double>(view.rig().light_azimuth),
+                                     static_cast<double>(view.rig().grazing)};
+}
+
+/// A mesh as a caster, with what the camera's place proves.
+///
+/// A ray from a point outside of a closed surface crosses it inwards as often as outwards on its way to the light, and
+/// inwards means through a triangle that faces away from the light: if anything blocks it, such a one does. What a
+/// camera outside of the surface sees lies outside. Of a heightfield the same holds for its own points if camera and
+/// light are above it, because over a convex ground a ray leaves it at most through the air.
+inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
+    surface seen;
+    seen.to_rig = m.to_rig;
+    const point_finder from(view, seen);
+    const auto is_outside = [&](const glm::dvec3& p) {
+        bool outside = false;
+        for (int i = 0; i < 3; ++i) outside = outside || p[i] < m.box.lower[i] || p[i] > m.box.upper[i];
+        return outside;
+    };
+    const auto is_above = [&](const glm::dvec3& p) { return p.z > m.box.upper.z; };
+    const bool is_lit_from_above = view.has_near_light() ? is_above(from.light) : from.light.z > 0;
+    const bool is_lit_from_outside = !view.has_near_light() || is_outside(from.light);
+    shadow::skip may_skip = shadow::skip::nothing;
+    if (m.kind == surface_kind::closed && is_outside(from.eye) && is_lit_from_outside) may_skip = shadow::skip::facing;
+    if (m.kind == surface_kind::heightfield && is_above(from.eye) && is_lit_from_above)
+        may_skip = shadow::skip::facing_its_own;
+    return {m.shape, m.to_rig, m.box, may_skip, m.grid};
+}
+
+/// Room for what becomes of points.
+struct light_arrays {
+    unfilled_vector<float> lit;
+    unfilled_vector<std::uint32_t> caster;
+
+    explicit light_arrays(std::size_t points) : lit(points), caster(points) {}
+    shadow::shares part(std::size_t first, std::size_t count) {
+        return {std::span(lit).subspan(first, count), std::span(caster).subspan(first, count)};
+    }
+};
+
+/// The batches of a list, and where their answers go: points that face the light, which all casters concern, and those
+/// that face away, whose shadows only name targets.
+struct point_batches {
+    shadow::points at[2];
+    shadow::shares into[2];
+
+    /// @param targets  casters numbered below this are targets
+    point_batches(const point_list& points, const shadow::shares& all, std::uint32_t targets)
+        : at{points.facing_points(), points.averted_points()},
+          into{{all.lit.first(points.facing), all.caster.first(points.facing)},
+               {all.lit.subspan(points.facing), all.caster.subspan(points.facing)}} {
+        at[1].casters = targets;
+        at[1].face_light = false;
+    }
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (int i = 0; i < 2; ++i)
+            if (at[i].size() > 0) visit(at[i], into[i]);
+    }
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/shadow_pass.hpp ------------------------------------------------------------
+// From a shadow policy to the shadows in a picture: the points of each tile are found and tested, and pixels lose the
+// light that does not arrive. Labels name the caster.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Asks for no labels: none are stored or computed.
+struct no_labels {};
+
+namespace detail {
+
+/// The object that a visibility buffer's id belongs to.
+inline const surface& surface_of(const std::vector<surface>& surfaces, std::uint32_t id) {
+    const auto after = std::upper_bound(surfaces.begin(), surfaces.end(), id,
+                                        [](std::uint32_t i, const surface& s) { return i < s.first_id; });
+    return *(after - 1);
+}
+
+/// Shadows of one picture.
+template <class Labels>
+class shadow_pass {
+  public:
+    /// @param ids      the visibility buffer of the surfaces
+    /// @param rest     what pixels show without the light
+    /// @param picture  what the light alone makes of them; becomes both together
+    /// @param targets  casters numbered below this are targets
+    shadow_pass(const overhead_geometry& view, const std::vector<surface>& surfaces, const image<std::uint32_t>& ids,
+                const image<float>& rest, image<float>& picture, Labels& marks, std::size_t targets, int tile,
+                isa level)
+        : view_(view),
+          surfaces_(surfaces),
+          ids_(ids),
+          rest_(rest),
+          image_(picture),
+          labels_(marks),
+          targets_(static_cast<std::uint32_t>(targets)),
+          tile_(tile),
+          level_(level) {}
+
+    /// Tests the points of every tile and puts out the light of those that are in shadow. Occlusion that sees all
+    /// points at once gets those of all tiles before any is finished.
+    template <class Occlusion, executor E>
+    void cast(const Occlusion& occlusion, E& ex) {
+        std::vector<point_finder> finders;
+        for (const surface& s : surfaces_) finders.emplace_back(view_, s);
+        constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
+        constexpr std::size_t run = 4;  // tiles share their memory
+        const std::size_t pixels = static_cast<std::size_t>(tile_) * static_cast<std::size_t>(tile_);
+        const std::size_t count = tiles().count(), room = run * pixels;
+        // What screening leaves, run by run.
+        const std::size_t runs = is_collective ? (count + run - 1) / run : 0;
+        point_arrays rest_of_points(runs * room);
+        unfilled_vector<float> direct(runs * room);
+        std::vector<point_list> pending(runs);
+        bulk_ranges(ex, count, run, [&](std::size_t first, std::size_t last) {
+            point_arrays arrays(pixels);
+            light_arrays light(pixels);
+            if constexpr (is_collective) pending[first / run] = point_list(rest_of_points, first / run * room, room);
+            for (std::size_t i = first; i < last; ++i) {
+                const pixel_box box = tile_box(i);
+                point_list points(arrays, 0, pixels);
+                find_points(finders, box, points);
+                const shadow::shares shares = light.part(0, points.size());
+                point_batches(points, shares, targets_).for_each([&](const shadow::points& p, const shadow::shares& s) {
+                    if constexpr (is_collective)
+                        occlusion.screen(p, s);
+                    else
+                        occlusion.test(p, s);
+                });
+                if constexpr (is_collective) {
+                    point_list& later = pending[first / run];
+                    for (std::size_t k = 0; k < points.size(); ++k) {
+                        if (shares.lit[k] != shadow::unknown) continue;
+                        const std::uint32_t pixel = pixel_in(box, points.pixel(k));
+                        later.add(points, k, pixel);
+                        if (k < points.facing) {
+                            direct[first / run * room + later.facing - 1] = image_.pixels()[pixel];
+                            shares.lit[k] = 0;
+                        }
+                    }
+                }
+                finish(box, points, shares);
+            }
+        });
+        if constexpr (is_collective) {
+            light_arrays light(runs * room);
+            std::vector<shadow::points> at;
+            std::vector<shadow::shares> into;
+            for (std::size_t i = 0; i < runs; ++i)
+                point_batches(pending[i], light.part(i * room, pending[i].size()), targets_)
+                    .for_each([&](const shadow::points& p, const shadow::shares& s) {
+                        at.push_back(p);
+                        into.push_back(s);
+                    });
+            occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), ex);
+            ex.bulk(runs, [&](std::size_t i) {
+                const shadow::shares shares = light.part(i * room, pending[i].size());
+                for (std::size_t k = 0; k < pending[i].facing; ++k) {
+                    float& value = image_.pixels()[pending[i].pixel(k)];
+                    value =
+                        (std::min)(1.0f, rest_.pixels()[pending[i].pixel(k)] + shares.lit[k] * direct[i * room + k]);
+                }
+                if constexpr (labelled) label_shadows(pending[i], shares, [&](std::size_t pixel) { return pixel; });
+            });
+        }
+    }
+
+  private:
+    static constexpr bool labelled = std::is_same_v<Labels, labels>;
+
+    tile_grid tiles() const {
+        return {image_.width(), image_.height(), std::countr_zero(static_cast<unsigned>(tile_))};
+    }
+    pixel_box tile_box(std::size_t i) const {
+        const auto columns = static_cast<std::size_t>(tiles().columns);
+        const int x = static_cast<int>(i % columns) * tile_, y = static_cast<int>(i / columns) * tile_;
+        return intersect({x, y, x + tile_ - 1, y + tile_ - 1}, {0, 0, image_.width() - 1, image_.height() - 1});
+    }
+
+    /// A tile's pixel, counted from its first, as one of the picture's.
+    std::uint32_t pixel_in(const pixel_box& box, std::size_t pixel) const {
+        const auto width = static_cast<std::size_t>(box.width());
+        return static_cast<std::uint32_t>((static_cast<std::size_t>(box.y0) + pixel / width) *
+                                              static_cast<std::size_t>(image_.width()) +
+                                          static_cast<std::size_t>(box.x0) + pixel % width);
+    }
+
+    /// The points of a tile that matter: where there is light to lose, or all for the sake of labels.
+    void find_points(std::span<const point_finder> finders, const pixel_box& box, point_list& into) const {
+        std::vector<std::vector<shown_pixel>> pixels(surfaces_.size());
+        const surface* last = nullptr;
+        std::vector<shown_pixel>* to = nullptr;
+        for (int y = box.y0; y <= box.y1; ++y) {
+            const std::uint32_t* const ids = &ids_(box.x0, y);
+            const float* const direct = &image_(box.x0, y);
+            for (int x = 0; x < box.width(); ++x) {
+                const std::uint32_t id = ids[x];
+                if (id == shadow::invalid_id || !(labelled || direct[x] > 0)) continue;
+                if (last == nullptr || id - last->first_id >= last->mesh.triangles.size()) {
+                    last = &surface_of(surfaces_, id);
+                    to = &pixels[static_cast<std::size_t>(last - surfaces_.data())];
+                    if (to->empty()) to->reserve(static_cast<std::size_t>(box.width() * box.height()));
+                }
+                to->push_back(
+                    {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y - box.y0), id - last->first_id});
+            }
+        }
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            if (!pixels[i].empty())
+                dispatch(point_kernel{finders[i], pixels[i], view_.has_near_light(), labelled, box, into}, level_);
+    }
+
+    /// Pixels of a tile from what the light makes of them and how much of it arrives.
+    void finish(const pixel_box& box, const point_list& points, const shadow::shares& light) {
+        const auto width = static_cast<std::size_t>(box.width());
+        std::vector<float> lit(width * static_cast<std::size_t>(box.height()), 0.0f);
+        for (std::size_t i = 0; i < points.facing; ++i) lit[points.pixel(i)] = light.lit[i];
+        for (int y = box.y0; y <= box.y1; ++y) {
+            const float* const share = lit.data() + static_cast<std::size_t>(y - box.y0) * width;
+            float* const value = &image_(box.x0, y);
+            const float* const rest = &rest_(box.x0, y);
+            for (std::size_t i = 0; i < width; ++i) value[i] = (std::min)(1.0f, rest[i] + share[i] * value[i]);
+        }
+        if constexpr (labelled) label_shadows(points, light, [&](std::size_t pixel) { return pixel_in(box, pixel); });
+    }
+
+    /// Names the caster of each shadow, see light_pass.hpp.
+    /// @param pixel_of  the picture's pixel by the list's number of it
+    template <class PixelOf>
+    void label_shadows(const point_list& points, const shadow::shares& light, const PixelOf& pixel_of) {
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const bool is_averted = i >= points.facing;
+            if (!is_averted && !(light.lit[i] < 0.5f)) continue;
+            const std::uint32_t caster = is_averted && light.caster[i] >= targets_ ? points.caster(i) : light.caster[i];
+            // A lit share of 0 without a caster is one that is yet to be tested.
+            if (caster == shadow::invalid_id) continue;
+            labels_.shadow.pixels()[pixel_of(points.pixel(i))] =
+                caster < targets_ ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
+        }
+    }
+
+    const overhead_geometry& view_;
+    const std::vector<surface>& surfaces_;
+    const image<std::uint32_t>& ids_;
+    const image<float>& rest_;
+    image<float>& image_;
+    Labels& labels_;
+    std::uint32_t targets_;
+    int tile_;
+    isa level_;
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -12083,7 +12048,7 @@ struct render_options {
     float edge_error = 0;
     float slope_error = 0.02f;  ///< by how much its slopes may then be off, metres per metre
     /// See draw_options. Which triangle a pixel shows decides whether it faces the light, too.
-    int subpixel_bits = shadow::ray_policy<Shadow> ? 12 : 8;
+    int subpixel_bits = 8;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
 };
@@ -12103,6 +12068,14 @@ struct frame {
     render_stats stats;
 };
 
+/// Which triangle each pixel of a picture shows.
+struct visibility {
+    static constexpr std::uint32_t no_triangle = shadow::invalid_id;
+
+    image<std::uint16_t> instance;  ///< as in labels::instance
+    image<std::uint32_t> triangle;  ///< of the target's mesh, or of the bottom's; no_triangle where nothing is shown
+};
+
 namespace detail {
 
 /// A picture under construction, in the rig's frame.
@@ -12111,18 +12084,16 @@ class overhead_painter {
   public:
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
-        : scene_(s), view_(rig), options_(options), depth_(rig.size.x, rig.size.y, unfilled{}) {
+        : scene_(s), view_(rig), options_(options) {
+        validate(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y, unfilled{});  // the first draw fills it, and the depths
-        validate(options.shadow);
-        if constexpr (!shadow::ray_policy<Shadow> && !std::is_same_v<Shadow, shadow::none>)
-            require(!view_.has_near_light(), "overhead.light_distance", rig.light_distance,
-                    "infinite, or shadow::exact or penumbra");
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y, ex);
         for (const target& t : s.targets) {
-            targets_.emplace_back(t.shape, bounds(t.shape, ex), view_.rig_from(to_world(t.placement)), t.is_solid);
+            targets_.push_back(
+                {t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.kind(), t.shape.grid()});
             target_pixels_.push_back(shown_pixels(view_, targets_.back()));
         }
         if (has_bottom()) sample_seabed(ex);
@@ -12130,18 +12101,45 @@ class overhead_painter {
 
     template <executor E>
     frame<Labels> paint(E& ex) {
-        if constexpr (std::is_same_v<Shadow, shadow::none>) {
-            draw_all(no_shadow_maps{}, ex);
-        } else {
-            const placed_mesh bottom = bottom_in_rig();
-            draw_all(cast_shadows(has_bottom() ? &bottom : nullptr, ex), ex);
+        place_objects();
+        draw_all(ex);
+        if constexpr (casts) {
+            std::vector<shadow::caster> casters;
+            for (const placed_mesh& t : targets_) casters.push_back(as_caster(view_, t));
+            if (has_bottom()) casters.push_back(as_caster(view_, bottom_in_rig_));
+            const shadow::point_bounds bounds{receivers(), view_.ground_sampling()};
+            const auto occlusion =
+                options_.shadow.build(std::span<const shadow::caster>(casters), light_of(view_), bounds, ex);
+            shadow_pass<Labels>(view_, surfaces_, ids_, rest_, out_.image, out_.labels, targets_.size(), options_.tile,
+                                options_.level)
+                .cast(occlusion, ex);
         }
-        if constexpr (labelled) describe_targets(out_.labels, scene_.targets);
+        if constexpr (labelled) {
+            label_surfaces(ex);
+            describe_targets(out_.labels, scene_.targets);
+        }
         return std::move(out_);
+    }
+
+    /// Triangles alone.
+    template <executor E>
+    visibility see(E& ex) {
+        place_objects();
+        draw_all(ex);
+        visibility shown{image<std::uint16_t>(ids_.width(), ids_.height(), labels::no_instance), std::move(ids_)};
+        for (std::size_t i = 0; i < shown.triangle.size(); ++i) {
+            std::uint32_t& id = shown.triangle.pixels()[i];
+            if (id == visibility::no_triangle) continue;
+            const surface& s = surface_of(surfaces_, id);
+            shown.instance.pixels()[i] = s.instance;
+            id -= s.first_id;
+        }
+        return shown;
     }
 
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
+    static constexpr bool casts = !std::is_same_v<Shadow, shadow::none>;
 
     bool has_bottom() const { return !std::holds_alternative<seabed::none>(scene_.seabed); }
 
@@ -12159,18 +12157,31 @@ class overhead_painter {
         seabed::height_range range = merge(seabed::prepare(scene_.seabed).range(), {0, 0});
         const double longest = static_cast<double>(options_.reach) * longer_side;
         ground_box ground = shown_ground(view_, range);
-        if constexpr (!std::is_same_v<Shadow, shadow::none>)
-            ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
+        if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
         field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
         out_.stats.seabed_samples = field_.heights.size();
         model_seabed(ex);
         for (const float height : field_.heights.pixels()) {
-            if (!numeric::is_finite(height)) continue;
+            if (!numeric::is_finite(height)) {
+                has_gaps_ = true;
+                continue;
+            }
             lowest_ = (std::min)(lowest_, height);
             highest_ = (std::max)(highest_, height);
         }
+        find_bottom_grid();
         out_.stats.seabed_columns = field_.heights.width();
         out_.stats.seabed_rows = field_.heights.height();
+    }
+
+    /// The lattice of the bottom's vertices, if all of them are there and float holds their places.
+    void find_bottom_grid() {
+        const glm::ivec2 size(field_.heights.width(), field_.heights.height());
+        const glm::ivec2 last = bottom_first_ + size;
+        const int farthest = (std::max)((std::max)(-bottom_first_.x, last.x), (std::max)(-bottom_first_.y, last.y));
+        if (has_gaps_ || options_.edge_error > 0 || farthest >= 1 << 11) return;
+        bottom_grid_ = regular_grid{
+            size.x, size.y, field_.spacing * glm::dvec2(bottom_first_), {field_.spacing, 0}, {0, field_.spacing}, true};
     }
 
     /// The bottom's mesh, and the type of each of its vertices where there are several.
@@ -12185,7 +12196,7 @@ class overhead_painter {
         }
         // What is off by h throws a shadow that is off by h cot(elevation), whatever the view.
         const double forgiven = static_cast<double>(options_.edge_error) * view_.ground_sampling();
-        const double cot = std::is_same_v<Shadow, shadow::none> ? 0 : view_.light().cot_elevation();
+        const double cot = casts ? view_.light().cot_elevation() : 0;
         auto [shape, vertices] = seabed::tessellate(field_,
                                                     {.height = forgiven / cot,
                                                      .slope = static_cast<double>(options_.slope_error),
@@ -12222,17 +12233,8 @@ class overhead_painter {
         return {bottom_,
                 {{field_.spacing * glm::dvec2(bottom_first_), lowest_}, {field_.spacing * glm::dvec2(last), highest_}},
                 under_rig,
-                true};
-    }
-
-    template <executor E>
-    auto cast_shadows(const placed_mesh* bottom, E& ex) const {
-        if constexpr (shadow::ray_policy<Shadow>) {
-            return exact_shadows(options_.shadow, view_, bottom, targets_, receivers(), ex);
-        } else {
-            const double texel = view_.ground_sampling() / static_cast<double>(options_.shadow.texels_per_pixel);
-            return shadow_maps<Shadow>(options_.shadow, view_, bottom, targets_, receivers(), texel, ex);
-        }
+                has_gaps_ ? surface_kind::open : surface_kind::heightfield,
+                bottom_grid_ ? &*bottom_grid_ : nullptr};
     }
 
     /// All that the picture may show.
@@ -12253,51 +12255,91 @@ class overhead_painter {
         return {{-half, low}, {half, top}};
     }
 
-    template <class Shadows, executor E>
-    void draw_all(const Shadows& shadows, E& ex) {
-        depth_load load = depth_load::clear;
+    /// The bottom and the targets, in the order in which they are drawn and of their ids.
+    void place_objects() {
+        std::uint64_t ids = 0;
+        const auto add = [&](const placed_mesh& placed, std::uint32_t caster, std::uint16_t instance,
+                             std::uint8_t seabed, const material& m) {
+            surface& s = surfaces_.emplace_back();
+            s.mesh = placed.shape;
+            s.to_rig = placed.to_rig;
+            s.first_id = static_cast<std::uint32_t>(ids);
+            s.caster = caster;
+            s.instance = instance;
+            s.seabed = seabed;
+            s.whole = m;
+            ids += placed.shape.triangles.size();
+            require(ids < shadow::invalid_id, "triangles of the scene", ids, "below 2^32 - 1");
+        };
         if (has_bottom()) {
-            const placed_mesh bottom = bottom_in_rig();
-            if (field_.types.empty())
-                out_.stats.seabed = draw_one(bottom, load, 0, shadows,
-                                             whole_object{scene_.bottom_of(field_.fallback), labels::no_instance,
-                                                          static_cast<std::uint8_t>(field_.fallback)},
-                                             ex);
-            else
-                out_.stats.seabed =
-                    draw_one(bottom, load, 0, shadows, typed_bottom{bottom_, bottom_types_, scene_.bottom}, ex);
-            load = depth_load::keep;
+            bottom_in_rig_ = bottom_in_rig();
+            add(bottom_in_rig_, static_cast<std::uint32_t>(targets_.size()), labels::no_instance,
+                static_cast<std::uint8_t>(field_.fallback), scene_.bottom_of(field_.fallback));
+            if (!field_.types.empty()) {
+                surfaces_.back().types = bottom_types_.data();
+                surfaces_.back().materials = scene_.bottom.data();
+            }
         }
-        for (std::size_t i = 0; i < targets_.size(); ++i) {
-            const whole_object target{scene_.targets[i].surface, static_cast<std::uint16_t>(i + 1), labels::no_seabed};
-            out_.stats.targets += draw_one(targets_[i], load, i + 1, shadows, target, ex);
-            load = depth_load::keep;
-        }
-        if (load == depth_load::clear) std::fill(out_.image.pixels().begin(), out_.image.pixels().end(), 0.0f);
+        for (std::size_t i = 0; i < targets_.size(); ++i)
+            add(targets_[i], static_cast<std::uint32_t>(i), static_cast<std::uint16_t>(i + 1), labels::no_seabed,
+                scene_.targets[i].surface);
     }
 
-    /// @param later  the first of the targets that are drawn after it
-    template <class Shadows, class Object, executor E>
-    draw_stats draw_one(const placed_mesh& shape, depth_load load, std::size_t later, const Shadows& shadows,
-                        const Object& object, E& ex) {
-        const surface_placement placement(view_, shape);
-        const surface_shader<Shadows, Labels, Law, Object> shader(view_, placement, shape.shape, options_.subpixel_bits,
-                                                                  options_.law, shadows, object, out_.image,
-                                                                  out_.labels);
-        return draw_lanes(shape.shape, placement, shader, depth_, std::span(target_pixels_).subspan(later),
-                          {.cull = shape.hidden(),
-                           .keep = keep_depth::larger,
-                           .load = load,
-                           .subpixel_bits = options_.subpixel_bits,
-                           .tile = options_.tile,
-                           .level = options_.level},
-                          ex);
+    /// What the light makes of each pixel without shadows, and which triangle it shows.
+    template <executor E>
+    void draw_all(E& ex) {
+        const overhead& rig = view_.rig();
+        image<float> depth(rig.size.x, rig.size.y, unfilled{});
+        shaded_images into{out_.image};
+        if constexpr (casts) {
+            rest_ = image<float>(rig.size.x, rig.size.y, unfilled{});
+            into.rest = &rest_;
+        }
+        if constexpr (casts || labelled) {
+            ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, unfilled{});
+            into.ids = &ids_;
+        }
+        if constexpr (labelled) into.types = &out_.labels.seabed;
+        if (surfaces_.empty()) into.clear({0, 0, rig.size.x - 1, rig.size.y - 1});
+        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+            const bool is_bottom = has_bottom() && i == 0;
+            const std::size_t target = has_bottom() ? i - 1 : i;
+            const placed_mesh& placed = is_bottom ? bottom_in_rig_ : targets_[target];
+            const draw_stats stats = draw_lanes(placed.shape, surface_placement(view_, placed),
+                                                surface_shader<Law>(view_, surfaces_[i], options_.law, into), depth,
+                                                std::span(target_pixels_).subspan(is_bottom ? 0 : target + 1),
+                                                {.keep = keep_depth::larger,
+                                                 .load = i == 0 ? depth_load::clear : depth_load::keep,
+                                                 .subpixel_bits = options_.subpixel_bits,
+                                                 .tile = options_.tile,
+                                                 .level = options_.level},
+                                                ex);
+            (is_bottom ? out_.stats.seabed : out_.stats.targets) += stats;
+        }
+    }
+
+    /// Instances and seabed types from the visibility buffer.
+    template <executor E>
+    void label_surfaces(E& ex) {
+        if (surfaces_.empty()) return;
+        ex.bulk(static_cast<std::size_t>(ids_.height()), [&](std::size_t row) {
+            const int y = static_cast<int>(row);
+            const surface* last = surfaces_.data();
+            for (int x = 0; x < ids_.width(); ++x) {
+                const std::uint32_t id = ids_(x, y);
+                if (id == shadow::invalid_id) continue;
+                if (id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, id);
+                out_.labels.instance(x, y) = last->instance;
+                if (last->types == nullptr) out_.labels.seabed(x, y) = last->seabed;
+            }
+        });
     }
 
     const scene& scene_;
     overhead_geometry view_;
     render_options<Shadow, Labels, Law> options_;
-    image<float> depth_;
+    image<std::uint32_t> ids_;  ///< the visibility buffer: triangles in the order of surfaces_
+    image<float> rest_;         ///< what pixels show without the light
     frame<Labels> out_;
     seabed::heightfield field_;
     unfilled_mesh whole_bottom_;              ///< if every vertex is drawn
@@ -12306,6 +12348,10 @@ class overhead_painter {
     std::vector<seabed::type> bottom_types_;  ///< by vertex, or none where there is one type alone
     glm::ivec2 bottom_first_{0, 0};           ///< of the field's vertices, counted from the rig's position
     float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum
+    placed_mesh bottom_in_rig_;
+    std::vector<surface> surfaces_;
+    bool has_gaps_ = false;  ///< the bottom lacks data somewhere
+    std::optional<regular_grid> bottom_grid_;
     std::vector<placed_mesh> targets_;
     std::vector<pixel_box> target_pixels_;  ///< which may show them
 };
@@ -12319,12 +12365,29 @@ class overhead_painter {
 /// @param options  types of shadow, labels and backscatter law, and how finely the seabed is sampled
 /// @param ex       who runs it; the result is the same bytes for any executor
 /// @returns a picture of rig.size pixels, linear in [0, 1], with labels of the same size and what was drawn
-/// @throws invalid_input for a rig, a seabed, a pose or an option that can't be right
+/// @throws invalid_input for a rig, a seabed, a material, a pose or an option that can't be right
 template <shadow::policy Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert,
           executor_argument E = serial_executor>
 frame<Labels> render(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options = {},
                      E&& ex = {}) {
     return detail::overhead_painter<Shadow, Labels, Law>(s, rig, options, ex).paint(ex);
+}
+
+/// The triangles that `render` shows with the same options.
+/// @throws invalid_input as `render` does
+template <class Shadow = shadow::exact, class Labels = labels, class Law = lambert,
+          executor_argument E = serial_executor>
+visibility visible_triangles(const scene& s, const overhead& rig,
+                             const render_options<Shadow, Labels, Law>& options = {}, E&& ex = {}) {
+    const render_options<shadow::none, labels, Law> seen{.law = options.law,
+                                                         .cells = options.cells,
+                                                         .reach = options.reach,
+                                                         .edge_error = options.edge_error,
+                                                         .slope_error = options.slope_error,
+                                                         .subpixel_bits = options.subpixel_bits,
+                                                         .tile = options.tile,
+                                                         .level = options.level};
+    return detail::overhead_painter<shadow::none, labels, Law>(s, rig, seen, ex).see(ex);
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
@@ -12388,7 +12451,7 @@ class seabed_probe {
             const double half = view.half_extent(0).x * pixels_ / rig.size.x;
             chip.field_of_view = static_cast<float>(2 * numeric::atan2(half, static_cast<double>(rig.altitude)));
             chips_.push_back(chip);
-            picture truth = draw(chip, how.finest, shadow::refined{.texels_per_pixel = 8}, ex);
+            picture truth = draw(chip, how.finest, shadow::exact{}, ex);
             truth.dark = march(chip, ex);
             truths_.push_back(std::move(truth));
         }
@@ -12898,9 +12961,9 @@ inline bool keeps_to(const errors& found, const budget& tolerated) {
 }
 
 /// What a picture is made of: plain values, to read and to change.
-template <shadow::policy Shadow = shadow::refined>
+template <shadow::policy Shadow = shadow::exact>
 struct settings {
-    Shadow shadow{};            ///< with its texels per pixel
+    Shadow shadow{};            ///< with its texels per pixel, if it has any
     int cells = 0;              ///< of the seabed along the picture's longer side, as in render_options
     int subpixel_bits = 8;      ///< as in render_options
     float edge_error = 0;       ///< as in render_options
@@ -12969,9 +13032,8 @@ struct settings {
 /// The cheapest settings with which pictures of a seabed keep to a budget, as far as a probe can tell; where none does,
 /// those that are the least beyond it, and `expected` says how far off they are.
 ///
-/// Settings are found for a shadow policy, exact shadows if none is named: these cost little more than others where the
-/// seabed's cells are the finest they need be. One that has texels, `settings_for<shadow::refined>(...)`, gets as few
-/// as will do.
+/// Settings are found for a shadow policy, exact shadows if none is named. One that has texels,
+/// `settings_for<shadow::map>(...)`, gets as few as will do.
 /// @param tolerated  each above 0
 /// @param bottom     the seabed; pictures of others of its kind have about the same errors
 /// @param rig        of the pictures
@@ -13052,20 +13114,13 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
 /// it is, is in docs/tradeoff.md.
 /// @param rig  of the pictures
 inline settings<> fast(const overhead& rig) {
-    return {.shadow = {.texels_per_pixel = 0.5f},
-            .cells = ((std::max)(rig.size.x, rig.size.y) + 3) / 4,
-            .side_error = 1,
-            .shadow_error = 1,
-            .rig = rig};
+    return {.cells = ((std::max)(rig.size.x, rig.size.y) + 3) / 4, .side_error = 1, .shadow_error = 1, .rig = rig};
 }
 inline settings<> balanced(const overhead& rig) {
-    return {.shadow = {.texels_per_pixel = 2},
-            .cells = ((std::max)(rig.size.x, rig.size.y) + 1) / 2,
-            .side_error = 0.25,
-            .shadow_error = 0.25,
-            .rig = rig};
+    return {
+        .cells = ((std::max)(rig.size.x, rig.size.y) + 1) / 2, .side_error = 0.25, .shadow_error = 0.25, .rig = rig};
 }
-inline settings<insonify::shadow::exact> exact(const overhead& rig) {
+inline settings<> exact(const overhead& rig) {
     return {.cells = (std::min)(2 * (std::max)(rig.size.x, rig.size.y), 32768),
             .subpixel_bits = 16,
             .side_error = 0.02,
@@ -19600,6 +19655,588 @@ inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/shadow/height_map.hpp ------------------------------------------------------------
+// Height maps of casters: for every ray of a parallel light, the height of the first surface that it meets.
+//
+// A height map is an image over the light's sheared frame (light.hpp), drawn by the rasterizer with height as depth.
+// The resolution that it needs is the picture's ground sampling, at every elevation.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
+
+/// A rectangle of the light's frame and the heights that count within it.
+struct map_extent {
+    glm::dvec2 lowest{(std::numeric_limits<double>::max)()};  ///< (u, v), metres
+    glm::dvec2 highest{-(std::numeric_limits<double>::max)()};
+    double floor = (std::numeric_limits<double>::max)();  ///< z
+    double ceiling = -(std::numeric_limits<double>::max)();
+
+    bool empty() const { return highest.x < lowest.x || highest.y < lowest.y; }
+    /// How far from the frame's origin it goes along v and z, which a low light doesn't stretch.
+    double reach() const { return (std::max)({-lowest.y, highest.y, -floor, ceiling}); }
+
+    void include(const glm::dvec3& uvz) {
+        lowest = {(std::min)(lowest.x, uvz.x), (std::min)(lowest.y, uvz.y)};
+        highest = {(std::max)(highest.x, uvz.x), (std::max)(highest.y, uvz.y)};
+        floor = (std::min)(floor, uvz.z);
+        ceiling = (std::max)(ceiling, uvz.z);
+    }
+
+    /// Only rays that both meet matter; all casters' heights do.
+    map_extent clipped_to(const map_extent& receivers) const {
+        map_extent both = *this;
+        both.lowest = {(std::max)(lowest.x, receivers.lowest.x), (std::max)(lowest.y, receivers.lowest.y)};
+        both.highest = {(std::min)(highest.x, receivers.highest.x), (std::min)(highest.y, receivers.highest.y)};
+        return both;
+    }
+};
+
+/// The smallest extent that holds both.
+inline map_extent merge(const map_extent& a, const map_extent& b) {
+    map_extent both = a;
+    both.include({b.lowest.x, b.lowest.y, b.floor});
+    both.include({b.highest.x, b.highest.y, b.ceiling});
+    return both;
+}
+
+/// The extent of a mesh under a light; positions that aren't finite are passed over.
+template <executor_argument E = serial_executor>
+map_extent extent_of(const mesh_view& m, const affine& to_world, const light_frame& frame, E&& ex = {}) {
+    constexpr std::size_t grain = 16384;
+    std::vector<map_extent> parts((m.positions.size() + grain - 1) / grain);
+    bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
+        map_extent part;
+        for (std::size_t i = first; i < last; ++i) {
+            const glm::dvec3 world = transform_point(to_world, m.positions[i]);
+            if (numeric::is_finite(world.x + world.y + world.z)) part.include(frame(world));
+        }
+        parts[first / grain] = part;
+    });
+    map_extent whole;
+    for (const map_extent& part : parts)
+        if (!part.empty()) whole = merge(whole, part);
+    return whole;
+}
+
+/// The vertex callable of maps: from a mesh's own coordinates to clip space, where w is one.
+struct map_placement {
+    glm::mat3 axes;
+    glm::vec3 start;
+
+    glm::vec4 operator()(const vertex& v) const { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); }
+    /// See lane_shader.
+    template <class Floats>
+    INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats*, const Floats (&position)[3],
+                                    const Floats (&)[3]) const {
+        numeric::product(clip, axes, position);
+        for (int i = 0; i < 3; ++i) clip[i] = clip[i] + start[i];
+        clip[3] = Floats{} + 1.0f;
+    }
+};
+
+/// A grid of rays: where its texels lie in the light's frame, and between which heights it tells things apart.
+struct map_grid {
+    glm::dvec2 origin{};  ///< (u, v) of the first texel's corner, metres
+    glm::dvec2 texel{1};  ///< metres along u and v
+    double floor = 0, relief = 1;
+    int columns = 0, rows = 0;
+
+    map_grid() = default;
+
+    /// @param texel_length  metres along v; grows if more than `largest` texels a side were needed
+    /// @param stretch       how much longer texels are along u
+    /// @throws invalid_input for a texel that isn't positive or a `largest` outside [1, 32768]
+    map_grid(const map_extent& extent, double texel_length, int largest, double stretch = 1)
+        : origin(extent.lowest), floor(extent.floor) {
+        insonify::detail::require(texel_length > 0 && numeric::is_finite(texel_length), "texel", texel_length,
+                                  "a positive length");
+        insonify::detail::require(largest >= 1 && largest <= 32768, "largest", largest, "1 to 32768");
+        if (extent.empty()) return;
+        const glm::dvec2 size = extent.highest - extent.lowest;
+        const double longer_side = (std::max)(size.x / stretch, size.y);
+        texel = (std::max)(texel_length, longer_side / (largest - 0.5)) * glm::dvec2(stretch, 1);
+        const auto texels = [&](int axis) {
+            return (std::min)(largest, static_cast<int>(numeric::floor_to_int(size[axis] / texel[axis])) + 1);
+        };
+        // A little room below and above, so that rounding can't clip the highest caster away.
+        const double height = extent.ceiling - extent.floor;
+        const double room = 1e-3 * height + 1e-6;
+        floor -= room;
+        relief = height + 2 * room;
+        columns = texels(0);
+        rows = texels(1);
+    }
+
+    bool empty() const { return columns == 0; }
+
+    /// The vertex callable that puts a mesh on the grid. The whole way from mesh to clip space is one affine map; it is
+    /// made in double and small when narrowed. Row 0 is where v is smallest, so triangles appear mirrored.
+    auto placing(const light_frame& frame, const affine& to_world) const {
+        const glm::dvec2 scale{2 / (texel.x * columns), 2 / (texel.y * rows)};
+        const auto to_clip = [&](const glm::dvec3& uvz) {
+            return glm::dvec3((uvz.x - origin.x) * scale.x - 1, 1 - (uvz.y - origin.y) * scale.y,
+                              (uvz.z - floor) / relief);
+        };
+        const glm::dvec3 zero = to_clip(frame(to_world.offset));
+        glm::mat3 axes;
+        for (int i = 0; i < 3; ++i) axes[i] = glm::vec3(to_clip(frame(to_world.offset + to_world.linear[i])) - zero);
+        return map_placement{axes, glm::vec3(zero)};
+    }
+};
+
+/// An extent that holds everything in a box, a little larger than it has to be.
+inline map_extent extent_of(const bounding_box& box, const affine& to_world, const light_frame& frame) {
+    map_extent extent;
+    if (box.empty()) return extent;
+    for (const double x : {box.lower.x, box.upper.x})
+        for (const double y : {box.lower.y, box.upper.y})
+            for (const double z : {box.lower.z, box.upper.z})
+                extent.include(frame(transform_point(to_world, {x, y, z})));
+    return extent;
+}
+
+/// Heights of casters over a grid of rays.
+class height_map {
+  public:
+    /// An empty map: nothing casts, everything is lit.
+    height_map() : frame_(directional_light{}) {}
+
+    /// @param frame    of the light
+    /// @param extent   which rays, and between which heights; casters outside are left out
+    /// @throws invalid_input as map_grid does
+    height_map(const light_frame& frame, const map_extent& extent, double texel, int largest = 8192)
+        : frame_(frame),
+          grid_(extent, texel, largest),
+          heights_(grid_.columns, grid_.rows, empty_depth(keep_depth::larger)) {}
+
+    /// Lets a mesh cast; several may share a map.
+    /// @param to_world  from the mesh's frame to the one in which the light is described
+    template <executor_argument E = serial_executor>
+    draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
+        if (heights_.empty()) return {};
+        return draw(m, grid_.placing(frame_, to_world), quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
+    }
+
+    const light_frame& frame() const { return frame_; }
+    bool empty() const { return heights_.empty(); }
+    int columns() const { return heights_.width(); }
+    int rows() const { return heights_.height(); }
+    /// Metres between texels.
+    double texel() const { return grid_.texel.y; }
+
+    /// A point of the frame on the map: continuous column and row (texel (i, j) has its centre at (i + 1/2, j + 1/2)),
+    /// and its height as the map stores heights.
+    glm::vec3 on_map(const glm::dvec3& uvz) const {
+        return glm::vec3((uvz.x - grid_.origin.x) / grid_.texel.x, (uvz.y - grid_.origin.y) / grid_.texel.y,
+                         (uvz.z - grid_.floor) / grid_.relief);
+    }
+    /// A slope dz / du in stored heights per texel.
+    float on_map(double slope) const { return static_cast<float>(slope * (grid_.texel.y / grid_.relief)); }
+    /// What a texel's ray meets first: a stored height, minus infinity for nothing.
+    float operator()(int column, int row) const { return heights_(column, row); }
+
+  private:
+    light_frame frame_;
+    map_grid grid_;
+    image<float> heights_;
+};
+
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/lookup.hpp ----------------------------------------------------------------
+// Looks a point up in a height map: at the nearest texel, or averaged over several (percentage-closer filtering).
+//
+// The point's own surface is in the map too. The plane of its facet is extended to each texel's centre before heights
+// are compared; adjacent facets are covered by a depth bias of one texel's rise along the slope, as seen by the light.
+// Level ground has no slope in the light's frame, hence no bias and no gap between an object and its shadow; where the
+// slope goes to infinity, the surface faces away and is dark anyway. The bias is tuned on rubble: half of it triples
+// shadow acne at 60 degrees; double adds a third more light leaks at 6 degrees.
+//
+// Based on: William T. Reeves, David H. Salesin, Robert L. Cook. Rendering Antialiased Shadows with Depth Maps. 1987
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
+
+/// A surface point in the light's frame, and how the plane of its facet rises there.
+struct receiver_plane {
+    /// Below this cosine between normal and light a facet counts as facing away: the last 2 %, where the slope goes to
+    /// infinity and every map leaks.
+    static constexpr double grazed = 0.02;
+
+    glm::dvec3 uvz{};
+    double slope_u = 0, slope_v = 0;  ///< dz / du, dz / dv; 0 where it faces away
+    bool faces_light = false;
+
+    receiver_plane() = default;
+
+    /// @param position  in the frame in which the light is described, metres
+    /// @param facet     normal of the triangle that it lies on, of any length; a smooth normal halves the accuracy
+    receiver_plane(const light_frame& frame, const glm::dvec3& position, const glm::dvec3& facet)
+        : uvz(frame(position)) {
+        const glm::dvec2& travel = frame.travel();
+        const double along = facet.x * travel.x + facet.y * travel.y;
+        const double across = facet.y * travel.x - facet.x * travel.y;
+        const double facing = facet.z - along * frame.cot_elevation();
+        faces_light = facing > 0 && facing * facing > grazed * grazed * numeric::dot(facet, facet);
+        if (faces_light) {
+            slope_u = -along / facing;
+            slope_v = -across / facing;
+        }
+    }
+};
+
+namespace detail {
+
+/// A receiver in the units of one map.
+class map_receiver {
+  public:
+    map_receiver(const height_map& map, const receiver_plane& r)
+        : map_(map), at_(map.on_map(r.uvz)), slope_u_(map.on_map(r.slope_u)), slope_v_(map.on_map(r.slope_v)) {
+        bias_ = 1e-6f + numeric::magnitude(slope_u_) + numeric::magnitude(slope_v_);  // heights are rounded to 1e-7
+    }
+
+    /// Whether no texel within `radius` of the nearest one is on the map: nothing can be in the way.
+    bool is_beyond(int radius) const {
+        const auto reach = static_cast<float>(radius);
+        return !(at_.x >= -reach && at_.y >= -reach && at_.x < static_cast<float>(map_.columns()) + reach &&
+                 at_.y < static_cast<float>(map_.rows()) + reach);
+    }
+
+    /// How many of the (2 radius + 1)^2 rays around the point get past the map to this surface. Expects !is_beyond.
+    int open_rays(int radius) const {
+        const int column = static_cast<int>(at_.x + 64) - 64, row = static_cast<int>(at_.y + 64) - 64;  // rounds down
+        int open = 0;
+        for (int j = row - radius; j <= row + radius; ++j)
+            for (int i = column - radius; i <= column + radius; ++i) open += is_open(i, j) ? 1 : 0;
+        return open;
+    }
+
+  private:
+    bool is_open(int column, int row) const {
+        if (column < 0 || row < 0 || column >= map_.columns() || row >= map_.rows()) return true;
+        const float plane = at_.z + slope_u_ * (static_cast<float>(column) + 0.5f - at_.x) +
+                            slope_v_ * (static_cast<float>(row) + 0.5f - at_.y);
+        return map_(column, row) <= plane + bias_;
+    }
+
+    const height_map& map_;
+    glm::vec3 at_;
+    float slope_u_, slope_v_, bias_;
+};
+
+}  // namespace detail
+
+/// Share of the light that reaches a point, averaged over (2 radius + 1)^2 texels; surfaces that face away count as
+/// level.
+/// @param radius  texels, 0 to 8; 0 is the nearest texel alone
+inline float lit(const height_map& map, const receiver_plane& r, int radius) {
+    const detail::map_receiver at(map, r);
+    if (at.is_beyond(radius)) return 1;
+    const int rays = (2 * radius + 1) * (2 * radius + 1);
+    return static_cast<float>(at.open_rays(radius)) / static_cast<float>(rays);
+}
+
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/map.hpp -------------------------------------------------------------------
+// Shadow maps: one height map for each caster, looked up at the nearest texel (`map`) or averaged over several (`pcf`).
+//
+// A target's map covers the target alone, so its texels stay fine in large pictures. An edge is off by half a texel at
+// most, see light.hpp; a point on a mesh gets a depth bias along the slope of its facet, see lookup.hpp. Light from
+// nearby is refused.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
+
+/// How a map is laid out.
+struct map_layout {
+    float texels_per_pixel = 1.5f;
+    int largest = 8192;
+    int radius = 0;  ///< of the filter, texels
+};
+
+/// @throws invalid_input for a value out of its range
+inline void validate(const map_layout& m) {
+    insonify::detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel), "texels_per_pixel",
+                              m.texels_per_pixel, "above 0");
+    insonify::detail::require(m.largest >= 1 && m.largest <= 32768, "largest", m.largest, "1 to 32768");
+    insonify::detail::require(m.radius >= 0 && m.radius <= 8, "radius", m.radius, "0 to 8 texels");
+}
+
+/// The height maps of casters under one parallel light.
+class map_occlusion {
+  public:
+    /// See casting_policy.
+    /// @throws invalid_input for a layout out of its range, for light from nearby, and for an index without a position
+    template <executor E>
+    map_occlusion(const map_layout& layout, std::span<const caster> casters, const any_light& light,
+                  const point_bounds& bounds, E& ex)
+        : casters_(casters.begin(), casters.end()), frame_(parallel(light)), radius_(layout.radius) {
+        validate(layout);
+        const map_extent receivers = extent_of(bounds.box, {}, frame_);
+        const double texel = spacing_of(bounds, receivers) / static_cast<double>(layout.texels_per_pixel);
+        for (const caster& c : casters_) {
+            const map_extent own = extent_of(c.box, c.placement, frame_).clipped_to(receivers);
+            maps_.emplace_back(frame_, own, texel, layout.largest).cast(c.mesh, c.placement, ex);
+        }
+    }
+
+    /// See occlusion.
+    void test(const points& at, const shares& into) const {
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            into.lit[i] = 1;
+            into.caster[i] = invalid_id;
+            const glm::dvec3 facet = facet_of(casters_, at, i);
+            const bool is_turned = numeric::dot(facet, frame_.to_light()) < 0;
+            const receiver_plane plane(frame_, at[i], is_turned ? -facet : facet);
+            const bool is_grazed = !plane.faces_light && facet != glm::dvec3(0);
+            const std::size_t count = (std::min)(maps_.size(), static_cast<std::size_t>(at.casters));
+            for (std::size_t k = 0; k < count && into.lit[i] > 0; ++k) {
+                const float share = lit(maps_[k], plane, radius_);
+                into.lit[i] = (std::min)(into.lit[i], share);
+                if (share < 0.5f && into.caster[i] == invalid_id) into.caster[i] = static_cast<std::uint32_t>(k);
+            }
+            if (!is_grazed) continue;
+            // It blocks its own light.
+            into.lit[i] = 0;
+            into.caster[i] = (std::min)(into.caster[i], at.mesh[i]);
+        }
+    }
+
+    /// The map of one caster.
+    const height_map& of(std::size_t caster) const { return maps_[caster]; }
+
+  private:
+    static light_frame parallel(const any_light& light) {
+        if (const auto* from_nearby = std::get_if<point_light>(&light)) {
+            const glm::dvec3& p = from_nearby->position;
+            insonify::detail::refuse("overhead.light_distance", numeric::square_root(numeric::dot(p, p)),
+                                     "infinite for shadow maps; shadow::exact and shadow::penumbra take a point_light");
+        }
+        return light_frame(std::get<directional_light>(light));
+    }
+    /// Metres between points; if unknown, those of a picture of 2048 pixels that shows all of them.
+    static double spacing_of(const point_bounds& bounds, const map_extent& receivers) {
+        if (bounds.spacing > 0 || receivers.empty()) return bounds.spacing > 0 ? bounds.spacing : 1;
+        const glm::dvec3 size = bounds.box.upper - bounds.box.lower;
+        const double longer = (std::max)({size.x, size.y, size.z});
+        return longer > 0 ? longer / 2048 : 1;
+    }
+
+    std::vector<caster> casters_;
+    light_frame frame_;
+    int radius_;
+    std::vector<height_map> maps_;
+};
+
+/// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
+struct map {
+    float texels_per_pixel = 1.5f;  ///< of the points' spacing; a shadow edge is off by half a texel at most
+    int largest = 8192;             ///< texels a side; what would need more gets coarser texels
+
+    /// See casting_policy.
+    /// @throws invalid_input as map_occlusion does
+    template <executor E>
+    map_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
+                        E& ex) const {
+        return {{texels_per_pixel, largest, 0}, casters, light, bounds, ex};
+    }
+};
+
+/// The same map, averaged over (2 radius + 1)^2 texels: edges are soft over as many.
+struct pcf {
+    float texels_per_pixel = 1.5f;
+    int largest = 8192;
+    int radius = 1;  ///< texels, 0 to 8
+
+    /// See casting_policy.
+    /// @throws invalid_input as map_occlusion does
+    template <executor E>
+    map_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
+                        E& ex) const {
+        return {{texels_per_pixel, largest, radius}, casters, light, bounds, ex};
+    }
+};
+
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/penumbra.hpp --------------------------------------------------------------
+// Soft shadows of a round light: exact shadows of several points of its disc, of which a point gets its share.
+//
+// Sample points fill the disc as a sunflower's seeds do, ring by ring, the first in the middle.
+//
+// Based on: Helmut Vogel. A Better Way to Construct the Sunflower Head. Mathematical Biosciences 44, 1979.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
+
+/// Casters under several points of one light.
+class penumbra_occlusion {
+  public:
+    /// See casting_policy.
+    /// @param radius   of the light over its distance
+    /// @param samples  points of the light, those below the horizon among them
+    /// @throws invalid_input as exact_occlusion does
+    template <executor E>
+    penumbra_occlusion(double radius, int samples, std::span<const caster> casters, const any_light& light,
+                       const point_bounds& bounds, E& ex)
+        : casters_(casters.begin(), casters.end()), samples_(samples) {
+        for (int i = 0; i < samples; ++i) {
+            const double share = i == 0 ? 0 : numeric::square_root((i + 0.5) / samples);
+            const auto [sine, cosine] = numeric::sin_cos_turns(0.6180339887498949 * i);
+            const auto at = sample_of(light, radius * share * glm::dvec2(cosine, sine));
+            if (at) lights_.push_back({exact_occlusion(casters, *at, bounds.box, ex), *at});
+        }
+    }
+
+    /// See occlusion.
+    void test(const points& at, const shares& into) const {
+        lights_.front().blocked.test(at, into);
+        insonify::detail::unfilled_vector<float> lit(at.size());
+        insonify::detail::unfilled_vector<std::uint32_t> blocking(at.size());
+        const shares one{lit, blocking};
+        for (std::size_t i = 1; i < lights_.size(); ++i) {
+            lights_[i].blocked.test(at, one);
+            add(i, at, one, into);
+        }
+        divide(into);
+    }
+
+    /// The same for many batches of at most 2^16 points each, all of them at once.
+    template <executor E>
+    void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
+        lights_.front().blocked.test(at, into, ex);
+        std::size_t count = 0;
+        for (const points& some : at) count += some.size();
+        insonify::detail::unfilled_vector<float> lit(count);
+        insonify::detail::unfilled_vector<std::uint32_t> blocking(count);
+        std::vector<shares> one;
+        count = 0;
+        for (const points& some : at) {
+            one.push_back(
+                {std::span(lit).subspan(count, some.size()), std::span(blocking).subspan(count, some.size())});
+            count += some.size();
+        }
+        for (std::size_t i = 1; i < lights_.size(); ++i) {
+            lights_[i].blocked.test(at, std::span<const shares>(one), ex);
+            ex.bulk(at.size(), [&](std::size_t k) { add(i, at[k], one[k], into[k]); });
+        }
+        for (const shares& some : into) divide(some);
+    }
+
+  private:
+    /// One point of the light, above the horizon.
+    struct sample {
+        exact_occlusion blocked;
+        any_light light;
+
+        glm::dvec3 toward(const glm::dvec3& p) const {
+            if (const auto* from_nearby = std::get_if<point_light>(&light)) return from_nearby->position - p;
+            return light_frame(std::get<directional_light>(light)).to_light();
+        }
+    };
+
+    /// A point of the light, or none below the horizon.
+    /// @param beside  its place on the disc, across and up, over the light's distance
+    static std::optional<any_light> sample_of(const any_light& light, const glm::dvec2& beside) {
+        if (beside == glm::dvec2(0)) return light;
+        const auto place = [&](const glm::dvec3& middle, const glm::dvec2& travel) {
+            const glm::dvec3 across(-travel.y, travel.x, 0), up = numeric::cross(middle, across);
+            return middle + beside.x * across + beside.y * up;
+        };
+        if (const auto* from_nearby = std::get_if<point_light>(&light)) {
+            const glm::dvec3& p = from_nearby->position;
+            const double distance = numeric::square_root(numeric::dot(p, p));
+            const double level = numeric::square_root(p.x * p.x + p.y * p.y);
+            const glm::dvec2 travel = level > 0 ? glm::dvec2(-p.x / level, -p.y / level) : glm::dvec2(1, 0);
+            return point_light{distance > 0 ? distance * place(p / distance, travel) : p};
+        }
+        const light_frame frame(std::get<directional_light>(light));
+        const glm::dvec3 d = place(frame.to_light(), frame.travel());
+        if (!(d.z > 0)) return std::nullopt;
+        const double level = numeric::square_root(d.x * d.x + d.y * d.y);
+        return directional_light{numeric::atan2(-d.y, -d.x), numeric::atan2(d.z, level)};
+    }
+
+    /// Adds what one sample lights of the points whose facets face it on the side of the light's middle.
+    void add(std::size_t number, const points& at, const shares& one, const shares& into) const {
+        const sample &middle = lights_.front(), &here = lights_[number];
+        glm::dvec3 to_middle = middle.toward({}), to_here = here.toward({});
+        const bool is_near = std::holds_alternative<point_light>(middle.light);
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            if (!(one.lit[i] > 0)) continue;
+            const glm::dvec3 facet = facet_of(casters_, at, i);
+            if (is_near) {
+                to_middle = middle.toward(at[i]);
+                to_here = here.toward(at[i]);
+            }
+            const bool faces =
+                facet == glm::dvec3(0) || (numeric::dot(facet, to_here) > 0) == (numeric::dot(facet, to_middle) > 0);
+            if (faces) into.lit[i] += one.lit[i];
+        }
+    }
+    void divide(const shares& into) const {
+        for (float& lit : into.lit) lit /= static_cast<float>(samples_);
+    }
+
+    std::vector<caster> casters_;
+    int samples_;
+    std::vector<sample> lights_;  ///< the middle first
+};
+
+/// Soft edges: exact shadows of several points of a round light. Each point costs as much as `exact`. The caster is
+/// that of the light's middle. The disc of light from nearby faces the origin of the frame in which it is described.
+struct penumbra {
+    float diameter = static_cast<float>(numeric::to_radians(0.5));  ///< of the light, in radians as the ground sees it
+    int samples = 16;                                               ///< points of it, the first in the middle
+
+    /// Radius of the light over its distance.
+    /// @throws invalid_input for a diameter out of range
+    double light_radius() const {
+        insonify::detail::require(diameter >= 0 && diameter <= 1, "diameter", diameter, "0 to 1 radian");
+        return numeric::tan(0.5 * static_cast<double>(diameter));
+    }
+
+    /// See casting_policy.
+    /// @throws invalid_input for a diameter or samples out of range, else as exact_occlusion does
+    template <executor E>
+    penumbra_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
+                             E& ex) const {
+        insonify::detail::require(samples >= 1 && samples <= 1024, "samples", samples, "1 to 1024");
+        return {light_radius(), samples, casters, light, bounds, ex};
+    }
+};
+
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/side_scan.hpp --------------------------------------------------------------
 // A side-scan sonar on its way: where each ping is sent from, and which ranges are listened to.
 
@@ -20029,8 +20666,8 @@ struct outline_piece {
 /// A target in the world, ready to be cut.
 class sliced_target {
   public:
-    explicit sliced_target(const target& t) : shape_(&t.shape), to_world_(to_world(t.placement)) {
-        const bounding_box box = bounds(t.shape);
+    explicit sliced_target(const target& t) : shape_(t.shape), to_world_(to_world(t.placement)) {
+        const bounding_box& box = t.shape.box();
         if (box.empty()) return;
         centre_ = transform_point(to_world_, box.centre());
         const glm::dvec3 half = 0.5 * box.size();
@@ -20086,7 +20723,7 @@ class sliced_target {
     }
 
   private:
-    const mesh* shape_;
+    shared_mesh shape_;
     affine to_world_;
     glm::dvec3 centre_{0, 0, -1e30};
     double radius_ = 0;
@@ -20825,6 +21462,7 @@ class recorder {
     recorder(const scene& s, std::span<const ping> track, const Rig& rig, const options_type& options, E& ex)
         : scene_(s), track_(track), rig_(rig), options_(options) {
         validate(rig);
+        validate(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "metres, or 0");
         for (const ping& p : track)
@@ -21021,7 +21659,7 @@ image<T> rows_of(const image<T>& source, int first, int count) {
 /// @param rig      ranges, side and ping spacing; its own track isn't used
 /// @param options  types of labels, law and sonar equation, and how finely the seabed is sampled
 /// @param ex       who runs it; the result is the same bytes for any executor
-/// @throws invalid_input for a rig, a ping, a seabed, a pose or an option that can't be right
+/// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option that can't be right
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 recording<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,

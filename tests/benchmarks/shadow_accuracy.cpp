@@ -25,7 +25,8 @@ struct named_policy {
     const char* name;
     Policy policy;
 };
-const std::tuple policies{named_policy<in::shadow::exact>{"exact", {}}};
+const std::tuple policies{named_policy<in::shadow::exact>{"exact", {}},  //
+                          named_policy<in::shadow::map>{"map", {}}};
 
 /// Policies that light from nearby is for.
 template <class Policy>
@@ -41,7 +42,7 @@ struct options {
 
 constexpr const char* help =
     "shadow_accuracy [options]: wrong pixels of shadow policies, a line for each policy and scene\n"
-    "  --policy a,b        of exact, refined, map (all)\n"
+    "  --policy a,b        of exact, map (all)\n"
     "  --scene a,b         only scenes whose names contain one of these\n"
     "  --obj file          an OBJ file beside the built-in scenes; may be given several times\n"
     "  --no-builtin        only OBJ files\n"

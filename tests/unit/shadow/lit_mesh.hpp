@@ -79,7 +79,7 @@ answers test(const Occlusion& structure, const shadow::points& at) {
 }
 
 inline shadow::caster caster_of(const in::mesh& m, const in::affine& place = {}) {
-    return {m, place, in::bounds(m), nullptr};
+    return {m, place, in::bounds(m)};
 }
 
 /// A mesh that casts exact shadows, wherever it is asked.

@@ -180,7 +180,7 @@ struct horizon_kernel {
                 const ints is_cell = ints(a > grid_heights::nothing) & ints(b > grid_heights::nothing) &
                                      ints(c > grid_heights::nothing) & ints(d > grid_heights::nothing);
                 const ints up = ints(lower > margin) & ints(upper > margin);
-                rises = rises & (up | ~is_cell);
+                rises = rises & ints(up | ints(is_cell == 0));
             });
             // Where it does not rise, what lies in these cells counts for the points in them and after.
             floats next = highest;
