@@ -280,7 +280,7 @@ class exact_occlusion {
                   row = hold((seen.y - state.tiles.lower.y) * state.scale.y, state.tiles.rows);
         return static_cast<std::size_t>(row * state.tiles.columns + column);
     }
-    static int hold(double at, int count) { return static_cast<int>((std::min)((std::max)(at, 0.0), count - 1.0)); }
+    static int hold(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
 
     void test_tile(std::size_t number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
                    std::span<const points> at, std::span<const shares> into) const {

@@ -1,10 +1,11 @@
 // Whether a triangle blocks the light of a point, decided in doubles: the rule that everything faster has to obey.
 //
 // A triangle blocks a point's ray towards the light if the ray passes through it, edges included, and the point lies
-// behind it by more than rounding can have moved either (2^-40 of the scene's size). There is no bias. A ray passes an
-// edge on its left if toward . (a x b) is not negative, over the edge's ends as seen from the point; for the triangle
-// on the other side the ends change places, which changes the sign of each rounded product and of the sum and nothing
-// else, and a zero counts for both: no light leaks between triangles that share an edge.
+// behind it by more than rounding can have moved either (2^-40 of the scene's size). There is no bias. Corners are
+// sheared until the ray is upright; then it passes an edge on its left if the edge's ends, as seen from the point, make
+// a determinant that is not negative. For the triangle on the other side the ends change places, which changes the sign
+// of each rounded product and of the sum and nothing else, and a zero counts for both: no light leaks between triangles
+// that share an edge.
 //
 // Based on: Sven Woop, Carsten Benthin, Ingo Wald. Watertight Ray/Triangle Intersection. JCGT 2, 2013.
 #pragma once
@@ -22,13 +23,18 @@ namespace shadow::detail {
 class light_rays {
   public:
     /// @param reach  no coordinate of a point that is tested is larger, metres
+    /// @throws invalid_input for a position that is not finite, and as light_frame does
     light_rays(const any_light& light, double reach) : reach_(reach) {
         if (const auto* parallel = std::get_if<directional_light>(&light)) {
             source_ = light_frame(*parallel).to_light();
         } else {
             source_ = std::get<point_light>(light).position;
             is_near_ = true;
-            for (int i = 0; i < 3; ++i) reach_ = (std::max)(reach_, numeric::magnitude(source_[i]));
+            for (int i = 0; i < 3; ++i) {
+                insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
+                                          "finite coordinates");
+                reach_ = (std::max)(reach_, numeric::magnitude(source_[i]));
+            }
         }
     }
 
@@ -39,15 +45,26 @@ class light_rays {
     bool are_blocked(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
                      const glm::dvec3& from) const {
         const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
-        const double bc = numeric::dot(to_light, numeric::cross(b, c));
-        const double ca = numeric::dot(to_light, numeric::cross(c, a));
-        const double ab = numeric::dot(to_light, numeric::cross(a, b));
+        // The corners as the ray sees them, along the two axes that it follows less: one rounding for each corner.
+        const glm::dvec3 way{numeric::magnitude(to_light.x), numeric::magnitude(to_light.y),
+                             numeric::magnitude(to_light.z)};
+        const int axis = way.x >= way.y ? (way.x >= way.z ? 0 : 2) : (way.y >= way.z ? 1 : 2);
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const double shear_u = to_light[u] / to_light[axis], shear_v = to_light[v] / to_light[axis];
+        const auto across = [&](const glm::dvec3& p) {
+            return glm::dvec2(p[u] - shear_u * p[axis], p[v] - shear_v * p[axis]);
+        };
+        const glm::dvec2 a2 = across(a), b2 = across(b), c2 = across(c);
+        const double direction = to_light[axis] < 0 ? -1 : 1;
+        const double bc = direction * (b2.x * c2.y - b2.y * c2.x);
+        const double ca = direction * (c2.x * a2.y - c2.y * a2.x);
+        const double ab = direction * (a2.x * b2.y - a2.y * b2.x);
         const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
         if (!is_left && !is_right) return false;
         const glm::dvec3 normal = numeric::cross(b - a, c - a);
         // From the corner that is nearest: another may lie so far off that its distance rounds away the point's.
-        const auto size = [](const glm::dvec3& v) {
-            return numeric::magnitude(v.x) + numeric::magnitude(v.y) + numeric::magnitude(v.z);
+        const auto size = [](const glm::dvec3& d) {
+            return numeric::magnitude(d.x) + numeric::magnitude(d.y) + numeric::magnitude(d.z);
         };
         const glm::dvec3& some = size(a) <= size(b) ? a : b;
         const double along = numeric::dot(normal, to_light),

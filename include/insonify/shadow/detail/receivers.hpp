@@ -108,7 +108,7 @@ class receiver_cells {
     int column(float at) const { return hold((at - lower_.x) * scale_.x, columns_); }
     int row(float at) const { return hold((at - lower_.y) * scale_.y, rows_); }
     static int hold(float at, int count) {
-        return static_cast<int>((std::min)((std::max)(at, 0.0f), static_cast<float>(count - 1)));
+        return static_cast<int>((std::min)((std::max)(0.0f, at), static_cast<float>(count - 1)));
     }
 
     int columns_ = 1, rows_ = 1;
