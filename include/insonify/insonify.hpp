@@ -137,6 +137,7 @@
 #include <insonify/sonar/display.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/light_pass.hpp>
+#include <insonify/sonar/occlusion.hpp>
 #include <insonify/sonar/ping_echo.hpp>
 #include <insonify/sonar/ping_fan.hpp>
 #include <insonify/sonar/placed_mesh.hpp>

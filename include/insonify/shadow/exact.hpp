@@ -59,7 +59,8 @@ class exact_occlusion {
                     planes_.emplace_back();
                     continue;
                 }
-                add_plane(plane, {glm::dvec2(-1), glm::dvec2(2), side, side}, 0x1p-30, 0x1p-20 * reach, ex);
+                const auto [lower, upper] = seen_part(plane, bounds);
+                add_plane(plane, {lower, upper - lower, side, side}, 0x1p-40, 0x1p-20 * reach, ex);
             }
         }
     }
@@ -195,6 +196,20 @@ class exact_occlusion {
         state.bounds.emplace(c.mesh, *c.grid, transform_direction(state.to_mesh, -frame.to_light()),
                              shared_mesh_grid_error, ex);
     }
+    /// The part of a near light's plane that a box is over.
+    static std::pair<glm::dvec2, glm::dvec2> seen_part(const detail::light_plane& plane, const bounding_box& box) {
+        glm::dvec2 lower(1), upper(-1);
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 p = plane(box.corner(i));
+            if (!(p.z > 0)) return {glm::dvec2(-1), glm::dvec2(1)};
+            for (int axis = 0; axis < 2; ++axis) {
+                lower[axis] = (std::max)(-1.0, (std::min)(lower[axis], p[axis] / p.z));
+                upper[axis] = (std::min)(1.0, (std::max)(upper[axis], p[axis] / p.z));
+            }
+        }
+        return {lower, upper};
+    }
+
     template <executor E>
     void add_plane(const detail::light_plane& plane, detail::plane_tiles tiles, double error, double least_depth,
                    E& ex) {

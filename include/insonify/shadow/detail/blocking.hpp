@@ -24,7 +24,7 @@ class light_rays {
   public:
     /// @param reach  no coordinate of a point that is tested is larger, metres
     /// @throws invalid_input for a position that is not finite, and as light_frame does
-    light_rays(const any_light& light, double reach) : reach_(reach) {
+    light_rays(const any_light& light, double reach) : reach_(reach), light_reach_(reach) {
         if (const auto* parallel = std::get_if<directional_light>(&light)) {
             source_ = light_frame(*parallel).to_light();
         } else {
@@ -33,7 +33,7 @@ class light_rays {
             for (int i = 0; i < 3; ++i) {
                 insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
                                           "finite coordinates");
-                reach_ = (std::max)(reach_, numeric::magnitude(source_[i]));
+                light_reach_ = (std::max)(light_reach_, numeric::magnitude(source_[i]));
             }
         }
     }
@@ -70,14 +70,15 @@ class light_rays {
         const double along = numeric::dot(normal, to_light),
                      behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
         const double sign = is_left ? 1 : -1;
-        const double tolerance = 0x1p-40 * reach_ * size(normal);
-        if (!(sign * along > 0 && sign * behind > tolerance)) return false;
-        return !is_near_ || sign * (along - behind) > tolerance;  // what the light itself touches does not block it
+        const double tolerance = 0x1p-40 * size(normal);
+        if (!(sign * along > 0 && sign * behind > reach_ * tolerance)) return false;
+        // What the light itself touches does not block it.
+        return !is_near_ || sign * (along - behind) > light_reach_ * tolerance;
     }
 
   private:
-    glm::dvec3 source_;  ///< direction, or position
-    double reach_;
+    glm::dvec3 source_;           ///< direction, or position
+    double reach_, light_reach_;  ///< of points, and with the light
     bool is_near_ = false;
 };
 

@@ -1,0 +1,193 @@
+// Which points of a scene a light reaches: built once for a light, tested for many points, without a picture.
+//
+// The casters are those of `render`: the targets, and the seabed sampled around the points and towards the light.
+#pragma once
+
+#include <insonify/seabed/sample.hpp>
+#include <insonify/seabed/tessellate.hpp>
+#include <insonify/shadow/exact.hpp>
+#include <insonify/sonar/labels.hpp>
+#include <insonify/sonar/rig.hpp>
+#include <insonify/sonar/scene.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Where points will be tested, and how finely the seabed is sampled there.
+struct occlusion_bounds {
+    bounding_box box;  ///< around all of the points, in the world; not empty
+    double cell = 0;   ///< metres from one vertex of the seabed to the next; 0: a 512th of the box's longer side
+    double reach = 8;  ///< how far towards the light the seabed is sampled, at most, in lengths of the longer side
+};
+
+/// The light of a rig, in the world.
+inline shadow::any_light light_of(const overhead& rig) {
+    const overhead_geometry view(rig);
+    if (!view.has_near_light())
+        return shadow::directional_light{static_cast<double>(rig.light_azimuth) + static_cast<double>(rig.yaw),
+                                         static_cast<double>(rig.grazing)};
+    const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
+    return shadow::point_light{numeric::product(to_world, view.light_position()) + glm::dvec3(rig.position, 0)};
+}
+
+/// How much light points get, and from what they are shaded.
+struct point_light_shares {
+    std::vector<float> lit;             ///< 0 to 1
+    std::vector<std::uint16_t> shadow;  ///< as in labels::shadow: 0, an instance, or labels::by_seabed
+};
+
+/// The casters of a scene under one light. It holds the targets' meshes; the scene may go.
+/// @param Occlusion  what a shadow policy builds
+template <class Occlusion>
+class scene_occlusion {
+  public:
+    /// See occlusion_of.
+    template <class Shadow, executor E>
+    scene_occlusion(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
+                    const Shadow& policy, E& ex)
+        : centre_((require_box(within), within.box.centre())),
+          shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
+          targets_(s.targets.size()),
+          built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
+
+    /// @param at  in the world, within the bounds
+    template <executor_argument E = serial_executor>
+    point_light_shares test(std::span<const glm::dvec3> at, E&& ex = {}) const {
+        point_light_shares all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
+        bulk_ranges(ex, at.size(), most_points, [&](std::size_t first, std::size_t last) {
+            const std::size_t count = last - first;
+            std::vector<double> x(count), y(count), z(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                x[i] = at[first + i].x - centre_.x;
+                y[i] = at[first + i].y - centre_.y;
+                z[i] = at[first + i].z;
+            }
+            const std::vector<std::uint32_t> none(count, shadow::invalid_id);
+            std::vector<std::uint32_t> caster(count);
+            built_.test(shadow::points{x, y, z, none, none},
+                        shadow::shares{std::span(all.lit).subspan(first, count), caster});
+            for (std::size_t i = 0; i < count; ++i)
+                if (caster[i] != shadow::invalid_id)
+                    all.shadow[first + i] =
+                        caster[i] < targets_ ? static_cast<std::uint16_t>(caster[i] + 1) : labels::by_seabed;
+        });
+        return all;
+    }
+
+  private:
+    static constexpr std::size_t most_points = 16384;
+
+    struct placed {
+        shared_mesh shape;
+        affine placement;  ///< into a frame around the centre of the bounds, over the datum
+    };
+
+    static void require_box(const occlusion_bounds& within) {
+        const glm::dvec3 size = within.box.size();
+        detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
+                        "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
+        detail::require(within.cell >= 0 && numeric::is_finite(within.cell), "occlusion_bounds.cell", within.cell,
+                        "0 metres or more");
+        detail::require(within.reach >= 0 && numeric::is_finite(within.reach), "occlusion_bounds.reach", within.reach,
+                        "0 or more");
+    }
+    affine around_centre(affine to_world) const {
+        to_world.offset -= glm::dvec3(centre_.x, centre_.y, 0);
+        return to_world;
+    }
+    shadow::any_light from_centre(shadow::any_light light) const {
+        if (auto* from_nearby = std::get_if<shadow::point_light>(&light))
+            from_nearby->position -= glm::dvec3(centre_.x, centre_.y, 0);
+        return light;
+    }
+    shadow::point_bounds local(const occlusion_bounds& within) const {
+        const glm::dvec3 away(centre_.x, centre_.y, 0);
+        return {{within.box.lower - away, within.box.upper - away}, 0.5 * cell_of(within)};
+    }
+    static double longer_side(const occlusion_bounds& within) {
+        const glm::dvec3 size = within.box.size();
+        return (std::max)({size.x, size.y, 1e-3 * size.z, 1e-9});
+    }
+    static double cell_of(const occlusion_bounds& within) {
+        return within.cell > 0 ? within.cell : longer_side(within) / 512;
+    }
+
+    std::vector<shadow::caster> casters() const {
+        std::vector<shadow::caster> all;
+        for (const placed& p : shapes_) all.push_back({p.shape, p.placement, p.shape.box(), p.shape.grid()});
+        return all;
+    }
+
+    template <executor E>
+    std::vector<placed> shapes_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
+                                  double radius, E& ex) const {
+        std::vector<placed> all;
+        for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
+        if (std::holds_alternative<seabed::none>(s.seabed)) return all;
+        const auto [first, last] = casting_part(s, light, within, radius);
+        seabed::grid grid = seabed::grid_over(first, last, cell_of(within));
+        grid.band_limited = true;
+        const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);
+        all.push_back({seabed::tessellate(field, ex), around_centre({glm::dmat3(1), glm::dvec3(field.origin, 0)})});
+        return all;
+    }
+
+    /// The ground below the box, and towards the light as far as the bottom may rise into a ray.
+    static std::pair<glm::dvec2, glm::dvec2> casting_part(const scene& s, const shadow::any_light& light,
+                                                          const occlusion_bounds& within, double radius) {
+        const glm::dvec2 lower(within.box.lower), upper(within.box.upper);
+        std::pair<glm::dvec2, glm::dvec2> part{lower - cell_of(within), upper + cell_of(within)};
+        const double longest = within.reach * longer_side(within);
+        const double highest = seabed::prepare(s.seabed).range().highest, rise = highest - within.box.lower.z;
+        if (!(rise > 0)) return part;
+        for (int corner = 0; corner < 4; ++corner) {
+            const glm::dvec2 from((corner & 1) != 0 ? upper.x : lower.x, (corner & 2) != 0 ? upper.y : lower.y);
+            glm::dvec2 way;
+            if (const auto* from_nearby = std::get_if<shadow::point_light>(&light)) {
+                const double up = from_nearby->position.z - within.box.lower.z;
+                way = (up > rise ? rise / up : 1.0) * (glm::dvec2(from_nearby->position) - from);
+            } else {
+                const shadow::light_frame frame(std::get<shadow::directional_light>(light));
+                way = -rise * frame.cot_elevation() * frame.travel();
+            }
+            // Light that is no point comes from a little farther and from beside.
+            const double length = numeric::square_root(way.x * way.x + way.y * way.y);
+            const double wider = length + radius * (length * length / rise + rise);
+            const double aside = (std::min)(longest, wider) - (std::min)(longest, length);
+            const glm::dvec2 end = from + (length > longest ? longest / length : 1.0) * way;
+            for (int axis = 0; axis < 2; ++axis) {
+                part.first[axis] = (std::min)(part.first[axis], end[axis] - aside);
+                part.second[axis] = (std::max)(part.second[axis], end[axis] + aside);
+            }
+        }
+        return part;
+    }
+
+    glm::dvec3 centre_;
+    std::vector<placed> shapes_;  ///< the targets, then the seabed
+    std::size_t targets_;
+    Occlusion built_;
+};
+
+/// Prepares to test which points of a scene a light reaches.
+///
+/// A point on a surface is not shaded by the triangle that it lies on, up to rounding: compute it in doubles, from that
+/// triangle's vertices. The seabed's mesh lies beside its analytic heights by what sampling leaves out.
+/// @param light   in the world; `light_of(rig)` is that of a rig
+/// @param within  where the points are, and how finely the seabed is sampled
+/// @param policy  any shadow policy
+/// @param ex      who runs it; the result is the same for any executor
+/// @throws invalid_input for bounds that are empty or not finite, a light or a policy that cannot be
+template <shadow::casting_policy Shadow = shadow::exact, executor_argument E = serial_executor>
+auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
+                  const Shadow& policy = {}, E&& ex = {}) {
+    using built = decltype(policy.build(std::span<const shadow::caster>(), light, shadow::point_bounds{}, ex));
+    return scene_occlusion<built>(s, light, within, policy, ex);
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,132 @@
+// Which points of a scene are lit, without a picture: closed forms, and what the picture of the same scene says.
+#include <insonify/core/random.hpp>
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/geometry/cube.hpp>
+#include <insonify/geometry/sphere.hpp>
+#include <insonify/shadow/map.hpp>
+#include <insonify/shadow/penumbra.hpp>
+#include <insonify/sonar/occlusion.hpp>
+#include <insonify/sonar/render.hpp>
+
+#include <cmath>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+using namespace in::literals;
+
+namespace {
+
+/// Two cubes in a row under light from the left, somewhere in the world.
+in::scene two_cubes(const glm::dvec3& offset) {
+    in::scene s;
+    s.seabed = in::seabed::none{};
+    s.add(in::cube{}, {.position = offset + glm::dvec3(0, 0, 0.5)}, "cube");
+    s.add(in::cube{}, {.position = offset + glm::dvec3(1.5, 0, 0.5)}, "cube");
+    return s;
+}
+
+/// A level field with one wall across x, 1 m high, over 0.1 m.
+in::seabed::heightfield wall() {
+    in::seabed::heightfield field{.heights = in::image<float>(401, 41), .origin = {-20, -2}, .spacing = 0.1};
+    for (int j = 0; j < 41; ++j) field.heights(100, j) = 1;  // at x = -10
+    return field;
+}
+
+}  // namespace
+
+TEST_CASE("Points behind cubes are in the first one's shadow, to a micrometre, anywhere in the world") {
+    for (const glm::dvec3& offset : {glm::dvec3(0), glm::dvec3(1e5, -3e5, 0)}) {
+        const in::scene s = two_cubes(offset);
+        const in::occlusion_bounds within{{offset + glm::dvec3(-9, -9, -1), offset + glm::dvec3(9, 9, 3)}};
+        const auto shade = in::occlusion_of(s, in::shadow::directional_light{0, 0.25 * in::numeric::pi}, within);
+        const std::vector<glm::dvec3> points{offset + glm::dvec3(-0.6, 0, 0),     offset + glm::dvec3(0.6, 0, 0.89),
+                                             offset + glm::dvec3(0.6, 0, 0.91),   offset + glm::dvec3(3 - 1e-6, 0, 0),
+                                             offset + glm::dvec3(3 + 1e-6, 0, 0), offset + glm::dvec3(2.2, 0, 0)};
+        const auto found = shade.test(points);
+        CHECK(found.lit == std::vector<float>{1, 0, 1, 0, 1, 0});
+        CHECK(found.shadow == std::vector<std::uint16_t>{0, 1, 0, 2, 0, 2});
+    }
+}
+
+TEST_CASE("Light from nearby shades what lies behind, and a structure outlives its scene") {
+    const auto shade = [] {
+        return in::occlusion_of(two_cubes({0, 0, 0}), in::shadow::point_light{{-2, 0, 2}}, {{{-5, -5, -1}, {5, 5, 3}}});
+    }();
+    // Over the first cube's far upper edge (0.5, 0, 1) the ray falls 0.4 for each metre.
+    const double edge = 1 - 0.4 * 0.4;
+    const std::vector<glm::dvec3> points{{0.9, 0, edge - 1e-6}, {0.9, 0, edge + 1e-6}, {-1, 0, 0}, {2.2, 0, 0}};
+    const auto found = shade.test(points);
+    CHECK(found.lit == std::vector<float>{0, 1, 1, 0});
+    CHECK(found.shadow == std::vector<std::uint16_t>{1, 0, 0, 1});
+}
+
+TEST_CASE("A wall of the seabed outside of the bounds shades points as far as it is high") {
+    in::scene s;
+    s.seabed = wall();
+    const double elevation = std::atan(0.1);
+    for (const double tip : {-0.5, 0.5}) {
+        const in::occlusion_bounds within{{{-1, -1, -0.2}, {1, 1, 0.5}}, 0.1};
+        const auto shade = in::occlusion_of(s, in::shadow::directional_light{0, elevation}, within);
+        const std::vector<glm::dvec3> points{{tip, 0.3, 1e-3}};
+        const auto found = shade.test(points);
+        CAPTURE(tip);
+        CHECK(found.shadow[0] == (tip < 0 ? in::labels::by_seabed : in::labels::is_lit));
+    }
+    // With no reach beyond the bounds the wall is not there.
+    const auto blind =
+        in::occlusion_of(s, in::shadow::directional_light{0, elevation}, {{{-1, -1, -0.2}, {1, 1, 0.5}}, 0.1, 0});
+    CHECK(blind.test(std::vector<glm::dvec3>{{-0.5, 0.3, 1e-3}}).lit[0] == 1);
+}
+
+TEST_CASE("Points of a level bottom are lit as its picture's pixels are, under a rig that is moved and turned") {
+    for (const float distance : {std::numeric_limits<float>::infinity(), 7.0f}) {
+        in::overhead rig{.position = {300, -200},
+                         .altitude = 4,
+                         .yaw = 0.6f,
+                         .field_of_view = 90_deg,
+                         .size = {100, 100},
+                         .grazing = 20_deg,
+                         .light_azimuth = 0.3f};
+        rig.light_distance = distance;
+        in::scene s = two_cubes({300.5, -199.6, 0});
+        s.add(in::sphere{.radius = 0.4f}, {.position = {299, -201, 0.4}}, "ball");
+        s.seabed = in::seabed::flat{.surface = {.rms = 0}};
+        in::render_options<> options;
+        options.subpixel_bits = 16;
+        const auto picture = in::render(s, rig, options);
+        const in::overhead_geometry view(rig);
+        std::vector<glm::dvec3> points;
+        std::vector<std::uint16_t> expected;
+        for (int y = 0; y < 100; ++y)
+            for (int x = 0; x < 100; ++x) {
+                if (picture.labels.instance(x, y) != in::labels::no_instance) continue;
+                const glm::dvec3 down = view.eye() + 4.0 * view.ray(x, y);
+                const double cosine = std::cos(0.6f), sine = std::sin(0.6f);
+                points.push_back({300 + down.x * cosine - down.y * sine, -200 + down.x * sine + down.y * cosine, 0});
+                expected.push_back(picture.labels.shadow(x, y));
+            }
+        const auto shade = in::occlusion_of(s, in::light_of(rig), {{{290, -210, -0.5}, {310, -190, 0.5}}, 0.2});
+        in::thread_pool pool(3);
+        const auto found = shade.test(points, pool);
+        CHECK(found.shadow == expected);
+        CHECK(found.lit == shade.test(points).lit);
+        CHECK(std::count(expected.begin(), expected.end(), 1) > 20);
+    }
+}
+
+TEST_CASE("Any policy tests points, and bounds that cannot be are refused") {
+    const in::scene s = two_cubes({0, 0, 0});
+    const in::shadow::directional_light light{0, 0.25 * in::numeric::pi};
+    const in::occlusion_bounds within{{{-9, -9, -1}, {9, 9, 3}}};
+    const std::vector<glm::dvec3> points{{-0.6, 0, 0}, {2.2, 0, 0}, {2.9, 0, 0}, {3.1, 0, 0}, {3, 0, 0}};
+    const auto hard = in::occlusion_of(s, light, within, in::shadow::map{}).test(points);
+    CHECK((hard.lit[0] == 1 && hard.lit[1] == 0 && hard.lit[2] == 0 && hard.lit[3] == 1));
+    CHECK(hard.shadow[2] == 2);
+    const auto soft = in::occlusion_of(s, light, within, in::shadow::penumbra{.diameter = 0.05f}).test(points);
+    CHECK((soft.lit[0] == 1 && soft.lit[1] == 0 && soft.lit[3] == 1));
+    CHECK((soft.lit[4] > 0.3f && soft.lit[4] < 0.7f));
+    CHECK_THROWS_AS(in::occlusion_of(s, light, {}), in::invalid_input);
+    CHECK_THROWS_WITH(in::occlusion_of(s, in::shadow::point_light{{0, 0, 5}}, within, in::shadow::pcf{}),
+                      ContainsSubstring("overhead.light_distance is 5"));
+}
