@@ -5993,10 +5993,11 @@ INSONIFY_ARITHMETIC_END
 // Whether a triangle blocks the light of a point, decided in doubles: the rule that everything faster has to obey.
 //
 // A triangle blocks a point's ray towards the light if the ray passes through it, edges included, and the point lies
-// behind it by more than rounding can have moved either (2^-40 of the scene's size). There is no bias. A ray passes an
-// edge on its left if toward . (a x b) is not negative, over the edge's ends as seen from the point; for the triangle
-// on the other side the ends change places, which changes the sign of each rounded product and of the sum and nothing
-// else, and a zero counts for both: no light leaks between triangles that share an edge.
+// behind it by more than rounding can have moved either (2^-40 of the scene's size). There is no bias. Corners are
+// sheared until the ray is upright; then it passes an edge on its left if the edge's ends, as seen from the point, make
+// a determinant that is not negative. For the triangle on the other side the ends change places, which changes the sign
+// of each rounded product and of the sum and nothing else, and a zero counts for both: no light leaks between triangles
+// that share an edge.
 //
 // Based on: Sven Woop, Carsten Benthin, Ingo Wald. Watertight Ray/Triangle Intersection. JCGT 2, 2013.
 
@@ -6010,13 +6011,18 @@ namespace shadow::detail {
 class light_rays {
   public:
     /// @param reach  no coordinate of a point that is tested is larger, metres
-    light_rays(const any_light& light, double reach) : reach_(reach) {
+    /// @throws invalid_input for a position that is not finite, and as light_frame does
+    light_rays(const any_light& light, double reach) : reach_(reach), light_reach_(reach) {
         if (const auto* parallel = std::get_if<directional_light>(&light)) {
             source_ = light_frame(*parallel).to_light();
         } else {
             source_ = std::get<point_light>(light).position;
             is_near_ = true;
-            for (int i = 0; i < 3; ++i) reach_ = (std::max)(reach_, numeric::magnitude(source_[i]));
+            for (int i = 0; i < 3; ++i) {
+                insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
+                                          "finite coordinates");
+                light_reach_ = (std::max)(light_reach_, numeric::magnitude(source_[i]));
+            }
         }
     }
 
@@ -6027,28 +6033,40 @@ class light_rays {
     bool are_blocked(const glm::dvec3& corner_a, const glm::dvec3& corner_b, const glm::dvec3& corner_c,
                      const glm::dvec3& from) const {
         const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
-        const double bc = numeric::dot(to_light, numeric::cross(b, c));
-        const double ca = numeric::dot(to_light, numeric::cross(c, a));
-        const double ab = numeric::dot(to_light, numeric::cross(a, b));
+        // The corners as the ray sees them, along the two axes that it follows less: one rounding for each corner.
+        const glm::dvec3 way{numeric::magnitude(to_light.x), numeric::magnitude(to_light.y),
+                             numeric::magnitude(to_light.z)};
+        const int axis = way.x >= way.y ? (way.x >= way.z ? 0 : 2) : (way.y >= way.z ? 1 : 2);
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const double shear_u = to_light[u] / to_light[axis], shear_v = to_light[v] / to_light[axis];
+        const auto across = [&](const glm::dvec3& p) {
+            return glm::dvec2(p[u] - shear_u * p[axis], p[v] - shear_v * p[axis]);
+        };
+        const glm::dvec2 a2 = across(a), b2 = across(b), c2 = across(c);
+        const double direction = to_light[axis] < 0 ? -1 : 1;
+        const double bc = direction * (b2.x * c2.y - b2.y * c2.x);
+        const double ca = direction * (c2.x * a2.y - c2.y * a2.x);
+        const double ab = direction * (a2.x * b2.y - a2.y * b2.x);
         const bool is_left = bc >= 0 && ca >= 0 && ab >= 0, is_right = bc <= 0 && ca <= 0 && ab <= 0;
         if (!is_left && !is_right) return false;
         const glm::dvec3 normal = numeric::cross(b - a, c - a);
         // From the corner that is nearest: another may lie so far off that its distance rounds away the point's.
-        const auto size = [](const glm::dvec3& v) {
-            return numeric::magnitude(v.x) + numeric::magnitude(v.y) + numeric::magnitude(v.z);
+        const auto size = [](const glm::dvec3& d) {
+            return numeric::magnitude(d.x) + numeric::magnitude(d.y) + numeric::magnitude(d.z);
         };
         const glm::dvec3& some = size(a) <= size(b) ? a : b;
         const double along = numeric::dot(normal, to_light),
                      behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
         const double sign = is_left ? 1 : -1;
-        const double tolerance = 0x1p-40 * reach_ * size(normal);
-        if (!(sign * along > 0 && sign * behind > tolerance)) return false;
-        return !is_near_ || sign * (along - behind) > tolerance;  // what the light itself touches does not block it
+        const double tolerance = 0x1p-40 * size(normal);
+        if (!(sign * along > 0 && sign * behind > reach_ * tolerance)) return false;
+        // What the light itself touches does not block it.
+        return !is_near_ || sign * (along - behind) > light_reach_ * tolerance;
     }
 
   private:
-    glm::dvec3 source_;  ///< direction, or position
-    double reach_;
+    glm::dvec3 source_;           ///< direction, or position
+    double reach_, light_reach_;  ///< of points, and with the light
     bool is_near_ = false;
 };
 
@@ -6231,7 +6249,7 @@ struct horizon_kernel {
                 const ints is_cell = ints(a > grid_heights::nothing) & ints(b > grid_heights::nothing) &
                                      ints(c > grid_heights::nothing) & ints(d > grid_heights::nothing);
                 const ints up = ints(lower > margin) & ints(upper > margin);
-                rises = rises & (up | ~is_cell);
+                rises = rises & ints(up | ints(is_cell == 0));
             });
             // Where it does not rise, what lies in these cells counts for the points in them and after.
             floats next = highest;
@@ -6708,7 +6726,7 @@ class receiver_cells {
     int column(float at) const { return hold((at - lower_.x) * scale_.x, columns_); }
     int row(float at) const { return hold((at - lower_.y) * scale_.y, rows_); }
     static int hold(float at, int count) {
-        return static_cast<int>((std::min)((std::max)(at, 0.0f), static_cast<float>(count - 1)));
+        return static_cast<int>((std::min)((std::max)(0.0f, at), static_cast<float>(count - 1)));
     }
 
     int columns_ = 1, rows_ = 1;
@@ -6972,7 +6990,8 @@ class exact_occlusion {
                     planes_.emplace_back();
                     continue;
                 }
-                add_plane(plane, {glm::dvec2(-1), glm::dvec2(2), side, side}, 0x1p-30, 0x1p-20 * reach, ex);
+                const auto [lower, upper] = seen_part(plane, bounds);
+                add_plane(plane, {lower, upper - lower, side, side}, 0x1p-40, 0x1p-20 * reach, ex);
             }
         }
     }
@@ -7108,6 +7127,20 @@ class exact_occlusion {
         state.bounds.emplace(c.mesh, *c.grid, transform_direction(state.to_mesh, -frame.to_light()),
                              shared_mesh_grid_error, ex);
     }
+    /// The part of a near light's plane that a box is over.
+    static std::pair<glm::dvec2, glm::dvec2> seen_part(const detail::light_plane& plane, const bounding_box& box) {
+        glm::dvec2 lower(1), upper(-1);
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 p = plane(box.corner(i));
+            if (!(p.z > 0)) return {glm::dvec2(-1), glm::dvec2(1)};
+            for (int axis = 0; axis < 2; ++axis) {
+                lower[axis] = (std::max)(-1.0, (std::min)(lower[axis], p[axis] / p.z));
+                upper[axis] = (std::min)(1.0, (std::max)(upper[axis], p[axis] / p.z));
+            }
+        }
+        return {lower, upper};
+    }
+
     template <executor E>
     void add_plane(const detail::light_plane& plane, detail::plane_tiles tiles, double error, double least_depth,
                    E& ex) {
@@ -7193,7 +7226,7 @@ class exact_occlusion {
                   row = hold((seen.y - state.tiles.lower.y) * state.scale.y, state.tiles.rows);
         return static_cast<std::size_t>(row * state.tiles.columns + column);
     }
-    static int hold(double at, int count) { return static_cast<int>((std::min)((std::max)(at, 0.0), count - 1.0)); }
+    static int hold(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
 
     void test_tile(std::size_t number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
                    std::span<const points> at, std::span<const shares> into) const {
@@ -19869,8 +19902,8 @@ namespace shadow {
 
 /// A surface point in the light's frame, and how the plane of its facet rises there.
 struct receiver_plane {
-    /// Below this cosine between normal and light a facet counts as facing away: the last 2 %, where the slope goes to
-    /// infinity and every map leaks.
+    /// A facet that gets less than this share of the light on level ground counts as facing away: the last 2 %, where
+    /// the slope goes to infinity and every map leaks.
     static constexpr double grazed = 0.02;
 
     glm::dvec3 uvz{};
@@ -20545,6 +20578,193 @@ struct display {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/occlusion.hpp --------------------------------------------------------------
+// Which points of a scene a light reaches: built once for a light, tested for many points, without a picture.
+//
+// The casters are those of `render`: the targets, and the seabed sampled around the points and towards the light.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Where points will be tested, and how finely the seabed is sampled there.
+struct occlusion_bounds {
+    bounding_box box;  ///< around all of the points, in the world; not empty
+    double cell = 0;   ///< metres from one vertex of the seabed to the next; 0: a 512th of the box's longer side
+    double reach = 8;  ///< how far towards the light the seabed is sampled, at most, in lengths of the longer side
+};
+
+/// The light of a rig, in the world.
+inline shadow::any_light light_of(const overhead& rig) {
+    const overhead_geometry view(rig);
+    if (!view.has_near_light())
+        return shadow::directional_light{static_cast<double>(rig.light_azimuth) + static_cast<double>(rig.yaw),
+                                         static_cast<double>(rig.grazing)};
+    const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
+    return shadow::point_light{numeric::product(to_world, view.light_position()) + glm::dvec3(rig.position, 0)};
+}
+
+/// How much light points get, and from what they are shaded.
+struct point_light_shares {
+    std::vector<float> lit;             ///< 0 to 1
+    std::vector<std::uint16_t> shadow;  ///< as in labels::shadow: 0, an instance, or labels::by_seabed
+};
+
+/// The casters of a scene under one light. It holds the targets' meshes; the scene may go.
+/// @param Occlusion  what a shadow policy builds
+template <class Occlusion>
+class scene_occlusion {
+  public:
+    /// See occlusion_of.
+    template <class Shadow, executor E>
+    scene_occlusion(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
+                    const Shadow& policy, E& ex)
+        : centre_((require_box(within), within.box.centre())),
+          shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
+          targets_(s.targets.size()),
+          built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
+
+    /// @param at  in the world, within the bounds
+    template <executor_argument E = serial_executor>
+    point_light_shares test(std::span<const glm::dvec3> at, E&& ex = {}) const {
+        point_light_shares all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
+        bulk_ranges(ex, at.size(), most_points, [&](std::size_t first, std::size_t last) {
+            const std::size_t count = last - first;
+            std::vector<double> x(count), y(count), z(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                x[i] = at[first + i].x - centre_.x;
+                y[i] = at[first + i].y - centre_.y;
+                z[i] = at[first + i].z;
+            }
+            const std::vector<std::uint32_t> none(count, shadow::invalid_id);
+            std::vector<std::uint32_t> caster(count);
+            built_.test(shadow::points{x, y, z, none, none},
+                        shadow::shares{std::span(all.lit).subspan(first, count), caster});
+            for (std::size_t i = 0; i < count; ++i)
+                if (caster[i] != shadow::invalid_id)
+                    all.shadow[first + i] =
+                        caster[i] < targets_ ? static_cast<std::uint16_t>(caster[i] + 1) : labels::by_seabed;
+        });
+        return all;
+    }
+
+  private:
+    static constexpr std::size_t most_points = 16384;
+
+    struct placed {
+        shared_mesh shape;
+        affine placement;  ///< into a frame around the centre of the bounds, over the datum
+    };
+
+    static void require_box(const occlusion_bounds& within) {
+        const glm::dvec3 size = within.box.size();
+        detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
+                        "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
+        detail::require(within.cell >= 0 && numeric::is_finite(within.cell), "occlusion_bounds.cell", within.cell,
+                        "0 metres or more");
+        detail::require(within.reach >= 0 && numeric::is_finite(within.reach), "occlusion_bounds.reach", within.reach,
+                        "0 or more");
+    }
+    affine around_centre(affine to_world) const {
+        to_world.offset -= glm::dvec3(centre_.x, centre_.y, 0);
+        return to_world;
+    }
+    shadow::any_light from_centre(shadow::any_light light) const {
+        if (auto* from_nearby = std::get_if<shadow::point_light>(&light))
+            from_nearby->position -= glm::dvec3(centre_.x, centre_.y, 0);
+        return light;
+    }
+    shadow::point_bounds local(const occlusion_bounds& within) const {
+        const glm::dvec3 away(centre_.x, centre_.y, 0);
+        return {{within.box.lower - away, within.box.upper - away}, 0.5 * cell_of(within)};
+    }
+    static double longer_side(const occlusion_bounds& within) {
+        const glm::dvec3 size = within.box.size();
+        return (std::max)({size.x, size.y, 1e-3 * size.z, 1e-9});
+    }
+    static double cell_of(const occlusion_bounds& within) {
+        return within.cell > 0 ? within.cell : longer_side(within) / 512;
+    }
+
+    std::vector<shadow::caster> casters() const {
+        std::vector<shadow::caster> all;
+        for (const placed& p : shapes_) all.push_back({p.shape, p.placement, p.shape.box(), p.shape.grid()});
+        return all;
+    }
+
+    template <executor E>
+    std::vector<placed> shapes_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
+                                  double radius, E& ex) const {
+        std::vector<placed> all;
+        for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
+        if (std::holds_alternative<seabed::none>(s.seabed)) return all;
+        const auto [first, last] = casting_part(s, light, within, radius);
+        seabed::grid grid = seabed::grid_over(first, last, cell_of(within));
+        grid.band_limited = true;
+        const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);
+        all.push_back({seabed::tessellate(field, ex), around_centre({glm::dmat3(1), glm::dvec3(field.origin, 0)})});
+        return all;
+    }
+
+    /// The ground below the box, and towards the light as far as the bottom may rise into a ray.
+    static std::pair<glm::dvec2, glm::dvec2> casting_part(const scene& s, const shadow::any_light& light,
+                                                          const occlusion_bounds& within, double radius) {
+        const glm::dvec2 lower(within.box.lower), upper(within.box.upper);
+        std::pair<glm::dvec2, glm::dvec2> part{lower - cell_of(within), upper + cell_of(within)};
+        const double longest = within.reach * longer_side(within);
+        const double highest = seabed::prepare(s.seabed).range().highest, rise = highest - within.box.lower.z;
+        if (!(rise > 0)) return part;
+        for (int corner = 0; corner < 4; ++corner) {
+            const glm::dvec2 from((corner & 1) != 0 ? upper.x : lower.x, (corner & 2) != 0 ? upper.y : lower.y);
+            glm::dvec2 way;
+            if (const auto* from_nearby = std::get_if<shadow::point_light>(&light)) {
+                const double up = from_nearby->position.z - within.box.lower.z;
+                way = (up > rise ? rise / up : 1.0) * (glm::dvec2(from_nearby->position) - from);
+            } else {
+                const shadow::light_frame frame(std::get<shadow::directional_light>(light));
+                way = -rise * frame.cot_elevation() * frame.travel();
+            }
+            // Light that is no point comes from a little farther and from beside.
+            const double length = numeric::square_root(way.x * way.x + way.y * way.y);
+            const double wider = length + radius * (length * length / rise + rise);
+            const double aside = (std::min)(longest, wider) - (std::min)(longest, length);
+            const glm::dvec2 end = from + (length > longest ? longest / length : 1.0) * way;
+            for (int axis = 0; axis < 2; ++axis) {
+                part.first[axis] = (std::min)(part.first[axis], end[axis] - aside);
+                part.second[axis] = (std::max)(part.second[axis], end[axis] + aside);
+            }
+        }
+        return part;
+    }
+
+    glm::dvec3 centre_;
+    std::vector<placed> shapes_;  ///< the targets, then the seabed
+    std::size_t targets_;
+    Occlusion built_;
+};
+
+/// Prepares to test which points of a scene a light reaches.
+///
+/// A point on a surface is not shaded by the triangle that it lies on, up to rounding: compute it in doubles, from that
+/// triangle's vertices. The seabed's mesh lies beside its analytic heights by what sampling leaves out.
+/// @param light   in the world; `light_of(rig)` is that of a rig
+/// @param within  where the points are, and how finely the seabed is sampled
+/// @param policy  any shadow policy
+/// @param ex      who runs it; the result is the same for any executor
+/// @throws invalid_input for bounds that are empty or not finite, a light or a policy that cannot be
+template <shadow::casting_policy Shadow = shadow::exact, executor_argument E = serial_executor>
+auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
+                  const Shadow& policy = {}, E&& ex = {}) {
+    using built = decltype(policy.build(std::span<const shadow::caster>(), light, shadow::point_bounds{}, ex));
+    return scene_occlusion<built>(s, light, within, policy, ex);
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 

@@ -19,8 +19,8 @@ namespace shadow {
 
 /// A surface point in the light's frame, and how the plane of its facet rises there.
 struct receiver_plane {
-    /// Below this cosine between normal and light a facet counts as facing away: the last 2 %, where the slope goes to
-    /// infinity and every map leaks.
+    /// A facet that gets less than this share of the light on level ground counts as facing away: the last 2 %, where
+    /// the slope goes to infinity and every map leaks.
     static constexpr double grazed = 0.02;
 
     glm::dvec3 uvz{};

@@ -1,0 +1,214 @@
+// What all shadow policies have in common, and what map, pcf and penumbra say of single points.
+#include <insonify/geometry/cube.hpp>
+#include <insonify/shadow/map.hpp>
+#include <insonify/shadow/penumbra.hpp>
+
+#include "../../catch.hpp"
+#include "lit_mesh.hpp"
+
+namespace in = insonify;
+namespace shadow = insonify::shadow;
+using lit::caster_of, lit::parallel, lit::radians;
+
+namespace {
+
+in::affine at(const glm::dvec3& place) {
+    return {glm::dmat3(1), place};
+}
+
+template <shadow::casting_policy Policy>
+lit::answers ask(const Policy& policy, std::span<const shadow::caster> casters, const shadow::any_light& light,
+                 const shadow::points& points, const shadow::point_bounds& bounds) {
+    in::serial_executor ex;
+    return lit::test(policy.build(casters, light, bounds, ex), points);
+}
+
+const in::bounding_box around{{-4, -4, -1}, {8, 4, 2}};
+constexpr std::uint32_t none = shadow::invalid_id;
+
+/// A level or tilted sheet of two triangles.
+in::mesh sheet(double rise, bool is_turned = false) {
+    in::mesh m{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {}, {{0, 1, 2}, {0, 2, 3}}};
+    for (glm::vec3& p : m.positions) p.z = static_cast<float>(rise) * p.x;
+    if (is_turned)
+        for (glm::uvec3& t : m.triangles) std::swap(t.y, t.z);
+    return m;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("Every policy names the lowest-numbered caster that blocks a point, of those that matter to it", "",
+                   shadow::map, shadow::pcf, shadow::exact, shadow::penumbra) {
+    const in::mesh cube = to_mesh(in::cube{});
+    // In a row along the light, the second nearest to it.
+    const shadow::caster casters[] = {caster_of(cube, at({1.5, 0, 0.5})), caster_of(cube, at({0, 0, 0.5})),
+                                      caster_of(cube, at({0, 2, 0.5}))};
+    const lit::point_list list(std::vector<glm::dvec3>{
+        {2.2, 0, 0.1}, {0.7, 0, 0.2}, {-0.7, 0, 0}, {0.8, 2, 0.1}, {2.6, 2.9, 0.1}, {2.4, 0, 0.4}});
+    const shadow::point_bounds bounds{around, 0.02};
+    const auto found = ask(TestType{}, casters, parallel(0, 30), list, bounds);
+    CHECK(found.lit == std::vector<float>{0, 0, 1, 0, 1, 0});
+    CHECK(found.caster == std::vector<std::uint32_t>{0, 1, none, 2, none, 0});
+
+    shadow::points few = list;
+    few.casters = 2;
+    const auto of_two = ask(TestType{}, casters, parallel(0, 30), few, bounds);
+    CHECK(of_two.caster == std::vector<std::uint32_t>{0, 1, none, none, none, 0});
+    few.casters = 0;
+    CHECK(ask(TestType{}, casters, parallel(0, 30), few, bounds).caster == std::vector<std::uint32_t>(6, none));
+    CHECK(ask(TestType{}, {}, parallel(0, 30), list, bounds).lit == std::vector<float>(6, 1.0f));
+}
+
+TEMPLATE_TEST_CASE("No policy shades a sheet by itself, whichever way its triangles are wound", "", shadow::map,
+                   shadow::pcf, shadow::exact, shadow::penumbra) {
+    for (const bool is_turned : {false, true})
+        for (const double elevation : {3.0, 20.0, 70.0})
+            for (const double rise : {-0.03, 0.0, 0.5, 2.0}) {
+                const in::mesh m = sheet(rise, is_turned);
+                const lit::mesh source(sheet(rise), parallel(30, elevation));
+                lit::point_list points;
+                const lit::point_list facing = source.facing(200, 3);
+                for (std::size_t i = 0; i < facing.size(); ++i)
+                    if (std::abs(facing[i].x) < 0.95 && std::abs(facing[i].y) < 0.95)
+                        points.add(facing[i], 0, facing.triangle(i));
+                const shadow::caster casters[] = {caster_of(m)};
+                CAPTURE(is_turned, elevation, rise);
+                const auto found = ask(TestType{}, casters, parallel(30, elevation), points, {points.box(), 0.02});
+                CHECK(found.lit == std::vector<float>(points.size(), 1.0f));
+                CHECK(found.caster == std::vector<std::uint32_t>(points.size(), none));
+            }
+}
+
+TEST_CASE("Under maps a grazed facet is dark by itself, or by a caster of a lower number") {
+    // Inclined to the light by 0.3 degrees: 1.5 % of what level ground gets.
+    const double rise = -std::tan(radians(19.7));
+    const in::mesh m = sheet(rise), cube = to_mesh(in::cube{});
+    lit::point_list points;
+    points.add({0.2, 0.1, 0.2 * rise}, 1, 0);
+    lit::point_list own;
+    own.add(points[0], 0, 0);
+    const shadow::caster apart[] = {caster_of(cube, at({-3, 3, 1})), caster_of(m), caster_of(cube, at({-1.7, 0, 1}))};
+    const shadow::caster before[] = {apart[2], apart[1], apart[0]};
+    for (const auto& found : {ask(shadow::map{}, apart, parallel(0, 20), points, {around, 0.02}),
+                              ask(shadow::pcf{}, apart, parallel(0, 20), points, {around, 0.02})}) {
+        CHECK(found.lit[0] == 0);
+        CHECK(found.caster[0] == 1);
+    }
+    CHECK(ask(shadow::map{}, before, parallel(0, 20), points, {around, 0.02}).caster[0] == 0);
+    CHECK(ask(shadow::exact{}, {&apart[1], 1}, parallel(0, 20), own, {around, 0.02}).lit[0] == 1);
+}
+
+TEST_CASE("The edge of a map's shadow is off by half a texel of the points' spacing, or of a 2048th of their extent") {
+    const in::mesh cube = to_mesh(in::cube{});
+    const shadow::caster casters[] = {caster_of(cube, at({0, 0, 0.5}))};
+    for (const double spacing : {0.3, 0.06, 0.0}) {
+        lit::point_list points;
+        for (int i = 0; i < 2000; ++i) points.add({0.6 + 0.001 * i, 0.0123, 0});
+        const auto found = ask(shadow::map{}, casters, parallel(0, 45), points, {around, spacing});
+        const auto dark = std::count(found.lit.begin(), found.lit.end(), 0.0f);
+        const double texel = spacing > 0 ? spacing / 1.5 : 12.0 / 2048 / 1.5;
+        CAPTURE(spacing);
+        CHECK(std::abs(0.6 + 0.001 * static_cast<double>(dark) - 1.5) <= 0.5 * texel + 0.002);
+    }
+}
+
+TEST_CASE("pcf names the first caster that takes more than half of the light") {
+    const in::mesh cube = to_mesh(in::cube{});
+    const shadow::caster casters[] = {caster_of(cube, at({0, 0, 0.5}))};
+    lit::point_list points;
+    for (int i = 0; i < 400; ++i) points.add({1.3 + 0.001 * i, 0.0123, 0});
+    const auto found = ask(shadow::pcf{.radius = 3}, casters, parallel(0, 45), points, {around, 0.05});
+    int soft = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        CHECK((found.caster[i] == 0) == (found.lit[i] < 0.5f));
+        soft += found.lit[i] > 0 && found.lit[i] < 1;
+    }
+    CHECK(soft > 50);
+}
+
+TEST_CASE("A penumbra's points get the share of the disc that they see, parallel or near") {
+    // The far edge of a wide wall cuts the disc through its middle at the edge of the hard shadow.
+    const in::mesh wall = in::transformed(to_mesh(in::cube{.size = {1, 30, 1}}), at({0, 0, 0.5}));
+    const shadow::caster casters[] = {caster_of(wall)};
+    const double diameter = radians(4), radius = std::tan(diameter / 2);
+    const shadow::penumbra how{.diameter = static_cast<float>(diameter), .samples = 400};
+    const auto share = [&](double cut) {  // of a disc above a level chord
+        return cut >= 1 ? 0.0 : cut <= -1 ? 1.0 : (std::acos(cut) - cut * std::sqrt(1 - cut * cut)) / in::numeric::pi;
+    };
+    for (const double behind : {1.6, 1.65, 1.7, 1.732, 1.75, 1.8, 1.85}) {
+        lit::point_list point;
+        point.add({0.5 + behind, 0, 0});
+        const double cut = std::tan(std::atan(1 / behind) - radians(30)) / radius;
+        const auto found = ask(how, casters, parallel(0, 30), point, {around});
+        CAPTURE(behind, cut);
+        CHECK(static_cast<double>(found.lit[0]) == Approx(share(cut)).margin(0.01));
+        CHECK((found.caster[0] == 0) == (cut > 0));
+    }
+    // From nearby: a disc of this radius around (-6, 0, 6), which faces the origin.
+    const glm::dvec3 lamp(-6, 0, 6);
+    for (const double x : {1.3, 1.4, 1.5, 1.6}) {
+        const glm::dvec3 p(x, 0, 0), edge(0.5, 0, 1), up = glm::normalize(glm::dvec3(6, 0, 6));
+        // Where the plane through the point and the edge meets the disc, along its upward radius.
+        const glm::dvec3 normal = glm::cross(edge - p, glm::dvec3(0, 1, 0));
+        const double cut = glm::dot(normal, p - lamp) / glm::dot(normal, up) / (glm::length(lamp) * radius);
+        lit::point_list point;
+        point.add(p);
+        CAPTURE(x, cut);
+        CHECK(static_cast<double>(ask(how, casters, shadow::point_light{lamp}, point, {around}).lit[0]) ==
+              Approx(share(cut)).margin(0.02));
+    }
+}
+
+TEST_CASE("Samples of a penumbra behind a facet's plane do not light it") {
+    const in::mesh m = sheet(-std::tan(radians(29.5)));  // half a degree to the light at 30 degrees
+    const shadow::caster casters[] = {caster_of(m)};
+    lit::point_list point;
+    point.add({0.1, 0.05, -0.1 * std::tan(radians(29.5))}, 0, 0);
+    const shadow::penumbra how{.diameter = static_cast<float>(radians(4)), .samples = 400};
+    const double cut = -std::tan(radians(0.5)) / std::tan(radians(2));
+    const double share = (std::acos(cut) - cut * std::sqrt(1 - cut * cut)) / in::numeric::pi;
+    CHECK(static_cast<double>(ask(how, casters, parallel(0, 30), point, {around}).lit[0]) ==
+          Approx(share).margin(0.01));
+}
+
+TEST_CASE("A penumbra is the same point by point and for many batches at once") {
+    const in::mesh cube = to_mesh(in::cube{});
+    const shadow::caster casters[] = {caster_of(cube, at({0, 0, 0.5}))};
+    in::random_sequence random(5);
+    lit::point_list points;
+    for (int i = 0; i < 3000; ++i) points.add({random.uniform(-1, 4), random.uniform(-2, 2), 0});
+    in::serial_executor ex;
+    const auto built = shadow::penumbra{.diameter = 0.2f}.build(std::span<const shadow::caster>(casters),
+                                                                parallel(20, 30), {around}, ex);
+    const lit::answers one = lit::test(built, points);
+    lit::answers other(points.size());
+    const shadow::points all = points;
+    const shadow::shares into = other;
+    const shadow::points at[] = {
+        {all.x.first(1000), all.y.first(1000), all.z.first(1000), all.mesh.first(1000), all.triangle.first(1000)},
+        {all.x.subspan(1000), all.y.subspan(1000), all.z.subspan(1000), all.mesh.subspan(1000),
+         all.triangle.subspan(1000)}};
+    const shadow::shares to[] = {{into.lit.first(1000), into.caster.first(1000)},
+                                 {into.lit.subspan(1000), into.caster.subspan(1000)}};
+    built.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(to), ex);
+    CHECK(one.lit == other.lit);
+    CHECK(one.caster == other.caster);
+    CHECK(std::count_if(one.lit.begin(), one.lit.end(), [](float share) { return share > 0 && share < 1; }) > 100);
+}
+
+TEST_CASE("Parameters that cannot be are refused by name, and so is light from nearby by maps") {
+    const shadow::caster casters[] = {caster_of(sheet(0))};
+    const auto build = [&](const auto& policy, const shadow::any_light& light) {
+        in::serial_executor ex;
+        policy.build(std::span<const shadow::caster>(casters), light, {around, 0.1}, ex);
+    };
+    const shadow::any_light light = parallel(0, 30);
+    CHECK_THROWS_WITH(build(shadow::map{.texels_per_pixel = 0}, light), ContainsSubstring("texels_per_pixel is 0"));
+    CHECK_THROWS_WITH(build(shadow::map{.largest = 0}, light), ContainsSubstring("largest is 0"));
+    CHECK_THROWS_WITH(build(shadow::pcf{.radius = 9}, light), ContainsSubstring("radius is 9"));
+    CHECK_THROWS_WITH(build(shadow::penumbra{.diameter = 2}, light), ContainsSubstring("diameter is 2"));
+    CHECK_THROWS_WITH(build(shadow::penumbra{.samples = 0}, light), ContainsSubstring("samples is 0"));
+    const shadow::any_light lamp = shadow::point_light{{0, 0, 3}};
+    CHECK_THROWS_WITH(build(shadow::map{}, lamp), ContainsSubstring("overhead.light_distance is 3, expected infinite"));
+    CHECK_THROWS_WITH(build(shadow::pcf{}, lamp), ContainsSubstring("shadow::penumbra"));
+}
