@@ -7014,7 +7014,7 @@ class exact_occlusion {
             if (near_light_) continue;
             const plane_state& state = planes_.front();
             const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(p))];
-            if (occupant == no_caster) {
+            if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
                 into.lit[i] = 1;
             } else if (occupant == mesh && known != detail::horizon_bounds::answer::unknown) {
                 const bool is_dark = known == detail::horizon_bounds::answer::dark;
@@ -7204,7 +7204,8 @@ class exact_occlusion {
                 if (near_light_) seen = detail::light_plane::seen(seen);
                 const glm::dvec2 from = glm::dvec2(seen) - state.tiles.lower;
                 const std::size_t tile = tile_of(state, seen);
-                if (state.occupant[tile] == no_caster) continue;
+                const std::uint32_t occupant = state.occupant[tile];
+                if (occupant == no_caster || (occupant != several_casters && occupant >= some.casters)) continue;
                 found[count] = {static_cast<float>(from.x),
                                 static_cast<float>(from.y),
                                 static_cast<float>(seen.z),
