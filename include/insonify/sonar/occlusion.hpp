@@ -116,7 +116,7 @@ class scene_occlusion {
 
     std::vector<shadow::caster> casters() const {
         std::vector<shadow::caster> all;
-        for (const placed& p : shapes_) all.push_back({p.shape, p.placement, p.shape.box(), p.shape.grid()});
+        for (const placed& p : shapes_) all.push_back({p.shape, p.placement, p.shape.box()});
         return all;
     }
 
