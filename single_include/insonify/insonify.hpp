@@ -6420,8 +6420,9 @@ struct alignas(16) plane_vertex {
     float u, v, height;
     float state;  ///< 0, or one of the following
 
-    static constexpr float behind = 1;  ///< not in front of a near light
-    static constexpr float not_finite = 2;
+    static constexpr float behind = 1;  ///< on the other side of a near light
+    static constexpr float beside = 2;  ///< too near to the light's own plane to be told apart
+    static constexpr float not_finite = 3;
 };
 
 /// The vertices of one caster on a plane.
@@ -6453,7 +6454,7 @@ struct plane_vertices_kernel {
             return;
         }
         if (plane.is_near() && !(p.z >= least_depth)) {
-            vertices[i] = {0, 0, 0, plane_vertex::behind};
+            vertices[i] = {0, 0, 0, p.z < 0 ? plane_vertex::behind : plane_vertex::beside};
             return;
         }
         const glm::dvec3 seen = plane.is_near() ? light_plane::seen(p) : p;
@@ -6490,6 +6491,7 @@ struct plane_triangles {
     using ints = insonify::detail::lanes<std::int32_t, N>;
     floats a[3], b[3], c[3];  ///< u, v, height
     floats state;             ///< the worst of the corners'
+    ints is_behind;           ///< all corners are
 
     /// @param corner  corner(k, i): vertex i of triangle k
     template <class Corner>
@@ -6505,6 +6507,8 @@ struct plane_triangles {
         });
         state = columns[0][3] > columns[1][3] ? columns[0][3] : columns[1][3];
         state = state > columns[2][3] ? state : columns[2][3];
+        is_behind = ints(columns[0][3] == plane_vertex::behind) & ints(columns[1][3] == plane_vertex::behind) &
+                    ints(columns[2][3] == plane_vertex::behind);
     }
     INSONIFY_INLINE void range(floats& low, floats& high, int axis) const {
         low = a[axis] < b[axis] ? a[axis] : b[axis];
@@ -6552,12 +6556,12 @@ struct tile_assembly_kernel {
             f = f < most ? f : floats{} + most;
             l = l < most ? l : floats{} + most;
             l = l > 0.0f ? l : floats{};
-            f = t.state == plane_vertex::behind ? floats{} : f;
-            l = t.state == plane_vertex::behind ? floats{} + most : l;
+            f = t.state > 0.0f ? floats{} : f;
+            l = t.state > 0.0f ? floats{} + most : l;
             convert(from[axis], f);
             convert(to[axis], l);
         });
-        outside = (outside & ints(t.state != plane_vertex::behind)) | ints(t.state == plane_vertex::not_finite);
+        outside = (outside & ints(t.state == 0.0f)) | ints(t.state == plane_vertex::not_finite) | t.is_behind;
         const unsigned drawn = ~set_lanes<N>(outside) & ((2u << (count - 1)) - 1);
         if (drawn == 0) return;
         const ints first_tile = from[0] | from[1] << 16, last_tile = to[0] | to[1] << 16;
@@ -6814,7 +6818,7 @@ struct occlusion_kernel {
             f = f < most ? f : floats{} + most;
             l = l < most ? l : floats{} + most;
             l = l > 0.0f ? l : floats{};
-            const ints behind = ints(t.state == plane_vertex::behind);
+            const ints behind = ints(t.state > 0.0f);
             f = behind ? floats{} : f;
             l = behind ? floats{} + most : l;
             missed = missed & ~behind;
@@ -12082,7 +12086,7 @@ struct render_options {
     float edge_error = 0;
     float slope_error = 0.02f;  ///< by how much its slopes may then be off, metres per metre
     /// See draw_options. Which triangle a pixel shows decides whether it faces the light, too.
-    int subpixel_bits = 8;
+    int subpixel_bits = shadow::casting_policy<Shadow> ? 10 : 8;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
 };

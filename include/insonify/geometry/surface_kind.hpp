@@ -1,6 +1,7 @@
 // What a mesh is as a surface, as far as it is proved: renderers leave out triangles only where that changes nothing.
 #pragma once
 
+#include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/geometry/topology.hpp>
 

@@ -4,7 +4,9 @@
 // Shadows and labels are no part of it: they are passes of their own over what this one leaves (render.hpp).
 #pragma once
 
+#include <insonify/core/image.hpp>
 #include <insonify/raster/draw.hpp>
+#include <insonify/seabed/heightfield.hpp>
 #include <insonify/shadow/policy.hpp>
 #include <insonify/sonar/backscatter.hpp>
 #include <insonify/sonar/placed_mesh.hpp>

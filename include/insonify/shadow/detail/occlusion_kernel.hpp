@@ -72,7 +72,7 @@ struct occlusion_kernel {
             f = f < most ? f : floats{} + most;
             l = l < most ? l : floats{} + most;
             l = l > 0.0f ? l : floats{};
-            const ints behind = ints(t.state == plane_vertex::behind);
+            const ints behind = ints(t.state > 0.0f);
             f = behind ? floats{} : f;
             l = behind ? floats{} + most : l;
             missed = missed & ~behind;
