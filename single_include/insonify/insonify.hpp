@@ -12086,7 +12086,7 @@ struct render_options {
     float edge_error = 0;
     float slope_error = 0.02f;  ///< by how much its slopes may then be off, metres per metre
     /// See draw_options. Which triangle a pixel shows decides whether it faces the light, too.
-    int subpixel_bits = shadow::casting_policy<Shadow> ? 10 : 8;
+    int subpixel_bits = shadow::casting_policy<Shadow> ? 12 : 8;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
 };
