@@ -73,7 +73,7 @@ json parse_record(const std::string& text, const std::string& name) {
     json record = whole ? json::parse(text, nullptr, false) : json();
     if (!record.is_object())
         throw insonify::io_error(name + ": is torn or changed; the command that made the image makes it again");
-    // The paths of a record are within its folder, whoever wrote it.
+    // A record names no path outside of its folder.
     for (const json& entry : record.value("files", json::array())) {
         const std::string path = entry.value("path", "");
         if (!(path.starts_with("images/") || path.starts_with("masks/")) || path.find("..") != std::string::npos)
