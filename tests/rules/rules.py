@@ -42,7 +42,7 @@ BANNED_NAMES = {
 NO_ARITHMETIC = {
     UMBRELLA, "version.hpp", "config.hpp", "core/error.hpp", "core/executor.hpp", "core/filled.hpp", "core/image.hpp",
     "core/image_view.hpp", "core/int128.hpp", "core/spare_memory.hpp", "core/thread_pool.hpp", "core/unfilled.hpp",
-    "geometry/mesh.hpp", "io/file.hpp", "io/manifest.hpp", "io/png.hpp", "raster/framebuffer.hpp", "seabed/models.hpp",
+    "geometry/mesh.hpp", "io/file.hpp", "io/manifest.hpp", "io/png.hpp", "raster/framebuffer.hpp", "seabed/models.hpp", "raster/interpolatable.hpp",
     "geometry/shared_mesh.hpp",
 }
 
