@@ -11098,7 +11098,11 @@ struct scene {
 inline void validate(const scene& s) {
     const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
         if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
-        detail::refuse(list + ("[" + detail::to_text(i)) + member, m.reflectivity, "0 or more, finite");
+        std::string name = list;  // appended to: at -O3, g++ 12 warns of "[" + to_text(i)
+        name += '[';
+        name += detail::to_text(i);
+        name += member;
+        detail::refuse(name, m.reflectivity, "0 or more, finite");
     };
     for (std::size_t i = 0; i < s.bottom.size(); ++i) check(s.bottom[i], "scene.bottom", i, "].reflectivity");
     for (std::size_t i = 0; i < s.targets.size(); ++i)
