@@ -19,6 +19,7 @@
 #include <insonify/core/lanes.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
+#include <insonify/core/portable.hpp>
 #include <insonify/core/quantize.hpp>
 #include <insonify/core/random.hpp>
 #include <insonify/core/random_lanes.hpp>

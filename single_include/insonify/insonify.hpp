@@ -71,7 +71,16 @@
 // Every header that computes with floats stands between these two, which forbid it there whatever the user's flags
 // allow. (clang heeds no pragma under an explicit -ffp-contract=fast; fast-honor-pragmas is the same and does.) g++ is
 // also asked not to remark on how wide vectors are passed: they stay inside always-inlined code.
-#if defined(__clang__)
+#if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
+// No float_control there. WebAssembly has no fused instruction.
+#if defined(__wasm__)
+#define INSONIFY_ARITHMETIC_BEGIN
+#define INSONIFY_ARITHMETIC_END
+#else
+#define INSONIFY_ARITHMETIC_BEGIN _Pragma("clang fp contract(off)")
+#define INSONIFY_ARITHMETIC_END _Pragma("clang fp contract(on)")
+#endif
+#elif defined(__clang__)
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define INSONIFY_ARITHMETIC_END _Pragma("float_control(pop)")
 #elif defined(__GNUC__)
@@ -188,18 +197,107 @@
 
 namespace insonify::inline INSONIFY_ABI {}
 
+// ------------ insonify/core/portable.hpp ----------------------------------------------------------------
+// Parts of the C++20 library that some standard libraries lack: libc++ has std::bit_cast from version 14 on, floats in
+// std::from_chars from 20 on and in std::to_chars from 14 on.
+
+#include <bit>
+#include <charconv>
+#include <clocale>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace numeric {
+
+/// The value of type To that has the same bits.
+template <class To, class From>
+constexpr To bit_cast(const From& from) noexcept {
+    static_assert(sizeof(To) == sizeof(From) && std::is_trivially_copyable_v<To> && std::is_trivially_copyable_v<From>);
+#if defined(__cpp_lib_bit_cast)
+    return std::bit_cast<To>(from);
+#else
+    return __builtin_bit_cast(To, from);
+#endif
+}
+
+}  // namespace numeric
+
+namespace detail {
+
+/// What became of a text that should be a number.
+enum class number_text { fine, malformed, out_of_range };
+
+/// Reads all of a text as a decimal number, with a sign or without, whatever the locale.
+inline number_text parse_number(std::string_view text, double& value) {
+    // from_chars takes no plus, so it is stepped over, but not before a minus.
+    if (text.substr(0, 1) == "+" && text.substr(1, 1) != "-") text.remove_prefix(1);
+    const char *const first = text.data(), *const last = first + text.size();
+#if defined(__cpp_lib_to_chars)
+    const auto [end, status] = std::from_chars(first, last, value);
+    if (status == std::errc::invalid_argument || end != last) return number_text::malformed;
+    return status == std::errc{} ? number_text::fine : number_text::out_of_range;
+#else
+    // strtod also takes white space and hexadecimal numbers, and expects the locale's decimal point.
+    const auto is_taken = [](char c) {
+        return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
+    };
+    std::string copy;
+    for (const char* c = first; c != last; ++c) {
+        const bool is_word = text.find_first_of("nN") != text.npos && *c != 'x' && *c != 'X' && *c > ' ';  // inf, nan
+        if (!is_taken(*c) && !is_word) return number_text::malformed;
+        if (*c == '.')
+            copy += std::localeconv()->decimal_point;
+        else
+            copy += *c;
+    }
+    if (copy.empty() || copy[0] == '+') return number_text::malformed;
+    char* end = nullptr;
+    value = std::strtod(copy.c_str(), &end);
+    if (end != copy.c_str() + copy.size()) return number_text::malformed;
+    const bool names_infinity = text.find_first_of("iI") != text.npos;
+    const bool overflowed =
+        (value > (std::numeric_limits<double>::max)() || value < std::numeric_limits<double>::lowest());
+    return overflowed && !names_infinity ? number_text::out_of_range : number_text::fine;
+#endif
+}
+
+/// The shortest text that reads back as the same number, without the locale; returns its end.
+template <class Number>
+char* format_number(char* first, char* last, Number value) {
+#if !defined(__cpp_lib_to_chars)
+    if constexpr (std::is_floating_point_v<Number>) {
+        for (int digits = 1; digits <= std::numeric_limits<Number>::max_digits10; ++digits) {
+            std::snprintf(first, static_cast<std::size_t>(last - first), "%.*g", digits, static_cast<double>(value));
+            if (static_cast<Number>(std::strtod(first, nullptr)) == value) break;
+        }
+        char* end = first;
+        for (; *end != '\0'; ++end)
+            if (*end == *std::localeconv()->decimal_point) *end = '.';
+        return end;
+    } else
+#endif
+        return std::to_chars(first, last, value).ptr;
+}
+
+}  // namespace detail
+
+}  // namespace insonify::inline INSONIFY_ABI
+
 // ------------ insonify/core/error.hpp -------------------------------------------------------------------
 // The two errors that leave the library, and the one way they do.
 //
 // Bad data that comes by the million (a NaN vertex, a degenerate triangle) is never an error: it is skipped and
 // counted.
 
-#include <charconv>
 #include <exception>
 #include <stdexcept>
-#include <string>
-#include <string_view>
-#include <type_traits>
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -237,10 +335,8 @@ std::string to_text(Number value) {
     if constexpr (std::is_same_v<Number, bool>) {
         return value ? "true" : "false";
     } else {
-        char buffer[64];
-        const auto [end, status] = std::to_chars(buffer, buffer + sizeof buffer, value);
-        static_cast<void>(status);  // 64 characters hold any number
-        return {buffer, end};
+        char buffer[64];  // holds any number
+        return {buffer, format_number(buffer, buffer + sizeof buffer, value)};
     }
 }
 
@@ -262,7 +358,6 @@ void require(bool holds, std::string_view argument, Number value, std::string_vi
 // A window onto pixels that live somewhere else: pointer, size and row stride. Every algorithm takes these.
 
 #include <concepts>
-#include <cstddef>
 #include <span>
 
 namespace insonify::inline INSONIFY_ABI {
@@ -335,10 +430,8 @@ class image_view {
 // The C library's log, sin and exp differ between versions and even between processors of one version, so whatever
 // reaches a pixel is computed here: + - * / and the correctly rounded square root alone, in a fixed order.
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -368,10 +461,10 @@ constexpr double to_degrees(double radians) {
 
 /// Finite by its bits, which no compiler flag can argue away.
 constexpr bool is_finite(float value) {
-    return (std::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
+    return (numeric::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
 }
 constexpr bool is_finite(double value) {
-    return (std::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
+    return (numeric::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
 
 /// A number without its sign.
@@ -405,11 +498,11 @@ inline double log(double x) {
         x *= 0x1p54;
         k = -54;
     }
-    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const auto bits = numeric::bit_cast<std::uint64_t>(x);
     // Adding the distance from sqrt(1/2) to 1 moves the cut between exponents to sqrt(2).
     const std::uint64_t shifted = bits + (0x3FF0000000000000u - 0x3FE6A09E667F3BCDu);
     k += static_cast<int>(shifted >> 52) - 1023;
-    const auto m = std::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFu) + 0x3FE6A09E667F3BCDu);
+    const auto m = numeric::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFu) + 0x3FE6A09E667F3BCDu);
     // m - 1 is exact and carries the result; what is added to it is smaller, so that errors stay in the last bit.
     const double f = m - 1;
     const double s = f / (m + 1);
@@ -436,7 +529,9 @@ inline double exp(double x) {
     for (int n = 14; n >= 1; --n) sum = sum * r / n + 1.0;
     // 2^k in two steps, so that results below the normal range are reached without losing the factor.
     const std::int64_t half = k / 2;
-    const auto power = [](std::int64_t e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); };
+    const auto power = [](std::int64_t e) {
+        return numeric::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+    };
     return sum * power(half) * power(k - half);
 }
 
@@ -1128,7 +1223,7 @@ struct memory_block {
         void* const mapped = ::mmap(nullptr, all, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
         if (mapped == MAP_FAILED) raise(std::bad_alloc());
         char* const start = static_cast<char*>(mapped);
-        const std::size_t past = std::bit_cast<std::uintptr_t>(start + margin) % page;
+        const std::size_t past = numeric::bit_cast<std::uintptr_t>(start + margin) % page;
         const std::size_t before = past == 0 ? 0 : page - past, after = page - before;
         if (before > 0) ::munmap(start, before);
         if (after > 0) ::munmap(start + all - after, after);
@@ -1758,7 +1853,7 @@ struct pixel_grid {
     /// Rounds a distance in pixels from the centre of an axis, to nearest, ties to even; |pixels| < reach(51).
     std::int64_t snap(double pixels, int extent) const {
         const double scaled = pixels * static_cast<double>(unit());
-        const auto rounded = std::bit_cast<std::int64_t>(scaled + magic) - std::bit_cast<std::int64_t>(magic);
+        const auto rounded = numeric::bit_cast<std::int64_t>(scaled + magic) - numeric::bit_cast<std::int64_t>(magic);
         return rounded + extent * half();
     }
     bool is_compact(const screen_vertex& v) const {
@@ -2081,9 +2176,9 @@ struct double_double {
 
     /// The nearest float. Rounding the upper half to odd first keeps the lower one's say in ties.
     float to_float() const {
-        auto bits = std::bit_cast<std::uint64_t>(high);
+        auto bits = numeric::bit_cast<std::uint64_t>(high);
         if (low != 0 && (bits & 1) == 0) bits += (low > 0) == (high > 0) ? 1u : ~std::uint64_t{0};
-        return static_cast<float>(std::bit_cast<double>(bits));
+        return static_cast<float>(numeric::bit_cast<double>(bits));
     }
 
   private:
@@ -2313,8 +2408,8 @@ class projection {
         std::uint64_t origin;  ///< of the picture, less what the magic number leaves
         axis(const pixel_grid& grid, int extent, double half)
             : units(half * static_cast<double>(grid.unit())),
-              origin(
-                  static_cast<std::uint64_t>(extent * grid.half() - std::bit_cast<std::int64_t>(pixel_grid::magic))) {}
+              origin(static_cast<std::uint64_t>(extent * grid.half() -
+                                                numeric::bit_cast<std::int64_t>(pixel_grid::magic))) {}
     };
     template <int N>
     INSONIFY_INLINE static void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& units,
@@ -2573,15 +2668,15 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
         return a;
     } else {
         using floats = std::array<float, sizeof(V) / sizeof(float)>;
-        const auto fa = std::bit_cast<floats>(a);
-        const auto fb = std::bit_cast<floats>(b);
-        const auto fc = std::bit_cast<floats>(c);
+        const auto fa = numeric::bit_cast<floats>(a);
+        const auto fb = numeric::bit_cast<floats>(b);
+        const auto fc = numeric::bit_cast<floats>(c);
         floats sum;
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] =
                 static_cast<float>(static_cast<double>(fa[i]) * weights.x + static_cast<double>(fb[i]) * weights.y +
                                    static_cast<double>(fc[i]) * weights.z);
-        return std::bit_cast<V>(sum);
+        return numeric::bit_cast<V>(sum);
     }
 }
 
@@ -3371,8 +3466,8 @@ class tile_buffer {
     explicit tile_buffer(int size)
         : stride_(size + slack),
           count_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
-          depth_(std::make_unique_for_overwrite<float[]>(count_)),
-          winner_(Winners ? std::make_unique_for_overwrite<std::uint32_t[]>(count_) : nullptr) {
+          depth_(new float[count_]),
+          winner_(Winners ? new std::uint32_t[count_] : nullptr) {
         for (int i = 0; i < block * block; ++i) block_[i] = static_cast<std::uint32_t>(i / block * stride_ + i % block);
     }
 
@@ -4418,9 +4513,11 @@ class image {
         return extent;
     }
     std::size_t area() const {
-        const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-        detail::require(pixels <= (std::size_t{1} << 40), "width x height", pixels, "at most 2^40 pixels");
-        return pixels;
+        const std::uint64_t pixels = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+        detail::require(pixels <= (std::uint64_t{1} << 40), "width x height", pixels, "at most 2^40 pixels");
+        constexpr std::uint64_t addressable = (std::numeric_limits<std::size_t>::max)() / sizeof(T);
+        detail::require(pixels <= addressable, "width x height", pixels, "as many as this machine can address");
+        return static_cast<std::size_t>(pixels);
     }
     std::size_t index(int x, int y) const {
         INSONIFY_ASSERT(0 <= x && (x < width_ || width_ == 0) && 0 <= y && y < height_);
@@ -4968,7 +5065,7 @@ void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 f
     validate(field);
     const image<float>& heights = field.heights;
     const auto width = static_cast<std::size_t>(heights.width()), height = static_cast<std::size_t>(heights.height());
-    insonify::detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
+    insonify::detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(),
                               "below 2^32");
 
     result.positions.resize(heights.size());
@@ -5395,8 +5492,7 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
     detail::require(allowed.slope >= 0, "leeway.slope", allowed.slope, "a slope, at least 0");
     detail::require(allowed.lean >= 0, "leeway.lean", allowed.lean, "square metres, at least 0");
     const image<float>& heights = field.heights;
-    detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
-                    "below 2^32");
+    detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(), "below 2^32");
     const detail::needed_vertices needed(field, allowed, ex);
 
     const int size = needed.size();
@@ -7563,8 +7659,8 @@ image<T> filled(int width, int height, T value, E& ex) {
         T* const start = result.row(static_cast<int>(first)).data();
         const std::size_t count = (last - first) * static_cast<std::size_t>(width);
         // Most values are the same byte over and over, which the system writes fastest.
-        const auto bytes = std::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
-        if (std::ranges::count(bytes, bytes[0]) == std::ssize(bytes))
+        const auto bytes = numeric::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
+        if (std::count(bytes.begin(), bytes.end(), bytes[0]) == std::ssize(bytes))
             std::memset(start, bytes[0], count * sizeof(T));
         else
             std::fill_n(start, count, value);
@@ -15184,11 +15280,11 @@ namespace detail {
 
 /// Bits that compare as unsigned integers the way floats compare, and back.
 constexpr std::uint32_t ordered_bits(float value) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const auto bits = numeric::bit_cast<std::uint32_t>(value);
     return bits ^ ((bits >> 31) != 0 ? 0xFFFFFFFFu : 0x80000000u);
 }
 constexpr float from_ordered_bits(std::uint32_t bits) {
-    return std::bit_cast<float>(bits ^ ((bits >> 31) != 0 ? 0x80000000u : 0xFFFFFFFFu));
+    return numeric::bit_cast<float>(bits ^ ((bits >> 31) != 0 ? 0x80000000u : 0xFFFFFFFFu));
 }
 
 /// Radix sort by three digits of 11 bits: five to six times as fast as std::sort on millions of values.
@@ -16634,7 +16730,6 @@ INSONIFY_ARITHMETIC_END
 // Source: Wavefront Technologies. Advanced Visualizer Manual, appendix B1: Object Files (.obj), 1993.
 
 #include <cerrno>
-#include <cstdio>
 #include <system_error>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -16733,15 +16828,11 @@ class obj_reader {
     float number() {
         const std::string_view digits = word();
         if (digits.empty()) fail("a vertex or normal has fewer than 3 numbers");
-        // from_chars takes no plus, so it is stepped over, but not before a minus.
-        const bool plus = digits[0] == '+' && digits.substr(1, 1) != "-";
-        const char* const first = digits.data() + (plus ? 1 : 0);
-        const char* const last = digits.data() + digits.size();
         double value = 0;
-        const auto [end, status] = std::from_chars(first, last, value);
-        if (status == std::errc::invalid_argument || end != last) fail(quoted(digits) + " is not a number");
+        const number_text found = parse_number(digits, value);
+        if (found == number_text::malformed) fail(quoted(digits) + " is not a number");
         constexpr auto limit = static_cast<double>((std::numeric_limits<float>::max)());
-        if (status != std::errc{} || !(value >= -limit && value <= limit)) {
+        if (found != number_text::fine || !(value >= -limit && value <= limit)) {
             fail(quoted(digits) + " is not a finite number that a float can hold");
         }
         return static_cast<float>(value);
@@ -19222,9 +19313,8 @@ class netpbm_reader {
         height_ = integer("height", 1, 1 << 30);
         if (is_float()) {
             const std::string_view text = token("scale");
-            float scale = 0;
-            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), scale);
-            if (status != std::errc() || end != text.data() + text.size() || !(scale < 0 || scale > 0)) {
+            double scale = 0;
+            if (parse_number(text, scale) != number_text::fine || !(scale < 0 || scale > 0)) {
                 fail("scale is " + quoted(text) + ", expected a number other than 0");
             }
             little_endian_ = scale < 0;
@@ -19257,7 +19347,7 @@ class netpbm_reader {
         for (std::size_t i = 0; i < 4; ++i)
             bits = bits << 8 | static_cast<std::uint32_t>(byte(little_endian_ ? 3 - i : i));
         rest_.remove_prefix(4);
-        return std::bit_cast<float>(bits);
+        return numeric::bit_cast<float>(bits);
     }
 
     [[noreturn]] void fail(const std::string& reason) const { raise_io(name_, reason); }
@@ -19339,7 +19429,7 @@ inline void append_sample(std::string& bytes, std::uint16_t sample) {
     bytes.push_back(static_cast<char>(sample & 0xFF));
 }
 inline void append_sample(std::string& bytes, float sample) {
-    const auto bits = std::bit_cast<std::uint32_t>(sample);
+    const auto bits = numeric::bit_cast<std::uint32_t>(sample);
     for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(bits >> shift & 0xFF));
 }
 template <class Sample>
@@ -19487,11 +19577,8 @@ class survey_reader {
     double number(std::string_view digits, const char* what) const {
         if (digits.empty())
             fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
-        const bool plus = digits[0] == '+' && digits.substr(1, 1) != "-";
         double value = 0;
-        const auto [end, status] =
-            std::from_chars(digits.data() + (plus ? 1 : 0), digits.data() + digits.size(), value);
-        if (status != std::errc{} || end != digits.data() + digits.size())
+        if (insonify::detail::parse_number(digits, value) != insonify::detail::number_text::fine)
             fail(quoted(digits) + " is not a number, expected " + what);
         return value;
     }
