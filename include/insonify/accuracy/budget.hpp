@@ -124,7 +124,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits)) found.subpixel_bits = 16;
     found.side_error = tolerated.silhouette;
     found.shadow_error = 0.5 * tolerated.shadow_edge;
-    if (std::holds_alternative<insonify::seabed::none>(bottom)) return found;
+    if (bottom.empty()) return found;
 
     const detail::seabed_probe probed(bottom, rig, how, ex);
     const double pixel = view.ground_sampling();

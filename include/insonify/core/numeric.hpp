@@ -68,7 +68,7 @@ constexpr std::int64_t floor_to_int(double value) {
 /// Natural logarithm, <= 1 ulp. log(0) = -infinity, negative and NaN give NaN.
 ///
 /// x = 2^k m with m in [sqrt(1/2), sqrt(2)); log m = 2 atanh((m - 1) / (m + 1)) as a series.
-inline double log(double x) {
+constexpr double log(double x) {
     if (!(x > 0)) return x == 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
     if (!is_finite(x)) return x;
     int k = 0;
@@ -95,7 +95,7 @@ inline double log(double x) {
 }
 
 /// Exponential, <= 2 ulp; overflow gives infinity, underflow 0 (gradually), NaN gives NaN.
-inline double exp(double x) {
+constexpr double exp(double x) {
     if (x > 709.8) return std::numeric_limits<double>::infinity();
     if (x < -745.2) return 0;
     if (!(x == x)) return x;
@@ -148,7 +148,7 @@ inline double tan(double radians) {
 }
 
 /// x to the power y for x >= 0, relative error below (|y log x| + 2) * 3e-16; pow(0, y > 0) = 0, pow(x, 0) = 1.
-inline double pow(double x, double y) {
+constexpr double pow(double x, double y) {
     return y == 0 ? 1.0 : x == 0 ? (y > 0 ? 0.0 : std::numeric_limits<double>::infinity()) : exp(y * log(x));
 }
 
