@@ -21,6 +21,7 @@ json          header:nlohmann/json.hpp                nlohmann-json3-dev    json
 openssl       header:openssl/evp.h                    libssl-dev            openssl-devel       openssl
 deflate       header:libdeflate.h                     libdeflate-dev        libdeflate-devel    libdeflate
 opencv        header:opencv4/opencv2/ml.hpp|opencv2/ml.hpp  libopencv-dev   opencv-devel        opencv
+chromium      command:chromium|chromium-browser|google-chrome  chromium     chromium            --cask chromium
 clang         command:clang++                         clang                 clang               llvm
 fuzzer        clang:-fsanitize=fuzzer                 libclang-rt-dev       compiler-rt         llvm
 egl           header:EGL/egl.h                        libegl-dev            mesa-libEGL-devel   mesa
