@@ -99,15 +99,17 @@
 #define INSONIFY_ARITHMETIC_END
 #endif
 
-// Run-time dispatch to wider instruction sets: x86-64 with GNU attributes only. Other targets compile one path.
-#if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__)
+// Run-time dispatch to wider instruction sets: x86-64 with GNU attributes, and only where kernels are optimized. Other
+// builds compile one path, to the same bytes.
+#if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__) && defined(__OPTIMIZE__)
 #define INSONIFY_DISPATCH 1
 #else
 #define INSONIFY_DISPATCH 0
 #endif
 
-// Whether a kernel is one function, whatever it calls. With 0 programs compile in half of the time and run several
-// times as long, to the same bytes. The sanitizers choose 0, because what they add would compile for minutes.
+// Whether a kernel is one function, whatever it calls. With 0 programs compile a little faster and run several times as
+// long, to the same bytes. Builds without optimization choose 0, as do the sanitizers, because what they add would
+// compile for minutes.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define INSONIFY_SANITIZED 1
 #elif defined(__has_feature)
@@ -116,7 +118,7 @@
 #endif
 #endif
 #if !defined(INSONIFY_WHOLE_KERNELS)
-#if defined(__GNUC__) && !defined(INSONIFY_SANITIZED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(INSONIFY_SANITIZED)
 #define INSONIFY_WHOLE_KERNELS 1
 #else
 #define INSONIFY_WHOLE_KERNELS 0
@@ -166,6 +168,8 @@
 
 #if !INSONIFY_SIMD
 #define INSONIFY_TAG_SIMD _scalar
+#elif !INSONIFY_DISPATCH
+#define INSONIFY_TAG_SIMD _plain
 #elif defined(__AVX512F__)
 #define INSONIFY_TAG_SIMD _avx512
 #elif defined(__AVX2__)
@@ -729,9 +733,9 @@ INSONIFY_ARITHMETIC_END
 //
 // A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
 // values go through it at a time. Its arithmetic is the same in every lane at every N, and products are never fused
-// with sums, so all levels give the same bytes; N = 1 is plain scalar code. Kernels that gain by AVX-512 say how many
-// values at a time are best there, `static constexpr int widest = 16` (or 8, for its registers alone); others stay at
-// AVX2.
+// with sums, so all levels give the same bytes; N = 1 is plain scalar code, compiled where INSONIFY_SIMD is 0. Kernels
+// that gain by AVX-512 say how many values at a time are best there, `static constexpr int widest = 16`; others stay at
+// AVX2. That is for kernels that gain more than a tenth: each copy costs compile time.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -739,7 +743,7 @@ namespace insonify::inline INSONIFY_ABI {
 
 /// Instruction sets that kernels are compiled for, slowest first.
 enum class isa {
-    scalar,    ///< one value at a time
+    scalar,    ///< one value at a time: builds with INSONIFY_SIMD=0; others take it for `baseline`
     baseline,  ///< the 128-bit vectors that every processor of the target has (SSE2, NEON)
     avx2,      ///< 256-bit integer and float vectors
     avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
@@ -788,9 +792,10 @@ void dispatch(const Kernel& kernel, isa level) {
     if (level >= isa::avx2) return run_avx2(kernel);
 #endif
 #if INSONIFY_SIMD
-    if (level == isa::baseline) return kernel.template run<4>();
-#endif
+    kernel.template run<4>();
+#else
     kernel.template run<1>();
+#endif
 }
 
 }  // namespace detail
@@ -4145,7 +4150,6 @@ class fragment_lanes {
 /// part of a row before any of it is shaded: either is one long chain, and so neighbours' chains run side by side.
 template <class Screen, class Varyings, class Shader>
 struct shading_kernel {
-    static constexpr int widest = 8;  // of AVX-512 its registers help, wider vectors don't
     const Screen& screen;
     const vertex_record<Varyings>* records;
     tile_buffer<true>& tile;
