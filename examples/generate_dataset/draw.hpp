@@ -123,7 +123,7 @@ in::image<float> recording_of(const options& o, const plan& p, const stock& shar
             // The speckle of neighbouring pings is alike as long as the beam makes it so.
             const double slant = in::range_geometry::slant_range(ground_range, p.altitude);
             const double pings = beam.speckle_length(slant, sound_speed / frequency) / pixel;
-            heard = in::with_speckle(std::move(heard), rig,
+            heard = in::with_speckle(std::move(heard),
                                      {.along_track = static_cast<float>((std::min)(pings, 16.0)), .seed = p.noise_seed},
                                      ex);
         }

@@ -110,9 +110,9 @@
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/seabed/lattice.hpp>
 #include <insonify/seabed/mixed.hpp>
+#include <insonify/seabed/moat.hpp>
 #include <insonify/seabed/model.hpp>
 #include <insonify/seabed/models.hpp>
-#include <insonify/seabed/moat.hpp>
 #include <insonify/seabed/mud.hpp>
 #include <insonify/seabed/needed_vertices.hpp>
 #include <insonify/seabed/noise.hpp>
@@ -141,6 +141,7 @@
 #include <insonify/sonar/display.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/light_pass.hpp>
+#include <insonify/sonar/name_tally.hpp>
 #include <insonify/sonar/occlusion.hpp>
 #include <insonify/sonar/ping_echo.hpp>
 #include <insonify/sonar/ping_fan.hpp>
@@ -160,5 +161,6 @@
 #include <insonify/sonar/sonar_equation.hpp>
 #include <insonify/sonar/speckle.hpp>
 #include <insonify/sonar/swath.hpp>
+#include <insonify/sonar/target_hits.hpp>
 #include <insonify/sonar/target_slices.hpp>
 #include <insonify/version.hpp>

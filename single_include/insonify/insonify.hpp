@@ -1413,9 +1413,9 @@ namespace insonify::inline INSONIFY_ABI {
 
 /// An indexed triangle mesh. Counter-clockwise triangles face the viewer; positions are metres in the mesh's own frame.
 struct mesh {
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;  ///< unit, one per position, or none at all
-    std::vector<glm::uvec3> triangles;
+    std::vector<glm::vec3> positions{};
+    std::vector<glm::vec3> normals{};  ///< unit, one per position, or none at all
+    std::vector<glm::uvec3> triangles{};
 };
 
 /// A mesh to look at: somebody else's buffers, who has to keep them meanwhile.
@@ -8048,6 +8048,23 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     return normals;
 }
 
+/// Turns over each triangle whose three corner normals all point to its back: normals decide which side is outside.
+/// @param m  its indices have positions, and positions have normals
+/// @returns how many were turned
+inline std::size_t wind_by_normals(mesh& m) {
+    std::size_t turned = 0;
+    for (glm::uvec3& t : m.triangles) {
+        const glm::dvec3 a(m.positions[t.x]), b(m.positions[t.y]), c(m.positions[t.z]);
+        const glm::dvec3 facet = numeric::cross(b - a, c - a);
+        bool is_back = true;
+        for (int i = 0; i < 3; ++i) is_back = is_back && numeric::dot(facet, glm::dvec3(m.normals[t[i]])) < 0;
+        if (!is_back) continue;
+        std::swap(t.y, t.z);
+        ++turned;
+    }
+    return turned;
+}
+
 }  // namespace insonify::inline INSONIFY_ABI
 
 INSONIFY_ARITHMETIC_END
@@ -8276,9 +8293,10 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// An immutable mesh: copies refer to the same triangles. A mesh whose triangles follow one another without order, as
-/// those of a shuffled one, is renumbered, triangles and vertices: otherwise it keeps its numbers. What renderers need
-/// of it is found once, when it is made: its bounds, smooth normals if it brings none, whether it is closed or a
-/// heightfield, and the regular grid that a heightfield's vertices lie on, if they do.
+/// those of a shuffled one, is renumbered, triangles and vertices: otherwise it keeps its numbers. Triangles that are
+/// wound against all of their normals are turned over. What renderers need of it is found once, when it is made: its
+/// bounds, smooth normals if it brings none, whether it is closed or a heightfield, and the regular grid that a
+/// heightfield's vertices lie on, if they do.
 class shared_mesh {
   public:
     /// No triangles.
@@ -8309,7 +8327,10 @@ class shared_mesh {
             validate(shape);
             box = bounds(shape);
             if (detail::is_incoherent(shape)) detail::order_along_curve(shape, box);
-            if (shape.normals.empty()) shape.normals = smooth_normals(shape);
+            if (shape.normals.empty())
+                shape.normals = smooth_normals(shape);
+            else
+                wind_by_normals(shape);
             kind = kind_of(shape);
             if (kind == surface_kind::heightfield) grid = regular_grid_of(shape, serial_executor{}, grid_error);
         }
@@ -20727,17 +20748,29 @@ enum class across_track {
     ground_range,  ///< the place on the bottom: a map, with the shadows of the same source
 };
 
-/// One ping.
+/// One ping: where the sonar is, and its attitude. Rotations apply as for ships: yaw first, then pitch, then roll.
 struct ping {
-    glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum
+    glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum, heave included
     double yaw = 0;                ///< radians: 0 travels towards +y, with starboard at +x; counter-clockwise
+    double pitch = 0;              ///< radians, positive with the bow up: tilts the fan forward, below +-80 degrees
+    double roll = 0;               ///< radians, positive with starboard down: turns the beams within the fan
 };
+
+/// @throws invalid_input for a value that can't be right
+inline void validate(const ping& p) {
+    const double sum = p.position.x + p.position.y + p.position.z + p.yaw;
+    detail::require(numeric::is_finite(sum), "ping.position", sum, "finite");
+    detail::require(numeric::magnitude(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
+                    "at most 80 degrees, in radians");
+    detail::require(numeric::is_finite(p.roll), "ping.roll", p.roll, "a finite angle");
+}
 
 /// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
 /// all else stays the same.
 ///
-/// A picture of it has a row per ping and a column per bin. Its top row is the last ping, so that up is forward; its
-/// left column is the first bin on either side, so that range grows and shadows fall to the right.
+/// A picture of it has a row per ping and a column per bin. Row i is ping i, the first on top, as in every recording of
+/// range modes (`upside_down` turns it so that up is forward); its left column is the first bin on either side, so that
+/// range grows and shadows fall to the right.
 template <across_track Axis>
 struct side_scan_rig {
     static constexpr across_track axis = Axis;
@@ -20795,7 +20828,8 @@ std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     return track;
 }
 
-/// A ping's own frame: x away from it on the side it looks to, u along the track, z up from the sonar.
+/// A ping's own frame: x away from it on the side it looks to, level; u along the sonar's axis; z up from the sonar.
+/// The fan is the plane u = 0, which a pitch tilts from the vertical.
 class ping_frame {
   public:
     ping_frame(const ping& p, side looks) : position_(p.position) {
@@ -20803,19 +20837,32 @@ class ping_frame {
         const double sign = looks == side::starboard ? 1 : -1;
         across_ = {sign * cosine, sign * sine};
         along_ = {-sine, cosine};
+        const numeric::sine_cosine pitch = numeric::sin_cos(p.pitch), roll = numeric::sin_cos(p.roll);
+        sine_pitch_ = pitch.sine, cosine_pitch_ = pitch.cosine;
+        sine_roll_ = sign * roll.sine, cosine_roll_ = roll.cosine;
     }
     const glm::dvec3& position() const { return position_; }
     /// Unit vectors on the ground.
     const glm::dvec2& across() const { return across_; }
     const glm::dvec2& along() const { return along_; }
+    bool is_level() const { return sine_pitch_ == 0; }
+    double sine_pitch() const { return sine_pitch_; }
+    double cosine_pitch() const { return cosine_pitch_; }
+    /// Of the angle by which the side that is looked to is rolled down.
+    double sine_roll() const { return sine_roll_; }
+    double cosine_roll() const { return cosine_roll_; }
 
-    /// World coordinates of the bottom's datum below (x, u).
+    /// World coordinates of the datum below (x, u), u along the heading.
     glm::dvec2 world(double x, double u) const {
         return {position_.x + x * across_.x + u * along_.x, position_.y + x * across_.y + u * along_.y};
     }
+    /// World coordinates below the fan's point at (x, down).
+    glm::dvec2 below(double x, double down) const { return world(x, down * sine_pitch_); }
     /// (x, u, z) of a world vector.
     glm::dvec3 turned(const glm::dvec3& v) const {
-        return {v.x * across_.x + v.y * across_.y, v.x * along_.x + v.y * along_.y, v.z};
+        const double ahead = v.x * along_.x + v.y * along_.y;
+        return {v.x * across_.x + v.y * across_.y, ahead * cosine_pitch_ + v.z * sine_pitch_,
+                v.z * cosine_pitch_ - ahead * sine_pitch_};
     }
     /// (x, u, z) of a world position.
     glm::dvec3 operator()(const glm::dvec3& world) const { return turned(world - position_); }
@@ -20823,6 +20870,7 @@ class ping_frame {
   private:
     glm::dvec3 position_;
     glm::dvec2 across_, along_;
+    double sine_pitch_, cosine_pitch_, sine_roll_, cosine_roll_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
@@ -20852,7 +20900,11 @@ class bottom_tiles {
 
     /// @param spacing  metres between vertices; what `even` makes of it is taken
     bottom_tiles(const seabed::any& source, double spacing)
-        : prepared_(source.prepare()), spacing_(even(spacing)), scale_(1 / spacing_) {}
+        : is_empty_(source.empty()),
+          prepared_(source.prepare()),
+          range_(prepared_.range()),
+          spacing_(even(spacing)),
+          scale_(1 / spacing_) {}
 
     /// A length whose multiples are exact, so that a vertex is the same in whatever row it is sampled.
     static double even(double length) {
@@ -20864,6 +20916,7 @@ class bottom_tiles {
     /// @param from, reach  metres from each ping, on the side it looks to
     template <executor E>
     void cover(std::span<const ping_frame> pings, double from, double reach, E& ex) {
+        if (is_empty_) return;
         const double side = cells * spacing_;
         // Lines of sight in steps of half a tile: the boxes around the steps hold every tile that is touched.
         const double looked_at = reach - from;
@@ -20875,23 +20928,33 @@ class bottom_tiles {
         };
         std::int64_t last_x = -(std::int64_t{1} << 60), last_y = last_x;
         first_x_ = first_y_ = -last_x;
-        for (const ping_frame& p : pings)
-            for (const double x : {from, step(steps + 1)}) {
-                const auto [tile_x, tile_y] = tile_of(p.world(x, 0));
-                first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
-                last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
-            }
+        for (const ping_frame& p : pings) {
+            const auto [least, most] = depths(p);
+            for (const double x : {from, step(steps + 1)})
+                for (const double down : {least, most}) {
+                    const auto [tile_x, tile_y] = tile_of(p.below(x, down));
+                    first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
+                    last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
+                }
+        }
         columns_ = last_x - first_x_ + 1;
         const std::int64_t rows = last_y - first_y_ + 1;
         require(columns_ * rows < (1 << 26), "seabed tiles", columns_ * rows, "below 2^26: take larger cells");
         slots_.assign(static_cast<std::size_t>(columns_ * rows), absent);
-        for (const ping_frame& p : pings)
+        for (const ping_frame& p : pings) {
+            const auto [least, most] = depths(p);
             for (int i = 0; i < steps; ++i) {
-                const auto [ax, ay] = tile_of(p.world(step(i), 0));
-                const auto [bx, by] = tile_of(p.world(step(i + 1), 0));
-                for (std::int64_t y = (std::min)(ay, by); y <= (std::max)(ay, by); ++y)
-                    for (std::int64_t x = (std::min)(ax, bx); x <= (std::max)(ax, bx); ++x) slots_[slot_of(x, y)] = 0;
+                auto [ax, ay] = tile_of(p.below(step(i), least));
+                std::int64_t bx = ax, by = ay;
+                for (const auto& [x, y] : {tile_of(p.below(step(i + 1), least)), tile_of(p.below(step(i), most)),
+                                           tile_of(p.below(step(i + 1), most))}) {
+                    ax = (std::min)(ax, x), ay = (std::min)(ay, y);
+                    bx = (std::max)(bx, x), by = (std::max)(by, y);
+                }
+                for (std::int64_t y = ay; y <= by; ++y)
+                    for (std::int64_t x = ax; x <= bx; ++x) slots_[slot_of(x, y)] = 0;
             }
+        }
 
         // Recipes like long rows: neighbours along x are sampled together.
         std::vector<tile_run> runs;
@@ -20915,6 +20978,7 @@ class bottom_tiles {
 
     /// The bottom at a world position that is covered; bilinear in the cell, of the nearest vertex's type.
     bottom_vertex at(double x, double y) const {
+        if (is_empty_) return {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0};
         const double u = x * scale_, v = y * scale_;
         const std::int64_t cell_x = numeric::floor_to_int(u), cell_y = numeric::floor_to_int(v);
         const auto right = static_cast<float>(u - static_cast<double>(cell_x));
@@ -20933,6 +20997,12 @@ class bottom_tiles {
                 wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
     }
 
+    /// The depth, within those in which a pitched fan may meet the bottom; NaN becomes one of them, too.
+    double clamped(const ping_frame& p, double depth) const {
+        const auto [least, most] = depths(p);
+        return depth > least ? (std::min)(depth, most) : least;
+    }
+
     /// Vertices evaluated so far.
     std::uint64_t sampled() const { return sampled_; }
 
@@ -20945,6 +21015,15 @@ class bottom_tiles {
 
     std::size_t slot_of(std::int64_t x, std::int64_t y) const {
         return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
+    }
+
+    /// Between which depths along a fan the bottom lies; only pitched ones have to know.
+    /// @throws invalid_input for pitched pings over a seabed that does not state its heights
+    std::pair<double, double> depths(const ping_frame& p) const {
+        if (p.is_level() || range_.empty()) return {0, 0};
+        seabed::detail::require_finite(range_);
+        return {(p.position().z - range_.highest) / p.cosine_pitch(),
+                (p.position().z - range_.lowest) / p.cosine_pitch()};
     }
 
     /// Tiles side by side.
@@ -20983,7 +21062,9 @@ class bottom_tiles {
         }
     }
 
+    bool is_empty_;
     seabed::any_sampler prepared_;
+    seabed::height_range range_;
     double spacing_, scale_;
     std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0;
     std::vector<std::uint32_t> slots_;
@@ -21019,6 +21100,59 @@ struct display {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/name_tally.hpp -------------------------------------------------------------
+// Which of several names has most of a bin: lengths or powers are summed by bin and name.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+class name_tally {
+  public:
+    explicit name_tally(std::size_t bins) : heads_(bins, none) {}
+
+    void clear() {
+        if (entries_.empty()) return;
+        heads_.assign(heads_.size(), none);
+        entries_.clear();
+    }
+    void add(std::size_t bin, std::uint16_t name, float amount) {
+        std::uint32_t* at = &heads_[bin];
+        while (*at != none && entries_[*at].name != name) at = &entries_[*at].next;
+        if (*at != none) {
+            entries_[*at].amount += amount;
+            return;
+        }
+        *at = static_cast<std::uint32_t>(entries_.size());
+        entries_.push_back({amount, none, name});
+    }
+    struct share {
+        std::uint16_t name;
+        float amount;
+    };
+    /// The name that has most; of equal ones the first that was added. `otherwise` where nothing was.
+    share largest(std::size_t bin, std::uint16_t otherwise) const {
+        share best{otherwise, 0};
+        for (std::uint32_t i = heads_[bin]; i != none; i = entries_[i].next)
+            if (entries_[i].amount > best.amount) best = {entries_[i].name, entries_[i].amount};
+        return best;
+    }
+
+  private:
+    static constexpr std::uint32_t none = 0xFFFFFFFFu;
+    struct entry {
+        float amount;
+        std::uint32_t next;
+        std::uint16_t name;
+    };
+    std::vector<std::uint32_t> heads_;
+    std::vector<entry> entries_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
 
 INSONIFY_ARITHMETIC_END
 
@@ -21225,7 +21359,7 @@ namespace insonify::inline INSONIFY_ABI::detail {
 struct fan_shape {
     double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: nothing to be seen
     double above_highest = 1;  ///< over the highest bottom
-    double above_all = 1;      ///< over the highest of targets and bottom; not above 0: rays go up to 45 degrees
+    double above_all = 1;      ///< over the highest of targets and bottom; not above 0: rays go up to the zenith
 
     friend bool operator==(const fan_shape&, const fan_shape&) = default;
 
@@ -21276,9 +21410,11 @@ class ping_fan {
             const double cosine = 1 / numeric::square_root(1 + tangent * tangent);
             rays_.push_back({tangent * cosine, cosine, spacing * cosine * cosine});
         }
+        spacing_ = spacing, first_ = static_cast<double>(first), wall_first_ = static_cast<double>(last);
         const double from = numeric::atan2(static_cast<double>(last) * spacing, 1);
-        const double up_to = shape.above_all > 0 ? numeric::atan2(range, shape.above_all) : 0.75 * numeric::pi;
+        const double up_to = shape.above_all > 0 ? numeric::atan2(range, shape.above_all) : numeric::pi;
         const double angle = step / range;
+        wall_from_ = from, wall_angle_ = angle;
         for (std::int64_t i = 0; from + angle * static_cast<double>(i) < up_to; ++i) {
             const auto [sine, cosine] = numeric::sin_cos(from + angle * (static_cast<double>(i) + 0.5));
             rays_.push_back({sine, cosine, angle});
@@ -21299,17 +21435,131 @@ class ping_fan {
         return static_cast<std::size_t>(at - rays_.begin());
     }
 
+    /// Number of the first ray. Rays are numbered from nadir, so that fans that begin farther out agree with others.
+    std::size_t first() const { return static_cast<std::size_t>(first_); }
+    /// Where a point lies among the rays: ray i, whose number is first() + i, covers [number, number + 1). Clamped to
+    /// the rays that there are.
+    double coordinate(double x, double down) const {
+        double t = down > 0 ? x / down / spacing_ : wall_first_;
+        if (t >= wall_first_) t = wall_first_ + (numeric::atan2(x, down) - wall_from_) / wall_angle_;
+        return (std::min)((std::max)(t, first_), first_ + static_cast<double>(size()));
+    }
+    struct direction {
+        double sine, cosine;  ///< across and down
+    };
+    /// The inverse of `coordinate`.
+    direction at(double t) const {
+        if (t >= wall_first_) {
+            const auto [sine, cosine] = numeric::sin_cos(wall_from_ + wall_angle_ * (t - wall_first_));
+            return {sine, cosine};
+        }
+        const double tangent = t * spacing_;
+        const double cosine = 1 / numeric::square_root(1 + tangent * tangent);
+        return {tangent * cosine, cosine};
+    }
+
   private:
     fan_shape shape_{0, 0, 0};
     std::vector<ray> rays_;
+    double spacing_ = 1, first_ = 0;                          ///< of level ground: tangents per ray, the first number
+    double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond it: the first number, radians
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/geometry/detail/plane_tree.hpp ---------------------------------------------------
+// Finds the triangles of a mesh that a plane may cut, without looking at the others.
+//
+// Boxes around runs of eight triangles, boxes around eight of those, and so on: an implicit tree over the triangles in
+// their own order, which shared_mesh keeps coherent. Building it is one pass, and triangles are visited in order.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+class plane_tree {
+  public:
+    plane_tree() = default;
+    /// @param m  its indices have positions; triangles with corners that are not finite are left out
+    explicit plane_tree(const mesh_view& m) : triangles_(m.triangles.size()) {
+        std::vector<box> level((triangles_ + branching - 1) / branching);
+        for (std::size_t i = 0; i < triangles_; ++i) {
+            const glm::uvec3& t = m.triangles[i];
+            glm::vec3 sum(0);
+            for (int k = 0; k < 3; ++k) sum += m.positions[t[k]];
+            if (!numeric::is_finite(sum.x) || !numeric::is_finite(sum.y) || !numeric::is_finite(sum.z)) continue;
+            for (int k = 0; k < 3; ++k) level[i / branching].include(m.positions[t[k]]);
+        }
+        levels_.push_back(std::move(level));
+        while (levels_.back().size() > 1) {
+            const std::vector<box>& below = levels_.back();
+            std::vector<box> above((below.size() + branching - 1) / branching);
+            for (std::size_t i = 0; i < below.size(); ++i) {
+                above[i / branching].include(below[i].low);
+                above[i / branching].include(below[i].high);
+            }
+            levels_.push_back(std::move(above));
+        }
+    }
+
+    /// Calls `visit(first, last)` for runs of triangles that contain all those cut by normal . p + offset = 0.
+    template <class Visit>
+    void cut(const glm::dvec3& normal, double offset, const Visit& visit) const {
+        if (triangles_ > 0) descend(levels_.size() - 1, 0, normal, offset, visit);
+    }
+
+  private:
+    static constexpr std::size_t branching = 8;
+
+    struct box {
+        glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+
+        void include(const glm::vec3& p) {
+            for (int i = 0; i < 3; ++i) {
+                low[i] = (std::min)(low[i], p[i]);
+                high[i] = (std::max)(high[i], p[i]);
+            }
+        }
+        bool meets(const glm::dvec3& normal, double offset) const {
+            double lowest = offset, highest = offset, size = numeric::magnitude(offset);
+            for (int i = 0; i < 3; ++i) {
+                const double a = normal[i] * static_cast<double>(low[i]), b = normal[i] * static_cast<double>(high[i]);
+                lowest += (std::min)(a, b);
+                highest += (std::max)(a, b);
+                size += (std::max)(numeric::magnitude(a), numeric::magnitude(b));
+            }
+            const double rounding = 1e-12 * size;
+            return lowest <= rounding && highest >= -rounding;  // false for an empty box
+        }
+    };
+
+    template <class Visit>
+    void descend(std::size_t level, std::size_t i, const glm::dvec3& normal, double offset, const Visit& visit) const {
+        if (!levels_[level][i].meets(normal, offset)) return;
+        const std::size_t first = i * branching;
+        if (level == 0) return visit(first, (std::min)(first + branching, triangles_));
+        for (std::size_t child = first; child < (std::min)(first + branching, levels_[level - 1].size()); ++child)
+            descend(level - 1, child, normal, offset, visit);
+    }
+
+    std::size_t triangles_ = 0;
+    std::vector<std::vector<box>> levels_;
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/target_slices.hpp ----------------------------------------------------------
 // Targets as one ping meets them: the outline in its plane, cut from the mesh.
+
+#include <map>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -21328,7 +21578,9 @@ struct outline_piece {
 /// A target in the world, ready to be cut.
 class sliced_target {
   public:
-    explicit sliced_target(const target& t) : shape_(t.shape), to_world_(to_world(t.placement)) {
+    /// @param tree  of the shape's triangles
+    sliced_target(const target& t, std::shared_ptr<const plane_tree> tree)
+        : shape_(t.shape), tree_(std::move(tree)), to_world_(to_world(t.placement)) {
         const bounding_box& box = t.shape.box();
         if (box.empty()) return;
         centre_ = transform_point(to_world_, box.centre());
@@ -21336,8 +21588,9 @@ class sliced_target {
         radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
     }
 
-    /// Height above the datum that nothing of it reaches over.
+    /// Heights above the datum that it doesn't leave.
     double top() const { return centre_.z + radius_; }
+    double foot() const { return radius_ > 0 ? centre_.z - radius_ : 1e30; }
 
     bool is_met_by(const ping_frame& p, double range) const {
         const glm::dvec3 centre = p(centre_);
@@ -21358,37 +21611,287 @@ class sliced_target {
         for (int i = 0; i < 3; ++i) turn[i] = p.turned(to_world_.linear[i]);
         const glm::mat3 normals(turn);  // scales are uniform
         const double sign = numeric::determinant(turn) < 0 ? -1 : 1;
-        for (const glm::uvec3& t : shape_->triangles) {
-            glm::dvec3 v[3];
-            int behind = 0;
-            for (int i = 0; i < 3; ++i) {
-                v[i] = numeric::product(turn, glm::dvec3(shape_->positions[t[i]])) + offset;
-                behind += v[i].y < 0 ? 1 : 0;
-            }
-            if (behind == 0 || behind == 3 || !numeric::is_finite(v[0].x + v[1].x + v[2].x + v[0].z + v[1].z + v[2].z))
-                continue;
-            // The corner that is alone on its side, and the edges that leave it.
-            int alone = 0;
-            while ((v[alone].y < 0) != (behind == 1)) ++alone;
-            const auto corner = [&](int other) {
-                const int from = behind == 1 ? alone : other,
-                          to = behind == 1 ? other : alone;  // from behind to before
-                const double f = v[from].y / (v[from].y - v[to].y);
-                const glm::dvec3 at = v[from] + f * (v[to] - v[from]);
-                const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
-                return outline_piece::corner{at.x, -at.z,
-                                             numeric::product(normals, n + static_cast<float>(f) * (m - n))};
-            };
-            visit(outline_piece{corner((alone + 1) % 3), corner((alone + 2) % 3),
-                                glm::vec3(sign * numeric::cross(v[1] - v[0], v[2] - v[0]))});
-        }
+        const glm::dvec3 ahead(turn[0].y, turn[1].y, turn[2].y);
+        tree_->cut(ahead, offset.y, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                cut_triangle(shape_->triangles[i], turn, offset, normals, sign, visit);
+        });
     }
 
   private:
+    template <class Visit>
+    void cut_triangle(const glm::uvec3& t, const glm::dmat3& turn, const glm::dvec3& offset, const glm::mat3& normals,
+                      double sign, const Visit& visit) const {
+        glm::dvec3 v[3];
+        int behind = 0;
+        for (int i = 0; i < 3; ++i) {
+            v[i] = numeric::product(turn, glm::dvec3(shape_->positions[t[i]])) + offset;
+            behind += v[i].y < 0 ? 1 : 0;
+        }
+        if (behind == 0 || behind == 3 || !numeric::is_finite(v[0].x + v[1].x + v[2].x + v[0].z + v[1].z + v[2].z))
+            return;
+        // The corner that is alone on its side, and the edges that leave it.
+        int alone = 0;
+        while ((v[alone].y < 0) != (behind == 1)) ++alone;
+        const auto corner = [&](int other) {
+            const int from = behind == 1 ? alone : other,
+                      to = behind == 1 ? other : alone;  // from behind to before
+            const double f = v[from].y / (v[from].y - v[to].y);
+            const glm::dvec3 at = v[from] + f * (v[to] - v[from]);
+            const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
+            return outline_piece::corner{at.x, -at.z, numeric::product(normals, n + static_cast<float>(f) * (m - n))};
+        };
+        visit(outline_piece{corner((alone + 1) % 3), corner((alone + 2) % 3),
+                            glm::vec3(sign * numeric::cross(v[1] - v[0], v[2] - v[0]))});
+    }
+
     shared_mesh shape_;
+    std::shared_ptr<const plane_tree> tree_;
     affine to_world_;
     glm::dvec3 centre_{0, 0, -1e30};
     double radius_ = 0;
+};
+
+/// The targets of a scene; those of one shape share its tree.
+inline std::vector<sliced_target> sliced_targets(const scene& s) {
+    std::vector<sliced_target> all;
+    std::map<const mesh*, std::shared_ptr<const plane_tree>> trees;
+    for (const target& t : s.targets) {
+        std::shared_ptr<const plane_tree>& tree = trees[&*t.shape];
+        if (tree == nullptr) tree = std::make_shared<const plane_tree>(t.shape);
+        all.emplace_back(t, tree);
+    }
+    return all;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/target_hits.hpp ------------------------------------------------------------
+// What the rays of a ping meet first of the targets, exactly: parts of a ray's width, not samples.
+//
+// The outline of the targets in a ping's plane is a set of straight pieces. Within each ray's width the pieces' ends
+// divide the width into parts; of each part the nearest piece counts, in proportion to the part. So a bar that is
+// thinner than the spacing of rays is heard in every ping that meets it, and with the energy that it has.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// The part of a ray that a target stops.
+struct target_hit {
+    double share;                 ///< of the ray's width
+    double x, down;               ///< the middle, metres
+    double x0, down0, x1, down1;  ///< its ends
+    float facing;                 ///< sine of the grazing angle on the surface
+    float reflectivity;
+    std::uint16_t instance;
+
+    double square_range() const { return x * x + down * down; }
+};
+
+class target_hits {
+  public:
+    void begin(const ping_fan& fan) {
+        fan_ = &fan;
+        pieces_.clear();
+        partial_.clear();
+        hits_.clear();
+        nearest_.assign(fan.size(), {std::numeric_limits<double>::infinity(), 0});
+        first_.assign(fan.size() + 1, 0);
+        screens_.assign(fan.size(), {std::numeric_limits<double>::infinity(), 0});
+    }
+
+    /// A piece of an outline.
+    void add(outline_piece o, std::uint16_t instance, float reflectivity) {
+        if (o.a.x * o.b.down > o.a.down * o.b.x) std::swap(o.a, o.b);  // b is farther out
+        if (!(o.a.x > 0 || o.b.x > 0)) return;
+        cut_at_nadir(o.a, o.b);
+        cut_at_nadir(o.b, o.a);
+        if (fan_->size() == 0) return;
+        const double from = fan_->coordinate(o.a.x, o.a.down), to = fan_->coordinate(o.b.x, o.b.down);
+        if (!(from < to)) return;
+        const auto id = static_cast<std::uint32_t>(pieces_.size());
+        pieces_.push_back({o, instance, reflectivity});
+        const std::size_t first = static_cast<std::size_t>(from) - fan_->first();
+        const std::size_t last = (std::min)(static_cast<std::size_t>(to) - fan_->first(), fan_->size() - 1);
+        for (std::size_t k = first; k <= last; ++k) {
+            const double low = (std::max)(from, number(k)), high = (std::min)(to, number(k) + 1);
+            if (!(low < high)) continue;
+            if (high - low < 1) {
+                partial_.push_back({static_cast<std::uint32_t>(k), id, low, high});
+                continue;
+            }
+            const ping_fan::ray& ray = (*fan_)[k];
+            const glm::dvec2 p = point(o, {ray.sine, ray.cosine});
+            const double range = p.x * p.x + p.y * p.y;
+            if (range < nearest_[k].range) nearest_[k] = {range, id};
+        }
+    }
+
+    /// Finds what is nearest, once all pieces are there.
+    void resolve() {
+        std::stable_sort(partial_.begin(), partial_.end(), [](const part& a, const part& b) { return a.ray < b.ray; });
+        auto next = partial_.begin();
+        for (std::size_t k = 0; k < fan_->size(); ++k) {
+            first_[k] = static_cast<std::uint32_t>(hits_.size());
+            auto end = next;
+            while (end != partial_.end() && end->ray == k) ++end;
+            const bool is_met = nearest_[k].range < std::numeric_limits<double>::infinity();
+            if (next != end)
+                divide(k, {next, end}, is_met);
+            else if (is_met)
+                keep(nearest_[k].piece, number(k), number(k) + 1);
+            next = end;
+            find_screen(k, hits_.size());
+        }
+        first_.back() = static_cast<std::uint32_t>(hits_.size());
+    }
+
+    /// Removes what lies behind the bottom, which ray k meets at a range; behind everything, if nothing is met.
+    /// @returns the share of the ray that targets stop before
+    double cut_off(std::size_t k, double range) {
+        double stopped = 0;
+        bool is_cut = false;
+        for (std::size_t i = first_[k]; i < first_[k + 1]; ++i) {
+            if (hits_[i].square_range() < range * range)
+                stopped += hits_[i].share;
+            else if (hits_[i].share > 0)
+                hits_[i].share = 0, is_cut = true;
+        }
+        if (is_cut) find_screen(k, first_[k + 1]);
+        return stopped > 1 - 1e-9 ? 1 : stopped;
+    }
+
+    /// The target that stops most of ray k before a range, if they stop more than half; else is_lit.
+    std::uint16_t screen(std::size_t k, double range) const {
+        return k < screens_.size() && screens_[k].range < range ? screens_[k].instance : labels::is_lit;
+    }
+
+    /// Calls `visit(ray number, hit)` in the order of the rays.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (std::size_t k = 0; k + 1 < first_.size(); ++k)
+            for (std::size_t i = first_[k]; i < first_[k + 1]; ++i)
+                if (hits_[i].share > 0) visit(k, hits_[i]);
+    }
+
+  private:
+    struct piece {
+        outline_piece outline;
+        std::uint16_t instance;
+        float reflectivity;
+    };
+    struct part {
+        std::uint32_t ray, piece;
+        double low, high;  ///< coordinates of the fan
+    };
+    struct candidate {
+        double range;  ///< squared
+        std::uint32_t piece;
+    };
+    struct screen_of_ray {
+        double range;
+        std::uint16_t instance;
+    };
+
+    /// The coordinate at which ray k begins.
+    double number(std::size_t k) const { return static_cast<double>(fan_->first() + k); }
+
+    static void cut_at_nadir(outline_piece::corner& from, const outline_piece::corner& to) {
+        if (from.x > 0) return;
+        const double f = from.x / (from.x - to.x);
+        from = {0, from.down + f * (to.down - from.down),
+                from.normal + static_cast<float>(f) * (to.normal - from.normal)};
+    }
+
+    /// How far along a piece a direction meets it, in [0, 1].
+    static double along(const outline_piece& o, const ping_fan::direction& d) {
+        const double before = o.a.x * d.cosine - o.a.down * d.sine, after = o.b.x * d.cosine - o.b.down * d.sine;
+        const double f = before / (before - after);
+        return f > 0 ? (f < 1 ? f : 1.0) : 0.0;
+    }
+    static glm::dvec2 point(const outline_piece& o, const ping_fan::direction& d) {
+        const double f = along(o, d);
+        return {o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down)};
+    }
+
+    /// Keeps a part of a ray as stopped by a piece.
+    void keep(std::uint32_t id, double low, double high) {
+        const piece& p = pieces_[id];
+        const outline_piece& o = p.outline;
+        const ping_fan::direction middle = fan_->at(0.5 * (low + high));
+        const double f = along(o, middle);
+        const glm::dvec2 at(o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down));
+        const glm::dvec2 from = point(o, fan_->at(low)), to = point(o, fan_->at(high));
+        if (!(at.x * at.x + at.y * at.y > 0)) return;
+        hits_.push_back({high - low, at.x, at.y, from.x, from.y, to.x, to.y, facing(o, static_cast<float>(f), middle),
+                         p.reflectivity, p.instance});
+    }
+
+    /// Sine of the grazing angle. The facet says which side is heard and decides the sign of normals that contradict
+    /// it, or that are none.
+    static float facing(const outline_piece& o, float f, const ping_fan::direction& d) {
+        const auto sine = static_cast<float>(d.sine), cosine = static_cast<float>(d.cosine);
+        glm::vec3 n = o.a.normal + f * (o.b.normal - o.a.normal);
+        float square = numeric::dot(n, n);
+        if (!(square > 0 && numeric::is_finite(square))) n = o.facet, square = numeric::dot(n, n);
+        const bool is_front = o.facet.z * cosine - o.facet.x * sine > 0, is_along = numeric::dot(n, o.facet) > 0;
+        return (is_front == is_along ? 1.0f : -1.0f) * (n.z * cosine - n.x * sine) / numeric::square_root(square);
+    }
+
+    /// Divides a ray between the pieces that it meets with parts of its width, and the one with all of it.
+    void divide(std::size_t k, std::span<const part> parts, bool is_met) {
+        // Ends of very many pieces are not told apart.
+        ends_.clear();
+        ends_.push_back(number(k)), ends_.push_back(number(k) + 1);
+        if (parts.size() <= most_parts) {
+            for (const part& p : parts) ends_.push_back(p.low), ends_.push_back(p.high);
+        } else {
+            for (std::size_t i = 1; i < most_parts; ++i)
+                ends_.push_back(number(k) + static_cast<double>(i) / static_cast<double>(most_parts));
+        }
+        std::sort(ends_.begin(), ends_.end());
+        for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
+            if (!(ends_[i] < ends_[i + 1])) continue;
+            const double middle = 0.5 * (ends_[i] + ends_[i + 1]);
+            const ping_fan::direction d = fan_->at(middle);
+            candidate best{std::numeric_limits<double>::infinity(), 0};
+            const auto offer = [&](std::uint32_t id) {
+                const glm::dvec2 p = point(pieces_[id].outline, d);
+                const double range = p.x * p.x + p.y * p.y;
+                if (range < best.range) best = {range, id};
+            };
+            for (const part& p : parts)
+                if (p.low <= middle && middle <= p.high) offer(p.piece);
+            if (is_met) offer(nearest_[k].piece);
+            if (best.range < std::numeric_limits<double>::infinity()) keep(best.piece, ends_[i], ends_[i + 1]);
+        }
+    }
+
+    void find_screen(std::size_t k, std::size_t end) {
+        screens_[k] = {std::numeric_limits<double>::infinity(), 0};
+        double stopped = 0, largest = 0;
+        for (std::size_t i = first_[k]; i < end; ++i) {
+            stopped += hits_[i].share;
+            if (hits_[i].share <= largest) continue;
+            largest = hits_[i].share;
+            screens_[k] = {numeric::square_root(hits_[i].square_range()), hits_[i].instance};
+        }
+        if (!(stopped > 0.5)) screens_[k].range = std::numeric_limits<double>::infinity();
+    }
+
+    static constexpr std::size_t most_parts = 64;
+
+    const ping_fan* fan_ = nullptr;
+    std::vector<piece> pieces_;
+    std::vector<part> partial_;
+    std::vector<candidate> nearest_;  ///< by ray: the nearest piece over all of its width
+    std::vector<target_hit> hits_;
+    std::vector<std::uint32_t> first_;  ///< by ray: its hits begin here
+    std::vector<screen_of_ray> screens_;
+    std::vector<double> ends_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
@@ -21412,7 +21915,7 @@ struct echo_bin {
     float bottom = 0, target = 0;  ///< power
     float lit = 0;                 ///< of the bottom
     float dark_by_seabed = 0, dark_by_target = 0;
-    float most_bottom = 0, most_target = 0;  ///< the largest single contributions: what named the bin
+    // Those that have most of the bin; see name_tally.
     std::uint16_t instance = labels::no_instance, caster = labels::is_lit;
     std::uint8_t seabed = labels::no_seabed;
 };
@@ -21438,9 +21941,14 @@ class ping_listener {
           profile_step_((std::max)(step_, 0.5 * cell)),
           first_point_(static_cast<std::size_t>(-numeric::floor_to_int(-start / profile_step_))),
           spacing_(rig.ping_spacing),
-          bins_(static_cast<std::size_t>(rig.bins)) {
-        top_ = -1e30;
-        for (const sliced_target& t : targets) top_ = (std::max)(top_, t.top());
+          bins_(static_cast<std::size_t>(rig.bins)),
+          echoing_(bins_.size()),
+          casting_(bins_.size()),
+          types_(bins_.size()) {
+        for (const sliced_target& t : targets) {
+            top_ = (std::max)(top_, t.top());
+            foot_ = (std::min)(foot_, t.foot());
+        }
     }
 
     /// @returns one per bin, until the next ping
@@ -21448,14 +21956,20 @@ class ping_listener {
         std::fill(bins_.begin(), bins_.end(), echo_bin{});
         sample_bottom(p);
         const double altitude = p.position().z;
-        if (looks_beyond(relief_, first_range_, altitude)) lowest_ = relief_.lowest, highest_ = relief_.highest;
-        const fan_shape shape =
-            fan_shape::around(altitude - lowest_, altitude - highest_, altitude - (std::max)(top_, highest_));
-        if (!(shape == fan_.shape())) spread_out(shape);
+        if (looks_beyond(relief_, first_range_, p)) lowest_ = relief_.lowest, highest_ = relief_.highest;
+        if (!(lowest_ <= highest_))  // no bottom here: rays for the targets alone
+            lowest_ = highest_ = (std::min)(foot_, altitude - range_ / 16);
+        // The pitched fan's own depths are longer; heights above are bounded by the level ones.
+        const double longer = 1 / p.cosine_pitch();
+        const fan_shape shape = fan_shape::around((altitude - lowest_) * longer, altitude - highest_,
+                                                  altitude - (std::max)(top_, highest_));
+        const std::array<double, 3> attitude{p.sine_roll(), p.cosine_roll(), p.cosine_pitch()};
+        if (!(shape == fan_.shape()) || attitude != attitude_) spread_out(shape, attitude);
         if (!(altitude > lowest_) || profile_[0].down <= 0) return bins_;  // it lies in the ground
         gather_targets(p);
-        hear_bottom();
+        hear_bottom(p);
         if (some_target_) hear_targets();
+        if constexpr (Labelled) name_bins();
         return bins_;
     }
 
@@ -21467,7 +21981,7 @@ class ping_listener {
     static double start(const Rig& rig, double cell, const seabed::height_range& relief, const ping_frame& p,
                         std::span<const sliced_target> targets) {
         const double altitude = p.position().z, first = static_cast<double>(rig.first_range);
-        if (!looks_beyond(relief, first, altitude)) return 0;
+        if (!looks_beyond(relief, first, p)) return 0;
         const double lowest = altitude - relief.lowest, heard = first - 4 * rig.bin();
         const double square = counts_time ? heard * heard - lowest * lowest : heard * heard;
         const double place = heard > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
@@ -21482,8 +21996,10 @@ class ping_listener {
     static constexpr bool counts_time = Rig::axis == across_track::slant_range;
 
     /// Whether pings look past a bottom that they are well above.
-    static bool looks_beyond(const seabed::height_range& relief, double first_range, double altitude) {
-        return first_range > 0 && !relief.empty() && relief.lowest > -altitude && 2 * relief.highest < altitude;
+    static bool looks_beyond(const seabed::height_range& relief, double first_range, const ping_frame& p) {
+        const double altitude = p.position().z;
+        return first_range > 0 && p.is_level() && !relief.empty() && relief.lowest > -altitude &&
+               2 * relief.highest < altitude;
     }
 
     struct bottom_point {
@@ -21491,24 +22007,23 @@ class ping_listener {
         float slope, slope_along;
         std::uint8_t type;
     };
-    struct target_hit {
-        float range = std::numeric_limits<float>::infinity();
-        float low = 0, high = 0;  ///< where it is heard, in bins
-        float power = 0;
-        std::uint16_t instance = 0;
-    };
-
     /// A new fan, and what each of its rays carries for every metre of range.
-    void spread_out(const fan_shape& shape) {
+    void spread_out(const fan_shape& shape, const std::array<double, 3>& attitude) {
         const auto slant = [&](double r) {
             return counts_time ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
         };
         farthest_ = slant(range_);
         fan_ = ping_fan(shape, step_, slant(first_range_), farthest_);
         carried_.resize(fan_.size());
-        for (std::size_t k = 0; k < fan_.size(); ++k)
-            carried_[k] =
-                spacing_ * static_cast<float>(fan_[k].width * equation_.over_direction(fan_[k].sine, fan_[k].cosine));
+        attitude_ = attitude;
+        const auto [sine_roll, cosine_roll, cosine_pitch] = attitude;
+        // A fan that leans by a pitch is thinner than its spacing along the track.
+        const float thickness = spacing_ * static_cast<float>(cosine_pitch);
+        for (std::size_t k = 0; k < fan_.size(); ++k) {
+            const double across = fan_[k].sine * cosine_roll + fan_[k].cosine * sine_roll,
+                         down = fan_[k].cosine * cosine_roll - fan_[k].sine * sine_roll;
+            carried_[k] = thickness * static_cast<float>(fan_[k].width * equation_.over_direction(across, down));
+        }
     }
 
     /// The profile below the ping, from where it matters outwards.
@@ -21518,10 +22033,17 @@ class ping_listener {
         lowest_ = 1e30, highest_ = -1e30;
         const glm::vec2 across(p.across()), along(p.along());
         for (std::size_t i = 0; i < profile_.size(); ++i) {
-            const glm::dvec2 at = p.world(place_of(i), 0);
-            const bottom_vertex v = tiles_.at(at.x, at.y);
+            const double x = place_of(i);
+            bottom_vertex v;
+            double depth = i > 0 ? profile_[i - 1].down : 0;
+            // Of a pitched fan the place depends on the depth, which slopes below 1 / tan(pitch) make converge.
+            for (int step = p.is_level() ? 0 : -4; step <= 0; ++step) {
+                const glm::dvec2 at = p.is_level() ? p.world(x, 0) : p.below(x, tiles_.clamped(p, depth));
+                v = tiles_.at(at.x, at.y);
+                depth = (p.position().z - static_cast<double>(v.height)) / p.cosine_pitch();
+            }
             const auto height = static_cast<double>(v.height);
-            profile_[i] = {p.position().z - height, v.slope_x * across.x + v.slope_y * across.y,
+            profile_[i] = {depth, v.slope_x * across.x + v.slope_y * across.y,
                            v.slope_x * along.x + v.slope_y * along.y, static_cast<std::uint8_t>(v.type)};
             lowest_ = (std::min)(height, lowest_);  // NaN stays out
             highest_ = (std::max)(height, highest_);
@@ -21531,62 +22053,26 @@ class ping_listener {
     /// How far out a point of the profile is.
     double place_of(std::size_t i) const { return profile_step_ * static_cast<double>(first_point_ + i); }
 
-    /// Which rays meet which target first.
     void gather_targets(const ping_frame& p) {
         some_target_ = false;
         for (std::size_t i = 0; i < targets_.size(); ++i) {
             if (!targets_[i].is_met_by(p, farthest_)) continue;
-            if (!some_target_) hits_.assign(fan_.size(), target_hit{});
+            if (!some_target_) hits_.begin(fan_);
             some_target_ = true;
             targets_[i].cut(p, [&](const outline_piece& piece) {
-                meet(piece, static_cast<std::uint16_t>(i + 1), scene_.targets[i].surface.reflectivity);
+                hits_.add(piece, static_cast<std::uint16_t>(i + 1), scene_.targets[i].surface.reflectivity);
             });
         }
-    }
-
-    void meet(outline_piece o, std::uint16_t instance, float reflectivity) {
-        if (o.a.x * o.b.down > o.a.down * o.b.x) std::swap(o.a, o.b);  // b is farther out
-        if (!(o.a.x > 0 || o.b.x > 0)) return;
-        const auto cut_at_nadir = [](outline_piece::corner& from, const outline_piece::corner& to) {
-            if (from.x > 0) return;
-            const double f = from.x / (from.x - to.x);
-            from = {0, from.down + f * (to.down - from.down),
-                    from.normal + static_cast<float>(f) * (to.normal - from.normal)};
-        };
-        cut_at_nadir(o.a, o.b);
-        cut_at_nadir(o.b, o.a);
-        // A ray's echo ends where the piece ends.
-        const auto a = static_cast<float>(place(o.a.x, o.a.down)), b = static_cast<float>(place(o.b.x, o.b.down));
-        const float nearest = (std::min)(a, b), farthest = (std::max)(a, b);
-        const std::size_t last = fan_.first_over(o.b.x, o.b.down);
-        for (std::size_t k = fan_.first_over(o.a.x, o.a.down); k < last; ++k) {
-            const ping_fan::ray& ray = fan_[k];
-            const double before = ping_fan::beyond(ray, o.a.x, o.a.down),
-                         after = ping_fan::beyond(ray, o.b.x, o.b.down);
-            const double f = before / (before - after);
-            const double dx = o.b.x - o.a.x, ddown = o.b.down - o.a.down;
-            const double range = (o.a.x + f * dx) * ray.sine + (o.a.down + f * ddown) * ray.cosine;
-            target_hit& hit = hits_[k];
-            if (!(range > 0 && range < static_cast<double>(hit.range))) continue;
-            const glm::vec3 n = o.a.normal + static_cast<float>(f) * (o.b.normal - o.a.normal);
-            const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
-            const bool outside = o.facet.z * cosine - o.facet.x * sine > 0;
-            const float facing =
-                (outside ? 1.0f : -1.0f) * (n.z * cosine - n.x * sine) / numeric::square_root(numeric::dot(n, n));
-            const float at = column(ray, range), half = half_length(ray, range, dx, ddown);
-            hit = {static_cast<float>(range), at - (std::min)(half, (std::max)(most, at - nearest)),
-                   at + (std::min)(half, (std::max)(most, farthest - at)), power_of(k, range, facing) * reflectivity,
-                   instance};
-        }
+        if (some_target_) hits_.resolve();
     }
 
     /// Walks along the profile; rays meet it in order, and what lies below the last one met is hidden.
-    void hear_bottom() {
+    void hear_bottom(const ping_frame& ping) {
         double horizon_x = 0, horizon_down = 1;
         // Rays that meet the bottom before the profile begins see nothing behind it.
         std::size_t k = first_point_ > 0 ? fan_.first_over(place_of(0), profile_[0].down) : 0;
         if (some_target_)
-            for (std::size_t j = 0; j < k; ++j) hits_[j].range = std::numeric_limits<float>::infinity();
+            for (std::size_t j = 0; j < k; ++j) hits_.cut_off(j, 0);
         const std::size_t rays = fan_.size();
         for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
             const double px = place_of(i), qx = place_of(i + 1);
@@ -21614,7 +22100,8 @@ class ping_listener {
                     from = between;
                 }
                 last_met = f;
-                if (range <= farthest_ + bin_) hear_bottom_at(ray, k, range, dx, ddown, p, q, static_cast<float>(f));
+                if (range <= farthest_ + bin_)
+                    hear_bottom_at(ping, ray, k, range, dx, ddown, p, q, static_cast<float>(f));
             }
             if constexpr (Labelled)
                 name(p, q, px, dx, from, 1,
@@ -21624,41 +22111,53 @@ class ping_listener {
         }
     }
 
-    void hear_bottom_at(const ping_fan::ray& ray, std::size_t k, double range, double dx, double ddown,
-                        const bottom_point& p, const bottom_point& q, float f) {
-        if (some_target_) {
-            if (static_cast<double>(hits_[k].range) < range) return;
-            hits_[k].range = std::numeric_limits<float>::infinity();  // buried, or behind a rise
-        }
+    void hear_bottom_at(const ping_frame& ping, const ping_fan::ray& ray, std::size_t k, double range, double dx,
+                        double ddown, const bottom_point& p, const bottom_point& q, float f) {
+        // Targets that are buried or behind a rise are cut off.
+        const double stopped = some_target_ ? hits_.cut_off(k, range) : 0;
+        if (stopped >= 1) return;
         const float at = column(ray, range), half = (std::min)(half_length(ray, range, dx, ddown), most);
         const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
         const float slope = p.slope + f * (q.slope - p.slope);
         const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
-        const float facing =
-            (slope * sine + cosine) / numeric::square_root(1 + slope * slope + slope_along * slope_along);
-        const float power =
-            power_of(k, range, facing) * materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
-        spread(at - half, at + half, [&](echo_bin& bin, float share, float) { bin.bottom += power * share; });
+        const auto upright = static_cast<float>(ping.cosine_pitch()), ahead = static_cast<float>(ping.sine_pitch());
+        const float facing = (slope * sine + cosine * (upright + slope_along * ahead)) /
+                             numeric::square_root(1 + slope * slope + slope_along * slope_along);
+        const float power = static_cast<float>(1 - stopped) * power_of(k, range, facing) *
+                            materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
+        spread(at - half, at + half, [&](std::size_t bin, float share, float) { bins_[bin].bottom += power * share; });
     }
 
     void hear_targets() {
-        for (std::size_t k = 0; k < hits_.size(); ++k) {
-            const target_hit& hit = hits_[k];
-            if (!(static_cast<double>(hit.range) < 1e30)) continue;
-            spread(hit.low, hit.high, [&](echo_bin& bin, float share, float) {
-                const float power = hit.power * share;
-                bin.target += power;
-                if (power > bin.most_target) bin.most_target = power, bin.instance = hit.instance;
-            });
-        }
+        hits_.for_each([&](std::size_t k, const target_hit& hit) {
+            const double range = numeric::square_root(hit.square_range());
+            const float power = static_cast<float>(hit.share) * power_of(k, range, hit.facing) * hit.reflectivity;
+            const double a = place(hit.x0, hit.down0), b = place(hit.x1, hit.down1);
+            spread(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
+                   [&](std::size_t bin, float share, float) {
+                       bins_[bin].target += power * share;
+                       if constexpr (Labelled) echoing_.add(bin, hit.instance, power * share);
+                   });
+        });
     }
 
-    /// The target that stands between the sonar and a point of a ray, or is_lit.
-    std::uint16_t screen(std::size_t k, double x, double down) const {
-        const double range = numeric::square_root(x * x + down * down);
-        return k < hits_.size() && static_cast<double>(hits_[k].range) < range ? hits_[k].instance : labels::is_lit;
+    /// Gives each bin the names that have most of it.
+    void name_bins() {
+        for (std::size_t b = 0; b < bins_.size(); ++b) {
+            echo_bin& bin = bins_[b];
+            bin.instance = echoing_.largest(b, labels::no_instance).name;
+            bin.seabed = static_cast<std::uint8_t>(types_.largest(b, labels::no_seabed).name);
+            const auto [caster, length] = casting_.largest(b, labels::by_seabed);
+            bin.caster = length >= bin.dark_by_seabed ? caster : labels::by_seabed;
+        }
+        echoing_.clear(), casting_.clear(), types_.clear();
     }
-    /// Who hides bottom below the horizon; what a target keeps dark is the target's, even if the seabed would too.
+
+    /// The target that stands between the sonar and a point of ray k, or is_lit.
+    std::uint16_t screen(std::size_t k, double x, double down) const {
+        return hits_.screen(k, numeric::square_root(x * x + down * down));
+    }
+    /// What hides bottom below the horizon: a target, if one does, even where the seabed would too.
     std::uint16_t hider(double x, double down) const {
         const std::uint16_t target = some_target_ ? screen(fan_.first_over(x, down), x, down) : labels::is_lit;
         return target == labels::is_lit ? labels::by_seabed : target;
@@ -21671,31 +22170,32 @@ class ping_listener {
         const double a = place(px + from * dx, p.down + from * down), b = place(px + to * dx, p.down + to * down);
         const std::uint8_t type = from + to < 1 ? p.type : q.type;
         spread(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
-               [&](echo_bin& bin, float, float length) {
+               [&](std::size_t number, float, float length) {
+                   echo_bin& bin = bins_[number];
                    if (caster == labels::is_lit)
                        bin.lit += length;
                    else if (caster == labels::by_seabed)
                        bin.dark_by_seabed += length;
                    else
-                       bin.dark_by_target += length, bin.caster = caster;
-                   if (length > bin.most_bottom) bin.most_bottom = length, bin.seabed = type;
+                       bin.dark_by_target += length, casting_.add(number, caster, length);
+                   types_.add(number, type, length);
                });
     }
 
-    /// Calls `visit(bin, share, length)` for the bins from `low` to `high`.
+    /// Calls `visit(number of the bin, share, length)` for the bins from `low` to `high`.
     template <class Visit>
     void spread(float low, float high, const Visit& visit) {
         if (!(high > 0 && low < static_cast<float>(bins_.size()))) return;
         const auto first = static_cast<std::int64_t>(low > 0 ? low : 0.0f);
         const auto last = (std::min)(static_cast<std::int64_t>(high), static_cast<std::int64_t>(bins_.size()) - 1);
         if (first == last && low >= static_cast<float>(first) && high <= static_cast<float>(first + 1)) {
-            visit(bins_[static_cast<std::size_t>(first)], 1.0f, high - low);
+            visit(static_cast<std::size_t>(first), 1.0f, high - low);
             return;
         }
         const float scale = 1 / (high - low);
         for (std::int64_t b = first; b <= last; ++b) {
             const float from = (std::max)(low, static_cast<float>(b)), to = (std::min)(high, static_cast<float>(b + 1));
-            if (to > from) visit(bins_[static_cast<std::size_t>(b)], (to - from) * scale, to - from);
+            if (to > from) visit(static_cast<std::size_t>(b), (to - from) * scale, to - from);
         }
     }
 
@@ -21734,13 +22234,16 @@ class ping_listener {
     double range_, first_range_, bin_, step_, profile_step_, farthest_ = 0;
     std::size_t first_point_;
     float spacing_;
-    double top_, lowest_ = 0, highest_ = 0;
+    double top_ = -1e30, foot_ = 1e30;         ///< of all targets
+    double lowest_ = 0, highest_ = 0;          ///< of the bottom below the ping
+    std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
     std::vector<float> carried_;
     std::vector<bottom_point> profile_;
-    std::vector<target_hit> hits_;
+    target_hits hits_;
     bool some_target_ = false;
     std::vector<echo_bin> bins_;
+    name_tally echoing_, casting_, types_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
@@ -22075,12 +22578,32 @@ struct record_options {
     /// of 0.9, 1.5 and 3.4 % of the bins differ on ripples, of 3.6, 5.3 and 11 % on rock; and amplitudes by 7, 10 and
     /// 19 % (rms) on ripples.
     double cell = 0;
+
+    /// The same options with another sonar equation, another law, or without labels:
+    /// `record_options<>{}.with(sonar_equation{pulse{}, level_gain{}})`.
+    template <class... Parts>
+    record_options<Labels, Law, sonar_equation<Parts...>> with(const sonar_equation<Parts...>& other) const {
+        return {law, other, cell};
+    }
+    template <backscatter_law Other>
+    record_options<Labels, Other, Equation> with(const Other& other) const {
+        return {other, equation, cell};
+    }
+    record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
 };
 
 /// How large the intermediate things were.
 struct record_stats {
     std::uint64_t seabed_vertices = 0;  ///< sampled
     double cell = 0;                    ///< metres between them
+};
+
+/// Which pings the rows of a picture are, and which side its columns hear.
+struct ping_numbers {
+    std::int64_t first = 0;  ///< of the top row
+    int step = 1;            ///< from row to row: 1, or -1
+    insonify::side side = insonify::side::starboard;
+    int port_columns = 0;  ///< at the left, of another channel: port, its range growing to the left
 };
 
 /// A picture with all that is known about it: a row per ping, a column per bin.
@@ -22091,6 +22614,7 @@ struct recording {
     /// than the bottom does; a bin without bottom (the water column) has neither, and no seabed type.
     Labels labels;
     record_stats stats;
+    ping_numbers rows;  ///< numbers of pings: as in the track
 };
 
 namespace detail {
@@ -22129,12 +22653,11 @@ class recorder {
         validate(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "metres, or 0");
-        for (const ping& p : track)
-            require(numeric::is_finite(p.position.x + p.position.y + p.position.z + p.yaw), "ping.position",
-                    p.position.x + p.position.y + p.position.z + p.yaw, "finite");
+        for (const ping& p : track) validate(p);
+        out_.rows.side = rig.side;
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
         materials_ = resolved_bottom(s);
-        for (const target& t : s.targets) targets_.emplace_back(t);
+        targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
         out_.image = filled(rig.bins, height, 0.0f, ex);
         if constexpr (labelled) {
@@ -22340,7 +22863,7 @@ recording<Labels> record(const scene& s, std::span<const ping> track, const side
 }
 
 /// Draws a scene as a side-scan sonar on a straight track hears it, or as a map of what it hears: see side_scan_rig.
-/// The top row is the last ping. The other parameters are those of `record`.
+/// Row i is ping i. The other parameters are those of `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
@@ -22353,7 +22876,7 @@ recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
             if constexpr (detail::footprint_part<decltype(part)>) more = detail::beam_reach(part, rig);
         });
     std::vector<ping> track;
-    for (int i = rig.pings - 1 + more; i >= -more; --i) track.push_back(ping_of(rig, i));
+    for (int i = -more; i < rig.pings + more; ++i) track.push_back(ping_of(rig, i));
     auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
     if (more > 0) out.image = detail::rows_of(out.image, more, rig.pings);
     if constexpr (std::is_same_v<Labels, labels>) {
@@ -22397,6 +22920,7 @@ recording<Labels> to_ground_range(const recording<Labels>& slant, const side_sca
                     altitudes.size(), "0 or one per row");
     recording<Labels> out;
     out.stats = slant.stats;
+    out.rows = slant.rows;
     out.image = image<float>(to.bins, rows);
     if constexpr (std::is_same_v<Labels, labels>) {
         out.labels = labels(to.bins, rows);
@@ -22426,6 +22950,101 @@ recording<Labels> to_ground_range(const recording<Labels>& slant, const side_sca
     }
     if constexpr (std::is_same_v<Labels, labels>) detail::describe_again(out.labels);
     return out;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/swath.hpp ------------------------------------------------------------------
+// Both sides of the track in one picture.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// The picture with left and right exchanged: what grew to the right grows to the left.
+template <class T>
+image<T> mirrored(const image<T>& source) {
+    image<T> out(source.width(), source.height());
+    for (int y = 0; y < source.height(); ++y)
+        std::reverse_copy(source.row(y).begin(), source.row(y).end(), out.row(y).begin());
+    return out;
+}
+
+/// The picture turned by half a turn: that of a rig which looks the other way, with forward up again.
+template <class T>
+image<T> turned(const image<T>& source) {
+    image<T> out(source.width(), source.height());
+    std::reverse_copy(source.pixels().begin(), source.pixels().end(), out.pixels().begin());
+    return out;
+}
+
+/// The recording with its last ping on top, so that up is forward, as in overhead pictures.
+template <class Labels>
+recording<Labels> upside_down(recording<Labels> r) {
+    const auto turn = [](auto& picture) {
+        for (int y = 0; 2 * y < picture.height() - 1; ++y)
+            std::swap_ranges(picture.row(y).begin(), picture.row(y).end(),
+                             picture.row(picture.height() - 1 - y).begin());
+    };
+    turn(r.image);
+    if constexpr (std::is_same_v<Labels, labels>) {
+        turn(r.labels.instance), turn(r.labels.shadow), turn(r.labels.seabed);
+        detail::describe_again(r.labels);
+    }
+    r.rows.first += static_cast<std::int64_t>(r.image.height() - 1) * r.rows.step;
+    r.rows.step = -r.rows.step;
+    return r;
+}
+
+/// Two pictures side by side, `gap` columns of `fill` between them.
+///
+/// `beside(turned(port.image), starboard.image, gap)` of two frames of `overhead`, the one with its yaw half a turn
+/// further, is the paper's stitched picture; its dead zone is the gap.
+/// @throws invalid_input for pictures of different heights, or a negative gap
+template <class T>
+image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
+    detail::require(left.height() == right.height(), "right.height()", right.height(), "that of the left picture");
+    detail::require(gap >= 0, "gap", gap, "at least 0");
+    image<T> out(left.width() + gap + right.width(), left.height(), fill);
+    for (int y = 0; y < left.height(); ++y) {
+        std::copy(left.row(y).begin(), left.row(y).end(), out.row(y).begin());
+        std::copy(right.row(y).begin(), right.row(y).end(), out.row(y).begin() + left.width() + gap);
+    }
+    return out;
+}
+
+/// A port and a starboard recording of one track as one, port to the left: range grows from the middle outwards, and
+/// the water column, as wide as the sonar is high, lies between. `targets` of the labels describes both sides.
+template <class Labels>
+recording<Labels> both_sides(const recording<Labels>& port, const recording<Labels>& starboard) {
+    recording<Labels> out;
+    out.image = beside(mirrored(port.image), starboard.image);
+    out.stats = port.stats;
+    out.stats.seabed_vertices += starboard.stats.seabed_vertices;
+    out.rows = starboard.rows;
+    out.rows.port_columns = port.image.width();
+    if constexpr (std::is_same_v<Labels, labels>) {
+        out.labels.instance = beside(mirrored(port.labels.instance), starboard.labels.instance);
+        out.labels.shadow = beside(mirrored(port.labels.shadow), starboard.labels.shadow);
+        out.labels.seabed = beside(mirrored(port.labels.seabed), starboard.labels.seabed);
+        out.labels.targets = starboard.labels.targets;
+        out.labels.legend = starboard.labels.legend;
+        detail::describe_again(out.labels);
+    }
+    return out;
+}
+
+/// Draws both sides of a straight track; the rig's own side doesn't matter. See `render`.
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+recording<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
+                               const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+    rig.side = side::port;
+    const auto port = render(s, rig, options, ex);
+    rig.side = side::starboard;
+    return both_sides(port, render(s, rig, options, ex));
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
@@ -22477,19 +23096,6 @@ struct seabed_speckle {
     float texture_length = 3;  ///< pings and bins over which a texture stays the same, 1 to 1024
     std::uint64_t seed = 1;
 };
-
-/// Which speckle the rows of a picture have.
-struct ping_numbers {
-    std::int64_t first = 0;  ///< of the top row
-    int step = 1;            ///< from row to row
-    insonify::side side = insonify::side::starboard;
-};
-
-/// Those of a picture that `render` made: its top row is the last ping.
-template <across_track Axis>
-ping_numbers numbers_of(const side_scan_rig<Axis>& rig) {
-    return {rig.pings - 1, -1, rig.side};
-}
 
 namespace detail {
 
@@ -22669,88 +23275,28 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
     return s;
 }
 
-/// The same recording with speckle: of one side, as `render` made it of this rig.
-template <across_track Axis, executor_argument E = serial_executor>
-recording<labels> with_speckle(recording<labels> r, const side_scan_rig<Axis>& rig, const seabed_speckle& s = {},
-                               E&& ex = {}) {
-    r.image =
-        with_speckle(r.image.view(), r.labels.seabed.view(), with_legend(s, r.labels.legend), numbers_of(rig), ex);
+/// The same recording with speckle; its rows say which pings they are, and its legend which laws own labels have.
+template <executor_argument E = serial_executor>
+recording<labels> with_speckle(recording<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
+    const seabed_speckle laws = with_legend(s, r.labels.legend);
+    const int port = r.rows.port_columns;
+    if (port == 0) {
+        r.image = with_speckle(r.image.view(), r.labels.seabed.view(), laws, r.rows, ex);
+        return r;
+    }
+    const auto channel = [&](side looks, int left, int width) {
+        const bool is_port = looks == side::port;
+        const auto part = [&](const auto& picture) {
+            const std::remove_cvref_t<decltype(picture)> cut(picture.view().part(left, 0, width, picture.height()));
+            return is_port ? mirrored(cut) : cut;
+        };
+        const auto mean = part(r.image);
+        const auto types = part(r.labels.seabed);
+        const auto noisy = with_speckle(mean.view(), types.view(), laws, {r.rows.first, r.rows.step, looks}, ex);
+        return is_port ? mirrored(noisy) : noisy;
+    };
+    r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));
     return r;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/swath.hpp ------------------------------------------------------------------
-// Both sides of the track in one picture.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// The picture with left and right exchanged: what grew to the right grows to the left.
-template <class T>
-image<T> mirrored(const image<T>& source) {
-    image<T> out(source.width(), source.height());
-    for (int y = 0; y < source.height(); ++y)
-        std::reverse_copy(source.row(y).begin(), source.row(y).end(), out.row(y).begin());
-    return out;
-}
-
-/// The picture turned by half a turn: that of a rig which looks the other way, with forward up again.
-template <class T>
-image<T> turned(const image<T>& source) {
-    image<T> out(source.width(), source.height());
-    std::reverse_copy(source.pixels().begin(), source.pixels().end(), out.pixels().begin());
-    return out;
-}
-
-/// Two pictures side by side, `gap` columns of `fill` between them.
-///
-/// `beside(turned(port.image), starboard.image, gap)` of two frames of `overhead`, the one with its yaw half a turn
-/// further, is the paper's stitched picture; its dead zone is the gap.
-/// @throws invalid_input for pictures of different heights, or a negative gap
-template <class T>
-image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
-    detail::require(left.height() == right.height(), "right.height()", right.height(), "that of the left picture");
-    detail::require(gap >= 0, "gap", gap, "at least 0");
-    image<T> out(left.width() + gap + right.width(), left.height(), fill);
-    for (int y = 0; y < left.height(); ++y) {
-        std::copy(left.row(y).begin(), left.row(y).end(), out.row(y).begin());
-        std::copy(right.row(y).begin(), right.row(y).end(), out.row(y).begin() + left.width() + gap);
-    }
-    return out;
-}
-
-/// A port and a starboard recording of one track as one, port to the left: range grows from the middle outwards, and
-/// the water column, as wide as the sonar is high, lies between. `targets` of the labels tells of both sides.
-template <class Labels>
-recording<Labels> both_sides(const recording<Labels>& port, const recording<Labels>& starboard) {
-    recording<Labels> out;
-    out.image = beside(mirrored(port.image), starboard.image);
-    out.stats = port.stats;
-    out.stats.seabed_vertices += starboard.stats.seabed_vertices;
-    if constexpr (std::is_same_v<Labels, labels>) {
-        out.labels.instance = beside(mirrored(port.labels.instance), starboard.labels.instance);
-        out.labels.shadow = beside(mirrored(port.labels.shadow), starboard.labels.shadow);
-        out.labels.seabed = beside(mirrored(port.labels.seabed), starboard.labels.seabed);
-        out.labels.targets = starboard.labels.targets;
-        out.labels.legend = starboard.labels.legend;
-        detail::describe_again(out.labels);
-    }
-    return out;
-}
-
-/// Draws both sides of a straight track; the rig's own side doesn't matter. See `render`.
-template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
-          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-recording<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
-                               const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
-    rig.side = side::port;
-    const auto port = render(s, rig, options, ex);
-    rig.side = side::starboard;
-    return both_sides(port, render(s, rig, options, ex));
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

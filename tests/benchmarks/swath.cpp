@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
         in::render(scene, rig, in::record_options<in::labels, in::lambert_backscatter, equation>{.equation = whole},
                    pool);
     });
-    print_median("speckle on top", [&] { in::with_speckle(labelled, rig, {}, pool); });
+    print_median("speckle on top", [&] { in::with_speckle(labelled, {}, pool); });
     in::side_scan slanting = rig;
     slanting.yaw = 0.7f;
     print_median("picture, across the lattice", [&] { in::render(scene, slanting, bare{}, pool); });

@@ -14,9 +14,9 @@ namespace insonify::inline INSONIFY_ABI {
 
 /// An indexed triangle mesh. Counter-clockwise triangles face the viewer; positions are metres in the mesh's own frame.
 struct mesh {
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;  ///< unit, one per position, or none at all
-    std::vector<glm::uvec3> triangles;
+    std::vector<glm::vec3> positions{};
+    std::vector<glm::vec3> normals{};  ///< unit, one per position, or none at all
+    std::vector<glm::uvec3> triangles{};
 };
 
 /// A mesh to look at: somebody else's buffers, who has to keep them meanwhile.

@@ -15,9 +15,10 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// An immutable mesh: copies refer to the same triangles. A mesh whose triangles follow one another without order, as
-/// those of a shuffled one, is renumbered, triangles and vertices: otherwise it keeps its numbers. What renderers need
-/// of it is found once, when it is made: its bounds, smooth normals if it brings none, whether it is closed or a
-/// heightfield, and the regular grid that a heightfield's vertices lie on, if they do.
+/// those of a shuffled one, is renumbered, triangles and vertices: otherwise it keeps its numbers. Triangles that are
+/// wound against all of their normals are turned over. What renderers need of it is found once, when it is made: its
+/// bounds, smooth normals if it brings none, whether it is closed or a heightfield, and the regular grid that a
+/// heightfield's vertices lie on, if they do.
 class shared_mesh {
   public:
     /// No triangles.
@@ -48,7 +49,10 @@ class shared_mesh {
             validate(shape);
             box = bounds(shape);
             if (detail::is_incoherent(shape)) detail::order_along_curve(shape, box);
-            if (shape.normals.empty()) shape.normals = smooth_normals(shape);
+            if (shape.normals.empty())
+                shape.normals = smooth_normals(shape);
+            else
+                wind_by_normals(shape);
             kind = kind_of(shape);
             if (kind == surface_kind::heightfield) grid = regular_grid_of(shape, serial_executor{}, grid_error);
         }

@@ -20,12 +20,32 @@ struct record_options {
     /// of 0.9, 1.5 and 3.4 % of the bins differ on ripples, of 3.6, 5.3 and 11 % on rock; and amplitudes by 7, 10 and
     /// 19 % (rms) on ripples.
     double cell = 0;
+
+    /// The same options with another sonar equation, another law, or without labels:
+    /// `record_options<>{}.with(sonar_equation{pulse{}, level_gain{}})`.
+    template <class... Parts>
+    record_options<Labels, Law, sonar_equation<Parts...>> with(const sonar_equation<Parts...>& other) const {
+        return {law, other, cell};
+    }
+    template <backscatter_law Other>
+    record_options<Labels, Other, Equation> with(const Other& other) const {
+        return {other, equation, cell};
+    }
+    record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
 };
 
 /// How large the intermediate things were.
 struct record_stats {
     std::uint64_t seabed_vertices = 0;  ///< sampled
     double cell = 0;                    ///< metres between them
+};
+
+/// Which pings the rows of a picture are, and which side its columns hear.
+struct ping_numbers {
+    std::int64_t first = 0;  ///< of the top row
+    int step = 1;            ///< from row to row: 1, or -1
+    insonify::side side = insonify::side::starboard;
+    int port_columns = 0;  ///< at the left, of another channel: port, its range growing to the left
 };
 
 /// A picture with all that is known about it: a row per ping, a column per bin.
@@ -36,6 +56,7 @@ struct recording {
     /// than the bottom does; a bin without bottom (the water column) has neither, and no seabed type.
     Labels labels;
     record_stats stats;
+    ping_numbers rows;  ///< numbers of pings: as in the track
 };
 
 namespace detail {
@@ -74,12 +95,11 @@ class recorder {
         validate(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "metres, or 0");
-        for (const ping& p : track)
-            require(numeric::is_finite(p.position.x + p.position.y + p.position.z + p.yaw), "ping.position",
-                    p.position.x + p.position.y + p.position.z + p.yaw, "finite");
+        for (const ping& p : track) validate(p);
+        out_.rows.side = rig.side;
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
         materials_ = resolved_bottom(s);
-        for (const target& t : s.targets) targets_.emplace_back(t);
+        targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
         out_.image = filled(rig.bins, height, 0.0f, ex);
         if constexpr (labelled) {
@@ -285,7 +305,7 @@ recording<Labels> record(const scene& s, std::span<const ping> track, const side
 }
 
 /// Draws a scene as a side-scan sonar on a straight track hears it, or as a map of what it hears: see side_scan_rig.
-/// The top row is the last ping. The other parameters are those of `record`.
+/// Row i is ping i. The other parameters are those of `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
@@ -298,7 +318,7 @@ recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
             if constexpr (detail::footprint_part<decltype(part)>) more = detail::beam_reach(part, rig);
         });
     std::vector<ping> track;
-    for (int i = rig.pings - 1 + more; i >= -more; --i) track.push_back(ping_of(rig, i));
+    for (int i = -more; i < rig.pings + more; ++i) track.push_back(ping_of(rig, i));
     auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
     if (more > 0) out.image = detail::rows_of(out.image, more, rig.pings);
     if constexpr (std::is_same_v<Labels, labels>) {

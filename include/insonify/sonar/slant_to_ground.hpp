@@ -27,6 +27,7 @@ recording<Labels> to_ground_range(const recording<Labels>& slant, const side_sca
                     altitudes.size(), "0 or one per row");
     recording<Labels> out;
     out.stats = slant.stats;
+    out.rows = slant.rows;
     out.image = image<float>(to.bins, rows);
     if constexpr (std::is_same_v<Labels, labels>) {
         out.labels = labels(to.bins, rows);

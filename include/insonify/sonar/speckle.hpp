@@ -12,7 +12,7 @@
 #include <insonify/core/correlation.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/core/gamma.hpp>
-#include <insonify/sonar/slant_range.hpp>
+#include <insonify/sonar/swath.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -48,19 +48,6 @@ struct seabed_speckle {
     float texture_length = 3;  ///< pings and bins over which a texture stays the same, 1 to 1024
     std::uint64_t seed = 1;
 };
-
-/// Which speckle the rows of a picture have.
-struct ping_numbers {
-    std::int64_t first = 0;  ///< of the top row
-    int step = 1;            ///< from row to row
-    insonify::side side = insonify::side::starboard;
-};
-
-/// Those of a picture that `render` made: its top row is the last ping.
-template <across_track Axis>
-ping_numbers numbers_of(const side_scan_rig<Axis>& rig) {
-    return {rig.pings - 1, -1, rig.side};
-}
 
 namespace detail {
 
@@ -240,12 +227,27 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
     return s;
 }
 
-/// The same recording with speckle: of one side, as `render` made it of this rig.
-template <across_track Axis, executor_argument E = serial_executor>
-recording<labels> with_speckle(recording<labels> r, const side_scan_rig<Axis>& rig, const seabed_speckle& s = {},
-                               E&& ex = {}) {
-    r.image =
-        with_speckle(r.image.view(), r.labels.seabed.view(), with_legend(s, r.labels.legend), numbers_of(rig), ex);
+/// The same recording with speckle; its rows say which pings they are, and its legend which laws own labels have.
+template <executor_argument E = serial_executor>
+recording<labels> with_speckle(recording<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
+    const seabed_speckle laws = with_legend(s, r.labels.legend);
+    const int port = r.rows.port_columns;
+    if (port == 0) {
+        r.image = with_speckle(r.image.view(), r.labels.seabed.view(), laws, r.rows, ex);
+        return r;
+    }
+    const auto channel = [&](side looks, int left, int width) {
+        const bool is_port = looks == side::port;
+        const auto part = [&](const auto& picture) {
+            const std::remove_cvref_t<decltype(picture)> cut(picture.view().part(left, 0, width, picture.height()));
+            return is_port ? mirrored(cut) : cut;
+        };
+        const auto mean = part(r.image);
+        const auto types = part(r.labels.seabed);
+        const auto noisy = with_speckle(mean.view(), types.view(), laws, {r.rows.first, r.rows.step, looks}, ex);
+        return is_port ? mirrored(noisy) : noisy;
+    };
+    r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));
     return r;
 }
 
