@@ -30,9 +30,7 @@ struct entry {
 };
 
 std::vector<entry> entries() {
-    const auto of = [](in::sediment s) {
-        return std::visit([](const auto& recipe) { return sb::any(recipe); }, sb::bottom_of(s, 3));
-    };
+    const auto of = [](in::sediment s) { return sb::bottom_of(s, 3); };
     const sb::mixed sand_in_mud{
         .base = sb::mud{.density = 0, .kind = sb::type::sandy_mud},
         .layers = {{sb::flat{.surface = sb::roughness_of(in::sediment::coarse_sand), .kind = sb::type::coarse_sand},

@@ -21,7 +21,7 @@ class logbook {
                       "ping,time_s,x_m,y_m,altitude_over_datum_m,altitude_over_bottom_m,heading_deg"),
           contacts_(o.out + "/contacts.csv"),
           map_(std::move(map)),
-          bottom_(in::seabed::prepare(seabed)) {}
+          bottom_(seabed.prepare()) {}
 
     void write(const block& b, const sight& in_sight, const in::side_scan& rig) {
         for (int row = 0; row < b.gray.height(); ++row) {
@@ -61,7 +61,7 @@ class logbook {
     csv_stream navigation_;
     contact_list contacts_;
     chart map_;
-    decltype(in::seabed::prepare(std::declval<const in::seabed::any&>())) bottom_;
+    in::seabed::any_sampler bottom_;
 };
 
 }  // namespace survey

@@ -52,7 +52,7 @@ inline options parse(int argc, char** argv) {
 
 /// The seabed that the options name.
 inline in::seabed::any bottom_of(const options& o) {
-    const auto kind = [&](const std::string& name) -> in::seabed::simple {
+    const auto kind = [&](const std::string& name) -> in::seabed::any {
         if (name == "ripples") return in::seabed::ripples{.wavelength = 0.7f, .steepness = 0.07f, .seed = o.seed};
         if (name == "mud") return in::seabed::mud{.seed = o.seed};
         if (name == "rock") return in::seabed::rock{.seed = o.seed};

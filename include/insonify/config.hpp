@@ -40,7 +40,16 @@
 // Every header that computes with floats stands between these two, which forbid it there whatever the user's flags
 // allow. (clang heeds no pragma under an explicit -ffp-contract=fast; fast-honor-pragmas is the same and does.) g++ is
 // also asked not to remark on how wide vectors are passed: they stay inside always-inlined code.
-#if defined(__clang__)
+#if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
+// No float_control there. WebAssembly has no fused instruction.
+#if defined(__wasm__)
+#define INSONIFY_ARITHMETIC_BEGIN
+#define INSONIFY_ARITHMETIC_END
+#else
+#define INSONIFY_ARITHMETIC_BEGIN _Pragma("clang fp contract(off)")
+#define INSONIFY_ARITHMETIC_END _Pragma("clang fp contract(on)")
+#endif
+#elif defined(__clang__)
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define INSONIFY_ARITHMETIC_END _Pragma("float_control(pop)")
 #elif defined(__GNUC__)

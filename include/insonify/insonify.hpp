@@ -19,6 +19,7 @@
 #include <insonify/core/lanes.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
+#include <insonify/core/portable.hpp>
 #include <insonify/core/quantize.hpp>
 #include <insonify/core/random.hpp>
 #include <insonify/core/random_lanes.hpp>
@@ -109,13 +110,15 @@
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/seabed/lattice.hpp>
 #include <insonify/seabed/mixed.hpp>
+#include <insonify/seabed/model.hpp>
+#include <insonify/seabed/models.hpp>
 #include <insonify/seabed/moat.hpp>
 #include <insonify/seabed/mud.hpp>
 #include <insonify/seabed/needed_vertices.hpp>
 #include <insonify/seabed/noise.hpp>
 #include <insonify/seabed/none.hpp>
 #include <insonify/seabed/normals.hpp>
-#include <insonify/seabed/recipe.hpp>
+#include <insonify/seabed/registry.hpp>
 #include <insonify/seabed/ripple_train.hpp>
 #include <insonify/seabed/ripples.hpp>
 #include <insonify/seabed/rock.hpp>
@@ -125,6 +128,7 @@
 #include <insonify/seabed/strewn.hpp>
 #include <insonify/seabed/tessellate.hpp>
 #include <insonify/seabed/trawls.hpp>
+#include <insonify/seabed/type.hpp>
 #include <insonify/shadow/exact.hpp>
 #include <insonify/shadow/height_map.hpp>
 #include <insonify/shadow/light.hpp>

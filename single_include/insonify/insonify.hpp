@@ -71,7 +71,16 @@
 // Every header that computes with floats stands between these two, which forbid it there whatever the user's flags
 // allow. (clang heeds no pragma under an explicit -ffp-contract=fast; fast-honor-pragmas is the same and does.) g++ is
 // also asked not to remark on how wide vectors are passed: they stay inside always-inlined code.
-#if defined(__clang__)
+#if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
+// No float_control there. WebAssembly has no fused instruction.
+#if defined(__wasm__)
+#define INSONIFY_ARITHMETIC_BEGIN
+#define INSONIFY_ARITHMETIC_END
+#else
+#define INSONIFY_ARITHMETIC_BEGIN _Pragma("clang fp contract(off)")
+#define INSONIFY_ARITHMETIC_END _Pragma("clang fp contract(on)")
+#endif
+#elif defined(__clang__)
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define INSONIFY_ARITHMETIC_END _Pragma("float_control(pop)")
 #elif defined(__GNUC__)
@@ -188,18 +197,107 @@
 
 namespace insonify::inline INSONIFY_ABI {}
 
+// ------------ insonify/core/portable.hpp ----------------------------------------------------------------
+// Parts of the C++20 library that some standard libraries lack: libc++ has std::bit_cast from version 14 on, floats in
+// std::from_chars from 20 on and in std::to_chars from 14 on.
+
+#include <bit>
+#include <charconv>
+#include <clocale>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace numeric {
+
+/// The value of type To that has the same bits.
+template <class To, class From>
+constexpr To bit_cast(const From& from) noexcept {
+    static_assert(sizeof(To) == sizeof(From) && std::is_trivially_copyable_v<To> && std::is_trivially_copyable_v<From>);
+#if defined(__cpp_lib_bit_cast)
+    return std::bit_cast<To>(from);
+#else
+    return __builtin_bit_cast(To, from);
+#endif
+}
+
+}  // namespace numeric
+
+namespace detail {
+
+/// What became of a text that should be a number.
+enum class number_text { fine, malformed, out_of_range };
+
+/// Reads all of a text as a decimal number, with a sign or without, whatever the locale.
+inline number_text parse_number(std::string_view text, double& value) {
+    // from_chars takes no plus, so it is stepped over, but not before a minus.
+    if (text.substr(0, 1) == "+" && text.substr(1, 1) != "-") text.remove_prefix(1);
+    const char *const first = text.data(), *const last = first + text.size();
+#if defined(__cpp_lib_to_chars)
+    const auto [end, status] = std::from_chars(first, last, value);
+    if (status == std::errc::invalid_argument || end != last) return number_text::malformed;
+    return status == std::errc{} ? number_text::fine : number_text::out_of_range;
+#else
+    // strtod also takes white space and hexadecimal numbers, and expects the locale's decimal point.
+    const auto is_taken = [](char c) {
+        return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
+    };
+    std::string copy;
+    for (const char* c = first; c != last; ++c) {
+        const bool is_word = text.find_first_of("nN") != text.npos && *c != 'x' && *c != 'X' && *c > ' ';  // inf, nan
+        if (!is_taken(*c) && !is_word) return number_text::malformed;
+        if (*c == '.')
+            copy += std::localeconv()->decimal_point;
+        else
+            copy += *c;
+    }
+    if (copy.empty() || copy[0] == '+') return number_text::malformed;
+    char* end = nullptr;
+    value = std::strtod(copy.c_str(), &end);
+    if (end != copy.c_str() + copy.size()) return number_text::malformed;
+    const bool names_infinity = text.find_first_of("iI") != text.npos;
+    const bool overflowed =
+        (value > (std::numeric_limits<double>::max)() || value < std::numeric_limits<double>::lowest());
+    return overflowed && !names_infinity ? number_text::out_of_range : number_text::fine;
+#endif
+}
+
+/// The shortest text that reads back as the same number, without the locale; returns its end.
+template <class Number>
+char* format_number(char* first, char* last, Number value) {
+#if !defined(__cpp_lib_to_chars)
+    if constexpr (std::is_floating_point_v<Number>) {
+        for (int digits = 1; digits <= std::numeric_limits<Number>::max_digits10; ++digits) {
+            std::snprintf(first, static_cast<std::size_t>(last - first), "%.*g", digits, static_cast<double>(value));
+            if (static_cast<Number>(std::strtod(first, nullptr)) == value) break;
+        }
+        char* end = first;
+        for (; *end != '\0'; ++end)
+            if (*end == *std::localeconv()->decimal_point) *end = '.';
+        return end;
+    } else
+#endif
+        return std::to_chars(first, last, value).ptr;
+}
+
+}  // namespace detail
+
+}  // namespace insonify::inline INSONIFY_ABI
+
 // ------------ insonify/core/error.hpp -------------------------------------------------------------------
 // The two errors that leave the library, and the one way they do.
 //
 // Bad data that comes by the million (a NaN vertex, a degenerate triangle) is never an error: it is skipped and
 // counted.
 
-#include <charconv>
 #include <exception>
 #include <stdexcept>
-#include <string>
-#include <string_view>
-#include <type_traits>
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -237,10 +335,8 @@ std::string to_text(Number value) {
     if constexpr (std::is_same_v<Number, bool>) {
         return value ? "true" : "false";
     } else {
-        char buffer[64];
-        const auto [end, status] = std::to_chars(buffer, buffer + sizeof buffer, value);
-        static_cast<void>(status);  // 64 characters hold any number
-        return {buffer, end};
+        char buffer[64];  // holds any number
+        return {buffer, format_number(buffer, buffer + sizeof buffer, value)};
     }
 }
 
@@ -262,7 +358,6 @@ void require(bool holds, std::string_view argument, Number value, std::string_vi
 // A window onto pixels that live somewhere else: pointer, size and row stride. Every algorithm takes these.
 
 #include <concepts>
-#include <cstddef>
 #include <span>
 
 namespace insonify::inline INSONIFY_ABI {
@@ -335,10 +430,8 @@ class image_view {
 // The C library's log, sin and exp differ between versions and even between processors of one version, so whatever
 // reaches a pixel is computed here: + - * / and the correctly rounded square root alone, in a fixed order.
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -368,10 +461,10 @@ constexpr double to_degrees(double radians) {
 
 /// Finite by its bits, which no compiler flag can argue away.
 constexpr bool is_finite(float value) {
-    return (std::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
+    return (numeric::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
 }
 constexpr bool is_finite(double value) {
-    return (std::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
+    return (numeric::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
 
 /// A number without its sign.
@@ -397,7 +490,7 @@ constexpr std::int64_t floor_to_int(double value) {
 /// Natural logarithm, <= 1 ulp. log(0) = -infinity, negative and NaN give NaN.
 ///
 /// x = 2^k m with m in [sqrt(1/2), sqrt(2)); log m = 2 atanh((m - 1) / (m + 1)) as a series.
-inline double log(double x) {
+constexpr double log(double x) {
     if (!(x > 0)) return x == 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
     if (!is_finite(x)) return x;
     int k = 0;
@@ -405,11 +498,11 @@ inline double log(double x) {
         x *= 0x1p54;
         k = -54;
     }
-    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const auto bits = numeric::bit_cast<std::uint64_t>(x);
     // Adding the distance from sqrt(1/2) to 1 moves the cut between exponents to sqrt(2).
     const std::uint64_t shifted = bits + (0x3FF0000000000000u - 0x3FE6A09E667F3BCDu);
     k += static_cast<int>(shifted >> 52) - 1023;
-    const auto m = std::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFu) + 0x3FE6A09E667F3BCDu);
+    const auto m = numeric::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFu) + 0x3FE6A09E667F3BCDu);
     // m - 1 is exact and carries the result; what is added to it is smaller, so that errors stay in the last bit.
     const double f = m - 1;
     const double s = f / (m + 1);
@@ -424,7 +517,7 @@ inline double log(double x) {
 }
 
 /// Exponential, <= 2 ulp; overflow gives infinity, underflow 0 (gradually), NaN gives NaN.
-inline double exp(double x) {
+constexpr double exp(double x) {
     if (x > 709.8) return std::numeric_limits<double>::infinity();
     if (x < -745.2) return 0;
     if (!(x == x)) return x;
@@ -436,7 +529,9 @@ inline double exp(double x) {
     for (int n = 14; n >= 1; --n) sum = sum * r / n + 1.0;
     // 2^k in two steps, so that results below the normal range are reached without losing the factor.
     const std::int64_t half = k / 2;
-    const auto power = [](std::int64_t e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); };
+    const auto power = [](std::int64_t e) {
+        return numeric::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+    };
     return sum * power(half) * power(k - half);
 }
 
@@ -475,7 +570,7 @@ inline double tan(double radians) {
 }
 
 /// x to the power y for x >= 0, relative error below (|y log x| + 2) * 3e-16; pow(0, y > 0) = 0, pow(x, 0) = 1.
-inline double pow(double x, double y) {
+constexpr double pow(double x, double y) {
     return y == 0 ? 1.0 : x == 0 ? (y > 0 ? 0.0 : std::numeric_limits<double>::infinity()) : exp(y * log(x));
 }
 
@@ -1128,7 +1223,7 @@ struct memory_block {
         void* const mapped = ::mmap(nullptr, all, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
         if (mapped == MAP_FAILED) raise(std::bad_alloc());
         char* const start = static_cast<char*>(mapped);
-        const std::size_t past = std::bit_cast<std::uintptr_t>(start + margin) % page;
+        const std::size_t past = numeric::bit_cast<std::uintptr_t>(start + margin) % page;
         const std::size_t before = past == 0 ? 0 : page - past, after = page - before;
         if (before > 0) ::munmap(start, before);
         if (after > 0) ::munmap(start + all - after, after);
@@ -1758,7 +1853,7 @@ struct pixel_grid {
     /// Rounds a distance in pixels from the centre of an axis, to nearest, ties to even; |pixels| < reach(51).
     std::int64_t snap(double pixels, int extent) const {
         const double scaled = pixels * static_cast<double>(unit());
-        const auto rounded = std::bit_cast<std::int64_t>(scaled + magic) - std::bit_cast<std::int64_t>(magic);
+        const auto rounded = numeric::bit_cast<std::int64_t>(scaled + magic) - numeric::bit_cast<std::int64_t>(magic);
         return rounded + extent * half();
     }
     bool is_compact(const screen_vertex& v) const {
@@ -2081,9 +2176,9 @@ struct double_double {
 
     /// The nearest float. Rounding the upper half to odd first keeps the lower one's say in ties.
     float to_float() const {
-        auto bits = std::bit_cast<std::uint64_t>(high);
+        auto bits = numeric::bit_cast<std::uint64_t>(high);
         if (low != 0 && (bits & 1) == 0) bits += (low > 0) == (high > 0) ? 1u : ~std::uint64_t{0};
-        return static_cast<float>(std::bit_cast<double>(bits));
+        return static_cast<float>(numeric::bit_cast<double>(bits));
     }
 
   private:
@@ -2313,8 +2408,8 @@ class projection {
         std::uint64_t origin;  ///< of the picture, less what the magic number leaves
         axis(const pixel_grid& grid, int extent, double half)
             : units(half * static_cast<double>(grid.unit())),
-              origin(
-                  static_cast<std::uint64_t>(extent * grid.half() - std::bit_cast<std::int64_t>(pixel_grid::magic))) {}
+              origin(static_cast<std::uint64_t>(extent * grid.half() -
+                                                numeric::bit_cast<std::int64_t>(pixel_grid::magic))) {}
     };
     template <int N>
     INSONIFY_INLINE static void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& units,
@@ -2573,15 +2668,15 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
         return a;
     } else {
         using floats = std::array<float, sizeof(V) / sizeof(float)>;
-        const auto fa = std::bit_cast<floats>(a);
-        const auto fb = std::bit_cast<floats>(b);
-        const auto fc = std::bit_cast<floats>(c);
+        const auto fa = numeric::bit_cast<floats>(a);
+        const auto fb = numeric::bit_cast<floats>(b);
+        const auto fc = numeric::bit_cast<floats>(c);
         floats sum;
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] =
                 static_cast<float>(static_cast<double>(fa[i]) * weights.x + static_cast<double>(fb[i]) * weights.y +
                                    static_cast<double>(fc[i]) * weights.z);
-        return std::bit_cast<V>(sum);
+        return numeric::bit_cast<V>(sum);
     }
 }
 
@@ -3371,8 +3466,8 @@ class tile_buffer {
     explicit tile_buffer(int size)
         : stride_(size + slack),
           count_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
-          depth_(std::make_unique_for_overwrite<float[]>(count_)),
-          winner_(Winners ? std::make_unique_for_overwrite<std::uint32_t[]>(count_) : nullptr) {
+          depth_(new float[count_]),
+          winner_(Winners ? new std::uint32_t[count_] : nullptr) {
         for (int i = 0; i < block * block; ++i) block_[i] = static_cast<std::uint32_t>(i / block * stride_ + i % block);
     }
 
@@ -4418,9 +4513,11 @@ class image {
         return extent;
     }
     std::size_t area() const {
-        const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-        detail::require(pixels <= (std::size_t{1} << 40), "width x height", pixels, "at most 2^40 pixels");
-        return pixels;
+        const std::uint64_t pixels = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+        detail::require(pixels <= (std::uint64_t{1} << 40), "width x height", pixels, "at most 2^40 pixels");
+        constexpr std::uint64_t addressable = (std::numeric_limits<std::size_t>::max)() / sizeof(T);
+        detail::require(pixels <= addressable, "width x height", pixels, "as many as this machine can address");
+        return static_cast<std::size_t>(pixels);
     }
     std::size_t index(int x, int y) const {
         INSONIFY_ASSERT(0 <= x && (x < width_ || width_ == 0) && 0 <= y && y < height_);
@@ -4450,20 +4547,32 @@ auto map_pixels(const image<T>& source, Fn&& fn) {
 
 }  // namespace insonify::inline INSONIFY_ABI
 
-// ------------ insonify/seabed/recipe.hpp ----------------------------------------------------------------
-// What a seabed recipe is: a height and a type at every point of the world, by itself or a row at a time.
+// ------------ insonify/seabed/type.hpp ------------------------------------------------------------------
+// Labels of the sea floor, and what belongs to a label: its name, its brightness and its speckle.
 //
-// A recipe is a plain aggregate of parameters. `prepare` turns it into a sampler, which holds what is worth computing
-// once (wave vectors, octaves) and evaluates rows; a row is the primitive, a single point is a row of one sample.
-
-#include <variant>
+// A label is one byte. The library's own are the rows of registry.hpp; those from `own_type(0)` on are free for users'
+// seabeds, which bring the properties of their labels along (see model.hpp).
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
-/// What the bottom is made of, as a label, for the backscatter law and for speckle: four that say what it looks like,
-/// and the twelve of `sediment` (see sediment.hpp).
+/// How an intensity fluctuates around its mean. As it is: Rayleigh amplitudes, exponential intensities. The
+/// scintillation index, variance / mean^2 of the intensity, is
+/// (1 + 1 / texture) (1 + (1 + 2 steady) / (looks (1 + steady)^2)) - 1.
+struct speckle_law {
+    int looks = 1;  ///< independent intensities that are averaged: 1 to 64
+    float texture =
+        0;  ///< shape of the gamma-distributed mean of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: none
+    float steady = 0;  ///< power of a steady echo among the others, over theirs: Rician amplitudes
+    friend bool operator==(const speckle_law&, const speckle_law&) = default;
+};
+
+namespace seabed {
+
+/// What the bottom is made of, as a label: four types of relief, the twelve of `sediment` (see sediment.hpp), and
+/// users' own from 16 on.
 enum class type : std::uint8_t {
     sand,
     ripples,
@@ -4482,7 +4591,178 @@ enum class type : std::uint8_t {
     sandy_mud,
     silty_clay,
 };
-inline constexpr std::size_t type_count = 16;
+inline constexpr std::size_t type_count = 16;    ///< of the library: labels below it
+inline constexpr std::size_t label_count = 256;  ///< of all; the last means no seabed in images of labels
+
+/// A label that the library does not use.
+/// @param number  0 to 238
+/// @throws invalid_input for a number out of its range
+constexpr type own_type(int number) {
+    const auto limit = static_cast<int>(label_count - 1 - type_count);
+    if (number < 0 || number >= limit) insonify::detail::refuse("own_type number", number, "0 to 238");
+    return static_cast<type>(static_cast<int>(type_count) + number);
+}
+
+/// Index of a label in tables with one entry per label.
+constexpr std::size_t index_of(type t) {
+    return static_cast<std::size_t>(t);
+}
+
+/// What belongs to a label.
+struct type_properties {
+    type label = type::sand;
+    std::string_view name;       ///< for manifests and messages; a string literal, or text that outlives its users
+    float reflectivity = 0.45f;  ///< as of a material: relative, that of sand is 0.45
+    speckle_law speckle{};
+    friend bool operator==(const type_properties&, const type_properties&) = default;
+};
+
+/// A label, or the properties of one, as a seabed's `kind`.
+constexpr type label_of(type t) {
+    return t;
+}
+constexpr type label_of(const type_properties& p) {
+    return p.label;
+}
+
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/registry.hpp --------------------------------------------------------------
+// The registry of the library's labels: one row for each, with its name, relief, brightness and speckle.
+//
+// To add a type of relief, write its model in a file of its own and add a row to `relief_types`. To add a sediment, add
+// a row to `sediments`. Defaults of scenes and of speckle, and names in manifests, are read from here. The label of a
+// row is its index, which a static_assert checks: labels are stored in data sets and never change.
+
+#include <iterator>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// Types named after their relief, with the gray values of the paper's pictures.
+inline constexpr type_properties relief_types[] = {
+    {type::sand, "sand", 0.45f, {1, 15, 0}},
+    {type::ripples, "ripples", 0.5f, {1, 0, 0}},
+    {type::mud, "mud", 0.4f, {1, 0, 1}},
+    {type::rock, "rock", 0.6f, {1, 1.5f, 0}},
+};
+
+/// The relief of a sediment besides its roughness: `level` as of `flat`, `soft` as of `mud`, or the blocks of `rock`,
+/// whose parameters follow.
+struct sediment_form {
+    enum kind { level, soft, blocks } kind = level;
+    float relief = 0.5f, outcrop = 6.0f, block = 1.4f, smallest = 0.3f, sizes = 2.2f, fracture = 0.5f;
+};
+
+/// What is known of a sediment.
+struct sediment_facts {
+    type label;
+    std::string_view name;
+    float phi;       ///< mean grain size, -log2 of millimetres
+    float strength;  ///< w2 of the roughness spectrum W(K) = w2 (K cm)^-3.25, cm^4
+    float level;     ///< of Lambert's law, decibels: S_b = level + 20 log10(sin grazing)
+    float texture;   ///< shape of the K-distribution, 0 for none
+    float steady;    ///< power of a steady echo among the others, over theirs
+    sediment_form form{};
+
+    /// Root mean square height of what is shorter than a metre, metres: 2 pi w2 K^-1.25 / 1.25 at K = 2 pi / 100 cm.
+    float rms() const { return 0.12641f * numeric::square_root(strength); }
+    /// The backscattering strength at normal incidence by Lambert's law, as a factor.
+    constexpr float strength_at_nadir() const {
+        return static_cast<float>(numeric::pow(10, static_cast<double>(level) / 10));
+    }
+};
+
+/// Sediments from the coarsest to the finest. Roughness: APL-UW High-Frequency Ocean Environmental Acoustic Models
+/// Handbook, TR 9407, 1994 (eqs. 2-10, table 2). Levels meet that report's backscattering strengths at 100 kHz and 20
+/// degrees; that of medium silt lies between its neighbours'. Textures: few scatterers to a cell of stones, many to one
+/// of sand (D. A. Abraham, A. P. Lyons. Novel Physical Interpretations of K-Distributed Reverberation. IEEE Journal of
+/// Oceanic Engineering 27, 2002); muds are Rician (J. I. Dunlop. Statistical Modelling of Sidescan Sonar Images. OCEANS
+/// 1997).
+inline constexpr sediment_facts sediments[] = {
+    {type::rough_rock, "rough rock", -9.0f, 0.20693f, 3.1f, 0.8f, 0, {.kind = sediment_form::blocks, .relief = 1}},
+    {type::hard_rock,
+     "hard rock",
+     -7.0f,
+     0.01862f,
+     -2.7f,
+     1.2f,
+     0,
+     {.kind = sediment_form::blocks, .relief = 0.5f, .sizes = 2, .fracture = 0.35f}},
+    {type::cobble, "cobble", -3.0f, 0.0156f, -6.9f, 2, 0, {sediment_form::blocks, 0.15f, 5, 0.5f, 0.12f, 2.6f, 0.6f}},
+    {type::sandy_gravel, "sandy gravel", -1.0f, 0.012937f, -10.0f, 3, 0},
+    {type::coarse_sand, "coarse sand", 0.5f, 0.006957f, -12.5f, 6, 0},
+    {type::medium_sand, "medium sand", 1.5f, 0.004446f, -14.9f, 10, 0},
+    {type::fine_sand, "fine sand", 2.5f, 0.002715f, -17.9f, 15, 0},
+    {type::very_fine_sand, "very fine sand", 3.5f, 0.001544f, -17.7f, 20, 0},
+    {type::coarse_silt, "coarse silt", 4.5f, 0.000781f, -18.5f, 0, 0.2f},
+    {type::medium_silt, "medium silt", 5.5f, 0.000517f, -21.2f, 0, 0.5f, {sediment_form::soft}},
+    {type::sandy_mud, "sandy mud", 6.0f, 0.000517f, -22.5f, 0, 1, {sediment_form::soft}},
+    {type::silty_clay, "silty clay", 8.0f, 0.000517f, -22.6f, 0, 1, {sediment_form::soft}},
+};
+inline constexpr std::size_t sediment_count = std::size(sediments);
+
+namespace detail {
+
+constexpr std::array<type_properties, type_count> registered_types() {
+    std::array<type_properties, type_count> rows{};
+    std::size_t count = 0;
+    for (const type_properties& t : relief_types) rows[count++] = t;
+    // Sediments relative to sand, which is as bright as medium sand.
+    const float sand = relief_types[0].reflectivity /
+                       sediments[index_of(type::medium_sand) - std::size(relief_types)].strength_at_nadir();
+    for (const sediment_facts& s : sediments)
+        rows[count++] = {s.label, s.name, sand * s.strength_at_nadir(), {1, s.texture, s.steady}};
+    return rows;
+}
+
+}  // namespace detail
+
+/// Every label of the library.
+inline constexpr std::array<type_properties, type_count> built_in_types = detail::registered_types();
+static_assert(std::size(relief_types) + sediment_count == type_count);
+static_assert(
+    [] {
+        for (std::size_t i = 0; i < built_in_types.size(); ++i)
+            if (index_of(built_in_types[i].label) != i) return false;
+        return true;
+    }(),
+    "the label of a row is its index");
+
+/// What belongs to a label of the library; those of sand for any other, but for the name, which is empty.
+constexpr type_properties properties_of(type t) {
+    if (index_of(t) < type_count) return built_in_types[index_of(t)];
+    return {t, "", built_in_types[0].reflectivity, built_in_types[0].speckle};
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/model.hpp -----------------------------------------------------------------
+// The concept of a seabed: heights and labels along rows of world points.
+//
+// A model is a copyable value of two or three members, of the library or of a user:
+//
+//     struct dunes {
+//         static constexpr in::seabed::type_properties kind{in::seabed::own_type(0), "dunes", 0.6f, {.texture = 8}};
+//         void row(const in::seabed::scanline& line, std::span<float> heights) const;  // metres above the datum
+//         in::seabed::height_range range() const { return {-1, 1}; }                   // which it never leaves
+//     };
+//
+// `kind` is one of the library's labels or a label with properties. Seabeds of several labels write them in
+// `row(line, heights, types)` and list them in `legend()`. Where parts are worth computing once (wave vectors,
+// octaves), `prepare()` returns a sampler that has `row` and `range` in the model's stead. Optional: `sink_depth()`,
+// see there.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
 
 /// Equally spaced samples along x: sample i lies at (x(i), y), metres in the world. Each position is computed from i
 /// alone, never accumulated, and parts of a row keep their origin: cutting a row changes no bit of it.
@@ -4512,52 +4792,45 @@ constexpr float carried(double wavelength, double spacing) {
     return wavelength <= 2 * spacing ? 0.0f : static_cast<float>(2 - 4 * spacing / wavelength);
 }
 
-/// Writes the heights of a row, in metres above the datum z = 0. Heights depend on seed and position alone; positions
-/// are good to 1e9 m from the origin. Its type is either one, `kind`, or one per sample (see `typed_sampler`).
-template <class S>
-concept sampler = requires(const S& s, const scanline& row, std::span<float> heights) {
-    s.row(row, heights);
-};
-
-/// Also writes the type of each sample; `types` is as long as `heights`, or empty where nobody asks.
-template <class S>
-concept typed_sampler = requires(const S& s, const scanline& row, std::span<float> heights, std::span<type> types) {
-    s.row(row, heights, types);
-};
-
-/// Recipes of a single type say so: by a member, or for all of them by a static one.
-template <class R>
-concept single_typed = requires(const R& r) {
-    { r.kind } -> std::convertible_to<type>;
-};
-
-/// Anything that `prepare`s a sampler and answers for a single point.
-/// It has one type, `kind`, or one per point, `type type_at(x, y)` and a typed sampler.
-template <class R>
-concept recipe = requires(const R& r, double x, double y) {
-    { r(x, y) } -> std::convertible_to<float>;
-    r.prepare();
-}
-&&(single_typed<R> || (requires(const R& r) {
-       { r.type_at(0.0, 0.0) } -> std::convertible_to<type>;
-   } && typed_sampler<decltype(std::declval<const R&>().prepare())>));
-
-/// Heights that a seabed never leaves, metres above the datum; nothing at all where lowest > highest. Library seabeds
-/// prove theirs, with a little room for rounding: what may throw a shadow is found by it.
+/// Heights that a seabed never leaves, metres above the datum; nothing at all where lowest > highest. Rounding has to
+/// be included: the parts of the bottom that may cast a shadow into a picture are found by it.
 struct height_range {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -std::numeric_limits<double>::infinity();
 
     bool empty() const { return !(lowest <= highest); }
+    /// Any height at all: the range of models that do not state theirs. Overhead pictures refuse it.
+    static constexpr height_range unlimited() {
+        return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    }
 };
 inline height_range merge(const height_range& a, const height_range& b) {
     return {(std::min)(a.lowest, b.lowest), (std::max)(a.highest, b.highest)};
 }
 
-/// Samplers that know it.
+/// Writes the heights of a row, in metres above the datum z = 0; NaN where there is no bottom. Heights depend on the
+/// model and the position alone; positions are good to 1e9 m from the origin.
+template <class S>
+concept sampler = requires(const S& s, const scanline& row, std::span<float> heights) {
+    s.row(row, heights);
+};
+
+/// Also writes the label of each sample; `types` is as long as `heights`, or empty where labels are not needed.
+template <class S>
+concept typed_sampler = requires(const S& s, const scanline& row, std::span<float> heights, std::span<type> types) {
+    s.row(row, heights, types);
+};
+
+/// Samplers that state their heights.
 template <class S>
 concept bounded_sampler = requires(const S& s) {
-    { s.range() } -> std::same_as<height_range>;
+    { s.range() } -> std::convertible_to<height_range>;
+};
+
+/// Models of a single label: `kind`, a `type` or `type_properties`, static or not.
+template <class M>
+concept single_typed = requires(const M& m) {
+    { seabed::label_of(m.kind) } -> std::same_as<type>;
 };
 
 namespace detail {
@@ -4565,10 +4838,34 @@ namespace detail {
 using insonify::detail::refuse;
 using insonify::detail::require;
 
-/// How many samples are worked on at a time where scratch space is needed.
+/// Samples per chunk where scratch memory is needed.
 inline constexpr std::size_t chunk = 256;
 
-/// Gives the sampler of a single-typed recipe the interface of a typed one.
+/// Evaluates a model that has no `prepare()`.
+template <class M>
+struct by_reference {
+    const M* model;
+
+    void row(const scanline& line, std::span<float> heights) const requires(sampler<M>) { model->row(line, heights); }
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const requires(typed_sampler<M>) {
+        model->row(line, heights, types);
+    }
+    height_range range() const requires(bounded_sampler<M>) { return model->range(); }
+};
+
+/// `prepare()`, or the model itself.
+template <class M>
+    requires(requires(const M& m) { m.prepare(); })
+auto sampler_of(const M& m) {
+    return m.prepare();
+}
+template <class M>
+    requires(sampler<M> || typed_sampler<M>)
+by_reference<M> sampler_of(const M& m) {
+    return {&m};
+}
+
+/// Gives the sampler of a single label the interface of a typed one.
 template <sampler S>
 struct with_kind {
     S heights_only;
@@ -4581,46 +4878,84 @@ struct with_kind {
     height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
 };
 
+/// @throws invalid_input for the range of a model that does not state its heights
+inline void require_finite(const height_range& range) {
+    require(range.empty() || numeric::is_finite(range.highest - range.lowest), "range() of the seabed", range.highest,
+            "finite heights that it never leaves");
+}
+
+template <class S>
+height_range range_of(const S& s) {
+    if constexpr (bounded_sampler<S>) return s.range();
+    return height_range::unlimited();
+}
+
 }  // namespace detail
 
-/// The typed sampler of a recipe: what the rest of the library evaluates.
+/// A seabed: see the top of this file.
+template <class M>
+concept model = requires(const M& m) {
+    detail::sampler_of(m);
+}
+&&(typed_sampler<decltype(detail::sampler_of(std::declval<const M&>()))> ||
+   (single_typed<M> && sampler<decltype(detail::sampler_of(std::declval<const M&>()))>));
+
+/// What the library evaluates: a typed sampler. It may refer to the model, which has to outlive it.
 /// @throws invalid_input for parameters out of their range
-template <recipe R>
-auto prepare(const R& r) {
-    if constexpr (single_typed<R>) {
-        return detail::with_kind<decltype(r.prepare())>{r.prepare(), r.kind};
+template <model M>
+auto prepare(const M& m) {
+    using sampler_type = decltype(detail::sampler_of(m));
+    if constexpr (typed_sampler<sampler_type>)
+        return detail::sampler_of(m);
+    else
+        return detail::with_kind<sampler_type>{detail::sampler_of(m), label_of(m.kind)};
+}
+
+/// The label of the whole seabed, if it has but one.
+template <model M>
+std::optional<type> only_type(const M& m) {
+    if constexpr (requires { m.only_type(); })
+        return m.only_type();
+    else if constexpr (single_typed<M>)
+        return label_of(m.kind);
+    else
+        return std::nullopt;
+}
+
+/// The labels that may occur, with their properties, as far as they are known.
+template <model M>
+std::vector<type_properties> legend_of(const M& m) {
+    if constexpr (requires { m.legend(); })
+        return m.legend();
+    else if constexpr (requires { m.kind.label; })
+        return {m.kind};
+    else if constexpr (single_typed<M>)
+        return {properties_of(m.kind)};
+    else
+        return {};
+}
+
+/// Appends those of `more` whose labels are new.
+inline void extend(std::vector<type_properties>& legend, const std::vector<type_properties>& more) {
+    for (const type_properties& p : more)
+        if (std::none_of(legend.begin(), legend.end(), [&](const type_properties& q) { return q.label == p.label; }))
+            legend.push_back(p);
+}
+
+/// How deep a layer has to sink to disappear below another, metres: about as far as its surface strays from its mean
+/// level. A model's `sink_depth()`, or half of its range.
+template <model M>
+float sink_depth_of(const M& m) {
+    if constexpr (requires { m.sink_depth(); }) {
+        return m.sink_depth();
     } else {
-        return r.prepare();
+        const height_range all = detail::range_of(seabed::prepare(m));
+        const double half = 0.5 * (all.highest - all.lowest);
+        return half > 0 && half < 1e6 ? static_cast<float>(half) : 0.05f;
     }
 }
 
-/// One of several samplers.
-template <typed_sampler... Samplers>
-struct variant_sampler {
-    std::variant<Samplers...> alternatives;
-
-    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
-        std::visit([&](const auto& s) { s.row(line, heights, types); }, alternatives);
-    }
-    height_range range() const requires(bounded_sampler<Samplers>&&...) {
-        return std::visit([](const auto& s) { return s.range(); }, alternatives);
-    }
-};
-
-/// A variant of recipes prepares whichever it holds.
-template <recipe... Recipes>
-auto prepare(const std::variant<Recipes...>& r) {
-    using result = variant_sampler<decltype(prepare(std::declval<const Recipes&>()))...>;
-    return std::visit([](const auto& held) { return result{prepare(held)}; }, r);
-}
-
-/// A recipe, or a variant of recipes.
-template <class R>
-concept preparable = requires(const R& r) {
-    { seabed::prepare(r) } -> typed_sampler;
-};
-
-/// Height and type at one point.
+/// Height and label at one point.
 struct ground {
     float height;
     type kind;
@@ -4632,7 +4967,7 @@ ground at(const S& prepared, double x, double y) {
     return result;
 }
 
-/// Height at one point, for the call operators of recipes.
+/// Height at one point, for the call operators of models.
 template <sampler S>
 float height_at(const S& prepared, double x, double y) {
     float height = 0;
@@ -4701,6 +5036,8 @@ struct heightfield {
     glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
     double spacing = 1;           ///< metres between vertices, > 0
     type fallback = type::sand;
+    /// What belongs to labels of users' own; the library's are in its registry.
+    std::vector<type_properties> own_types{};
 
     /// Height of the drawn surface at a world position, metres; it and the next two expect a valid heightfield.
     float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
@@ -4724,6 +5061,8 @@ struct heightfield {
     /// The heightfield as a recipe, by reference: it has to outlive the sampler.
     /// @throws invalid_input as `validate`
     heightfield_sampler prepare() const;
+    std::optional<type> only_type() const { return types.empty() ? std::optional(fallback) : std::nullopt; }
+    std::vector<type_properties> legend() const;
 
     detail::facet facet_at(double x, double y) const {
         return detail::facet_at(heights, (x - origin.x) / spacing, (y - origin.y) / spacing);
@@ -4770,6 +5109,15 @@ class heightfield_sampler {
 
 inline heightfield_sampler heightfield::prepare() const {
     return heightfield_sampler(*this);
+}
+inline std::vector<type_properties> heightfield::legend() const {
+    std::array<bool, 256> occurs{};
+    if (types.empty()) occurs[index_of(fallback)] = true;
+    for (const type t : types.pixels()) occurs[index_of(t)] = true;
+    std::vector<type_properties> all = own_types;
+    for (std::size_t i = 0; i < label_count; ++i)
+        if (occurs[i]) extend(all, {properties_of(static_cast<type>(i))});
+    return all;
 }
 
 /// A heightfield from a picture of heights: one vertex per pixel, height = scale * pixel, the top row foremost (the
@@ -4968,7 +5316,7 @@ void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 f
     validate(field);
     const image<float>& heights = field.heights;
     const auto width = static_cast<std::size_t>(heights.width()), height = static_cast<std::size_t>(heights.height());
-    insonify::detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
+    insonify::detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(),
                               "below 2^32");
 
     result.positions.resize(heights.size());
@@ -5395,8 +5743,7 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
     detail::require(allowed.slope >= 0, "leeway.slope", allowed.slope, "a slope, at least 0");
     detail::require(allowed.lean >= 0, "leeway.lean", allowed.lean, "square metres, at least 0");
     const image<float>& heights = field.heights;
-    detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
-                    "below 2^32");
+    detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(), "below 2^32");
     const detail::needed_vertices needed(field, allowed, ex);
 
     const int size = needed.size();
@@ -5466,7 +5813,7 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/sample.hpp ----------------------------------------------------------------
-// From recipe to heightfield: evaluates a recipe at the vertices of a grid, a row per task.
+// From model to heightfield: evaluates a seabed at the vertices of a grid, a row per task.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -5500,24 +5847,25 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
     return {.origin = {x, y}, .spacing = spacing, .width = width, .height = height};
 }
 
-/// The recipe's heights, and its types where it has more than one, at the vertices of a grid.
+/// The seabed's heights, and its labels where it has more than one, at the vertices of a grid.
 ///
-/// The bits depend on the recipe and the positions of the vertices alone, not on the executor or on what else is in
+/// The bits depend on the model and the positions of the vertices alone, not on the executor or on what else is in
 /// the grid.
-/// @param source  a recipe, a variant of recipes, or anything else that `prepare`s
+/// @param source  the library's or a user's own
 /// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing not above 0, and for
-/// parameters of the recipe out of their range
-template <preparable Recipe, executor_argument Executor = serial_executor>
-heightfield sample(const Recipe& source, const grid& where, Executor&& ex = serial_executor{}) {
+/// parameters of the model out of their range
+template <model Model, executor_argument Executor = serial_executor>
+heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::unfilled unfilled;
     heightfield result{.heights = image<float>(where.width, where.height, unfilled),
                        .origin = where.origin + where.spacing * glm::dvec2(where.first),
                        .spacing = where.spacing};
-    if constexpr (single_typed<Recipe>) {
-        result.fallback = source.kind;
-    } else {
+    for (const type_properties& t : legend_of(source))
+        if (index_of(t.label) >= type_count) result.own_types.push_back(t);
+    if (const std::optional<type> only = only_type(source))
+        result.fallback = *only;
+    else
         result.types = image<type>(where.width, where.height, unfilled);
-    }
     validate(result);
 
     const auto prepared = prepare(source);
@@ -5875,6 +6223,8 @@ INSONIFY_ARITHMETIC_END
 //
 // A policy is a plain value that builds a structure for one light; the structure answers for any number of batches of
 // points. The built-in policies (map, pcf, exact, penumbra) are models of these concepts, and so are those of users.
+
+#include <variant>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -7581,8 +7931,8 @@ image<T> filled(int width, int height, T value, E& ex) {
         T* const start = result.row(static_cast<int>(first)).data();
         const std::size_t count = (last - first) * static_cast<std::size_t>(width);
         // Most values are the same byte over and over, which the system writes fastest.
-        const auto bytes = std::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
-        if (std::ranges::count(bytes, bytes[0]) == std::ssize(bytes))
+        const auto bytes = numeric::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
+        if (std::count(bytes.begin(), bytes.end(), bytes[0]) == std::ssize(bytes))
             std::memset(start, bytes[0], count * sizeof(T));
         else
             std::fill_n(start, count, value);
@@ -7985,6 +8335,143 @@ class shared_mesh {
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
+
+// ------------ insonify/seabed/none.hpp ------------------------------------------------------------------
+// No seabed at all: for scenes that bring theirs as a mesh.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// Nothing there: no height is known anywhere (NaN), nothing is drawn and nothing rests on it.
+struct none {
+    static constexpr type kind = type::sand;
+
+    struct sampler {
+        void row(const scanline&, std::span<float> heights) const {
+            std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
+        }
+        height_range range() const { return {}; }
+    };
+    sampler prepare() const { return {}; }
+    float operator()(double, double) const { return std::numeric_limits<float>::quiet_NaN(); }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/any.hpp -------------------------------------------------------------------
+// Any seabed, by value: the library's models and users' own alike.
+//
+// The model is stored once, immutable and shared by copies; calls go through a virtual function once per row, never per
+// point. No list of types is kept anywhere: what a program does not use, it does not compile.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// A prepared seabed of any model; shares ownership of the model.
+class any_sampler {
+  public:
+    /// @throws invalid_input for parameters of the model out of their range
+    template <model M>
+    explicit any_sampler(std::shared_ptr<const M> owner)
+        : held_(std::make_shared<const prepared<M>>(seabed::prepare(*owner), owner)) {}
+    any_sampler() = default;
+
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+        if (held_ != nullptr) return held_->row(line, heights, types);
+        std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
+        std::fill(types.begin(), types.end(), type::sand);
+    }
+    height_range range() const { return held_ != nullptr ? held_->range() : height_range{}; }
+
+  private:
+    struct interface_type {
+        virtual ~interface_type() = default;
+        virtual void row(const scanline& line, std::span<float> heights, std::span<type> types) const = 0;
+        virtual height_range range() const = 0;
+    };
+    template <class M>
+    struct prepared final : interface_type {
+        using sampler_type = decltype(seabed::prepare(std::declval<const M&>()));
+        sampler_type sampler;
+        std::shared_ptr<const M> owner;
+
+        prepared(sampler_type s, std::shared_ptr<const M> m) : sampler(std::move(s)), owner(std::move(m)) {}
+        void row(const scanline& line, std::span<float> heights, std::span<type> types) const override {
+            sampler.row(line, heights, types);
+        }
+        height_range range() const override { return detail::range_of(sampler); }
+    };
+
+    std::shared_ptr<const interface_type> held_;
+};
+
+/// A seabed of any model, or none: `any bottom = ripples{.wavelength = 0.6f};`. It is a model itself.
+class any {
+  public:
+    /// No seabed: for scenes that bring theirs as a mesh.
+    any() = default;
+    any(none) {}
+    /// @param m  copied once; copies of `any` share it
+    template <model M>
+        requires(!std::same_as<M, any> && !std::same_as<M, none>)
+    any(M m) : held_(std::make_shared<const holder<M>>(std::move(m))) {}
+
+    /// Whether there is no seabed.
+    bool empty() const { return held_ == nullptr; }
+    /// The model, or null if it is of another type.
+    template <class M>
+    const M* get_if() const {
+        return held_ != nullptr && held_->tag() == &tag_of<M> ? &static_cast<const holder<M>&>(*held_).value : nullptr;
+    }
+
+    /// The sampler shares the model, so that it may outlive this object.
+    /// @throws invalid_input for parameters of the model out of their range
+    any_sampler prepare() const { return held_ != nullptr ? held_->prepare(held_) : any_sampler(); }
+    /// See the functions of the same names in model.hpp.
+    std::optional<type> only_type() const { return held_ != nullptr ? held_->only_type() : std::nullopt; }
+    std::vector<type_properties> legend() const {
+        return held_ != nullptr ? held_->legend() : std::vector<type_properties>{};
+    }
+    float sink_depth() const { return held_ != nullptr ? held_->sink_depth() : 0; }
+
+    float operator()(double x, double y) const { return at(prepare(), x, y).height; }
+    type type_at(double x, double y) const { return at(prepare(), x, y).kind; }
+
+  private:
+    struct interface_type {
+        virtual ~interface_type() = default;
+        virtual const void* tag() const = 0;
+        virtual any_sampler prepare(const std::shared_ptr<const interface_type>& self) const = 0;
+        virtual std::optional<type> only_type() const = 0;
+        virtual std::vector<type_properties> legend() const = 0;
+        virtual float sink_depth() const = 0;
+    };
+    template <class M>
+    inline static constexpr char tag_of = 0;
+    template <class M>
+    struct holder final : interface_type {
+        M value;
+
+        explicit holder(M m) : value(std::move(m)) {}
+        const void* tag() const override { return &tag_of<M>; }
+        any_sampler prepare(const std::shared_ptr<const interface_type>& self) const override {
+            return any_sampler(std::shared_ptr<const M>(self, &value));
+        }
+        std::optional<type> only_type() const override { return seabed::only_type(value); }
+        std::vector<type_properties> legend() const override { return legend_of(value); }
+        float sink_depth() const override { return sink_depth_of(value); }
+    };
+
+    std::shared_ptr<const interface_type> held_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/random_lanes.hpp ------------------------------------------------------------
 // The numbers of random.hpp, several at a time and to the same bits: blocks of Philox, uniform and normal draws.
@@ -8922,6 +9409,110 @@ class outline {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/seabed/cover.hpp -----------------------------------------------------------------
+// One bottom laid over another, with the border between them as nature makes it: what stands high is buried last.
+//
+// Across a border the layer rises from beneath: its crests come out first, as narrow tips, while its troughs are still
+// filled; further in, the highest of what lies below looks out of it last. Types follow the surface that is on top.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+namespace detail {
+
+/// A layer along its border.
+class border {
+  public:
+    /// @param width   metres, > 0
+    /// @param relief  metres: that of the layer and of what lies below it, the larger
+    border(float width, float relief) : per_metre_(1 / width), relief_(relief + 1e-6f) {}
+
+    /// From 0, where there is no layer, to 1, where there is nothing else.
+    float across(float margin) const { return clamp01(0.5f + margin * per_metre_); }
+
+    struct meeting {
+        float height;
+        bool is_layer;
+    };
+    /// What is on top at `t` of the way across; at 0 and 1 the very heights of the one and the other.
+    meeting at(float t, float below, float layer) const {
+        const float rise = layer - below;
+        if (t <= 0) return {below, false};
+        if (t >= 1) return {layer, true};
+        // Relief beyond what was foreseen fades.
+        if (t < 0.5f) {
+            const float over = rise - relief_ * (1 - 2 * t);
+            return {over > 0 ? below + over * clamp01(4 * t) : below, over > 0};
+        }
+        const float over = -rise - relief_ * (2 * t - 1);
+        return {over > 0 ? layer + over * clamp01(4 - 4 * t) : layer, !(over > 0)};
+    }
+
+  private:
+    float per_metre_, relief_;
+};
+
+/// From the first to the last sample of a row that is wanted.
+struct extent {
+    std::size_t begin, end = 0;
+
+    void include(std::size_t i) {
+        begin = (std::min)(begin, i);
+        end = i + 1;
+    }
+    std::size_t size() const { return end > begin ? end - begin : 0; }
+    template <class T>
+    std::span<T> of(std::span<T> row) const {
+        return row.empty() ? row : row.subspan(begin, size());
+    }
+};
+
+/// Lays what `layer` samples over `heights` and `types`, which hold what lies below, or don't where the layer hides it:
+/// `below` is asked to fill them where they are wanted.
+template <class Below, typed_sampler Layer>
+void lay_over(const outline& where, const border& edge, const Layer& layer, const scanline& line,
+              std::span<float> heights, std::span<type> types, Below&& below) {
+    const std::size_t count = heights.size();
+    const stretch part(line, count);
+    stretch_values across;
+    where.margins(part, across);
+    // Away from borders one of the two is all there is to evaluate.
+    extent above{count}, under{count};
+    for (std::size_t i = 0; i < count; ++i) {
+        across[i] = edge.across(across[i]);
+        if (across[i] > 0) above.include(i);
+        if (across[i] < 1) under.include(i);
+    }
+    if (under.size() > 0) below(line.from(under.begin), under.of(heights), under.of(types));
+    if (above.size() == 0) return;
+
+    std::array<float, chunk> other;
+    std::array<type, chunk> other_types;
+    const std::span<float> layer_heights(other.data(), count);
+    const std::span<type> layer_types(other_types.data(), types.size());
+    layer.row(line.from(above.begin), above.of(layer_heights), above.of(layer_types));
+    for (std::size_t i = above.begin; i < above.end; ++i) {
+        const border::meeting top = edge.at(across[i], heights[i], other[i]);
+        heights[i] = top.height;
+        if (top.is_layer && !types.empty()) types[i] = other_types[i];
+    }
+}
+
+/// Calls `fill(line, heights, types)` for parts of a row no longer than a stretch.
+template <class Fill>
+void by_parts(const scanline& line, std::span<float> heights, std::span<type> types, Fill&& fill) {
+    for (std::size_t i = 0; i < heights.size(); i += chunk) {
+        const std::size_t count = (std::min)(chunk, heights.size() - i);
+        fill(line.from(i), heights.subspan(i, count), types.empty() ? types : types.subspan(i, count));
+    }
+}
+
+}  // namespace detail
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/flat.hpp ------------------------------------------------------------------
 // Flat sand: nothing but the roughness that the sea left.
 
@@ -8940,6 +9531,7 @@ struct flat {
     /// @throws invalid_input for parameters out of the ranges of `roughness`
     flat_sampler prepare() const;
     float operator()(double x, double y) const;
+    float sink_depth() const { return 2 * surface.rms; }
 };
 
 /// Evaluates `flat`.
@@ -8967,109 +9559,6 @@ inline float flat::operator()(double x, double y) const {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/strewn.hpp ----------------------------------------------------------------
-// Things strewn over the plane by lot: which cells of a lattice may hold one that a row crosses, and round ones drawn.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::seabed::detail {
-
-/// Calls `visit(first, count)` for runs of columns of a lattice, which together hold each column from which something
-/// reaches a sample of the stretch once, in rising order.
-/// @param reach  how many columns a thing reaches beyond its own
-template <class Visit>
-INSONIFY_INLINE void visit_columns(const lattice& l, const stretch& part, std::int64_t reach, Visit&& visit) {
-    const std::int64_t first = numeric::floor_to_int(l.u(part.x[0])), last = numeric::floor_to_int(l.u(part.last()));
-    const bool sparse = last - first > 4 * static_cast<std::int64_t>(part.count);
-    std::int64_t next = first - reach;
-    for (std::size_t i = sparse ? 0 : part.count - 1; i < part.count; ++i) {
-        // Columns between samples that are far apart reach none.
-        const std::int64_t column = numeric::floor_to_int(l.u(part.x[i]));
-        if (sparse) next = (std::max)(next, column - reach);
-        const std::int64_t count = column + reach + 1 - next;
-        if (count > 0) visit(next, count);
-        next += (std::max)(count, std::int64_t{0});
-    }
-}
-
-/// Mounds and pock marks: a cell holds one round bump or dent, wholly inside it, or none.
-class round_marks {
-  public:
-    round_marks() = default;
-    /// @param cell          metres
-    /// @param filled, high  how many cells hold a mark, and how many of those that do a mound, as shares of all cells
-    /// @param mound, pock   metres: of the largest
-    round_marks(double cell, float filled, float high, float mound, float pock, cell_hash hash)
-        : hash_(hash), filled_(filled), high_(high), mound_(mound), pock_(-pock) {
-        lattice_.frequency = 1 / cell;
-    }
-
-    void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
-        if (filled_ > 0) dispatch(kernel{*this, part, values.data()}, level);
-    }
-
-    /// The largest dent and the largest bump, metres.
-    double lowest() const { return 1.00001 * static_cast<double>(pock_); }
-    double highest() const { return 1.00001 * static_cast<double>(mound_); }
-
-  private:
-    struct kernel {
-        static constexpr int widest = 16;
-
-        const round_marks& marks;
-        const stretch& part;
-        float* values;
-
-        template <int N>
-        INSONIFY_INLINE void run() const {
-            const lattice& l = marks.lattice_;
-            const float kept = carried(1 / l.frequency, part.grid_spacing);  // the largest span half a cell
-            if (kept == 0) return;
-            const lattice_coordinate v(l.v(part.y));
-            const cell_hash::row hash = marks.hash_[v.cell];
-            visit_columns(l, part, 0, [&](std::int64_t first, std::int64_t count) INSONIFY_INLINE_LAMBDA {
-                for (std::int64_t column = first; column < first + count; ++column)
-                    draw<N>(kept, v.fraction, column, hash(column));
-            });
-        }
-
-        template <int N>
-        INSONIFY_INLINE void draw(float kept, float up, std::int64_t column, std::uint64_t bits) const {
-            const lattice& l = marks.lattice_;
-            const pair_of_bits centre(bits), traits(scramble(bits));
-            const float chance = 0.5f * traits.b + 0.5f;
-            if (chance >= marks.filled_) return;
-            const float radius = 0.175f + 0.075f * traits.a;  // in cells; a quarter at most
-            const float y = up - (0.5f + 0.25f * centre.b);
-            const float y_square = y * y, inverse_square = 1 / (radius * radius);
-            if (y_square >= radius * radius) return;
-            const float height = kept * ((chance < marks.high_ ? marks.mound_ : marks.pock_) * (radius * 4));
-
-            const double middle = 0.5 + 0.25 * static_cast<double>(centre.a), reach = static_cast<double>(radius);
-            const double left = static_cast<double>(column) + middle;
-            const double cell = 1 / l.frequency;
-            const stretch::range reached = part.within((left - reach) * cell, (left + reach) * cell);
-            for (std::size_t i = reached.begin; i < reached.end; i += N) {
-                lanes<float, N> dx, inside, sum;
-                offsets<N>(dx, &part.x[i], l.frequency, -left);
-                inside = 1.0f - (dx * dx + y_square) * inverse_square;
-                clamp_lanes(inside);
-                insonify::detail::load(sum, values + i);
-                sum = sum + height * inside * inside;
-                insonify::detail::store(values + i, sum);
-            }
-        }
-    };
-
-    lattice lattice_;
-    cell_hash hash_{0, stream::mounds};
-    float filled_ = 0, high_ = 0, mound_ = 0, pock_ = 0;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::seabed::detail
 
 INSONIFY_ARITHMETIC_END
 
@@ -9377,6 +9866,445 @@ class ripple_train {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/seabed/ripples.hpp ---------------------------------------------------------------
+// Sand ripples: one system of crests, or two that cross, and what lies on them.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+class ripples_sampler;
+
+/// Rippled sand. The first six parameters are those of `ripple_system`.
+struct ripples {
+    float wavelength = 0.8f;                             ///< metres, > 0: from crest to crest; nature has 0.05 to 1.5
+    float steepness = 0.11f;                             ///< in [0, 0.5]: height / wavelength; nature has 0.05 to 0.2
+    float direction = 0;                                 ///< radians from +x: across the crests
+    float spread = 0.09f;                                ///< radians, in [0, 0.5]: of the direction
+    float bandwidth = 0.09f;                             ///< in [0, 0.25]: of the wave number, relative
+    float sharpness = 0.25f;                             ///< in [0, 0.9]: of the crests, 0 for a sinusoid
+    ripple_system second{.steepness = 0};                ///< other waves' ripples, added; none if they have no height
+    roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< what lies on the ripples, beyond their height
+    std::uint64_t seed = 1;
+    type kind = type::ripples;
+
+    /// @throws invalid_input for parameters out of their range
+    ripples_sampler prepare() const;
+    float operator()(double x, double y) const;
+
+    ripple_system first() const { return {wavelength, steepness, direction, spread, bandwidth, sharpness}; }
+    /// Metres from trough to crest, of the first system.
+    float height() const { return steepness * wavelength; }
+    float sink_depth() const { return 0.5f * (height() + second.height()) + 2 * surface.rms; }
+    /// Ends of crests per square metre to expect, of the first system.
+    double forks() const {
+        return 2 * numeric::pi * static_cast<double>(spread) * static_cast<double>(bandwidth) /
+               (static_cast<double>(wavelength) * static_cast<double>(wavelength));
+    }
+};
+
+/// Evaluates `ripples`.
+class ripples_sampler {
+  public:
+    explicit ripples_sampler(const ripples& r)
+        : first_(r.first(), r.seed, detail::stream::ripples, "ripples"),
+          second_(r.second, r.seed, detail::stream::second_ripples, "ripples.second"),
+          surface_(r.surface, r.seed, detail::stream::ripples) {}
+
+    void row(const scanline& line, std::span<float> heights) const {
+        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
+            first_.add(part, values);
+            second_.add(part, values);
+            surface_.add(part, values);
+        });
+    }
+
+    /// See ripple_train::psi: of the first system.
+    detail::ripple_train::phasor psi(double x, double y) const { return first_.psi(x, y); }
+
+    height_range range() const {
+        const double most = first_.most() + second_.most() + surface_.most();
+        return {-most, most};
+    }
+
+  private:
+    detail::ripple_train first_, second_;
+    power_law_noise surface_;
+};
+
+inline ripples_sampler ripples::prepare() const {
+    return ripples_sampler(*this);
+}
+inline float ripples::operator()(double x, double y) const {
+    return height_at(prepare(), x, y);
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/blend.hpp -----------------------------------------------------------------
+// Two seabeds side by side: patches of one in the other, with natural borders, and the type at every point.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+class blend_sampler;
+
+/// Patches of `first` in `second`: where a noise exceeds a threshold there is one, else the other. Across the border
+/// one relief sinks beneath the other, so ripples end in tips within about a border's width.
+struct blend {
+    any first = ripples{};
+    any second = flat{};
+    float coverage = 0.5f;  ///< in [0, 1]: share of the area that is `first`, over many patches
+    float patch = 12.0f;    ///< metres, > 0: scale of the patches
+    float border = 0.6f;    ///< metres, in (0, patch]: typical width of borders, about a ripple or two
+    std::uint64_t seed = 1;
+
+    /// @throws invalid_input for parameters out of their range
+    blend_sampler prepare() const;
+    std::vector<type_properties> legend() const {
+        std::vector<type_properties> all = first.legend();
+        extend(all, second.legend());
+        return all;
+    }
+    float operator()(double x, double y) const;
+    type type_at(double x, double y) const;
+};
+
+/// Evaluates `blend`.
+class blend_sampler {
+  public:
+    explicit blend_sampler(const blend& b)
+        : first_(b.first.prepare()),
+          second_(b.second.prepare()),
+          where_(patches_of(b), b.border, 0, b.seed, 0),
+          edge_(b.border, (std::max)(b.first.sink_depth(), b.second.sink_depth())) {}
+
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+        const auto second = [&](const scanline& l, std::span<float> h, std::span<type> t) { second_.row(l, h, t); };
+        detail::by_parts(line, heights, types, [&](const scanline& l, std::span<float> h, std::span<type> t) {
+            detail::lay_over(where_, edge_, first_, l, h, t, second);
+        });
+    }
+
+    height_range range() const { return merge(first_.range(), second_.range()); }
+
+  private:
+    static patches patches_of(const blend& b) {
+        detail::require(b.coverage >= 0 && b.coverage <= 1, "blend.coverage", b.coverage, "0 to 1");
+        detail::require(b.patch > 0 && b.patch < 1e6f, "blend.patch", b.patch, "metres above 0");
+        detail::require(b.border >= 1e-3f && b.border <= b.patch, "blend.border", b.border,
+                        "metres from 0.001 to blend.patch");
+        return {b.coverage, b.patch};
+    }
+
+    any_sampler first_, second_;
+    detail::outline where_;
+    detail::border edge_;
+};
+
+inline blend_sampler blend::prepare() const {
+    return blend_sampler(*this);
+}
+inline float blend::operator()(double x, double y) const {
+    return at(prepare(), x, y).height;
+}
+inline type blend::type_at(double x, double y) const {
+    return at(prepare(), x, y).kind;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/detailed.hpp --------------------------------------------------------------
+// A coarse survey with relief finer than its grid: what multibeam maps of a metre's spacing need before a sonar of
+// centimetres looks at them.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+class detailed_sampler;
+
+/// A heightfield, smooth between its vertices instead of in facets, and roughness on top.
+///
+/// To go on where the survey's spectrum ends, take its spacing for the longest cell: of a sediment's relief all that is
+/// shorter than L metres has an rms of facts_of(sediment).rms() L^0.625.
+struct detailed {
+    heightfield field{};
+    roughness surface{.rms = 0.01f, .longest = 1, .shortest = 0.06f};
+    std::uint64_t seed = 1;
+
+    /// By reference: the heightfield has to outlive the sampler.
+    /// @throws invalid_input as `validate` of heightfields, and for parameters of the roughness out of their range
+    detailed_sampler prepare() const;
+    float operator()(double x, double y) const;
+    type type_at(double x, double y) const { return field.type_at(x, y); }
+    std::optional<type> only_type() const { return field.only_type(); }
+    std::vector<type_properties> legend() const { return field.legend(); }
+};
+
+/// Evaluates `detailed`.
+class detailed_sampler {
+  public:
+    explicit detailed_sampler(const detailed& d)
+        : field_(&d.field), surface_(d.surface, d.seed, detail::stream::survey) {
+        validate(d.field);
+    }
+
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
+            for (std::size_t i = 0; i < part.count; ++i) values[i] = smooth_at(part.x[i], part.y);
+            surface_.add(part, values);
+        });
+        for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
+    }
+
+    /// Catmull-Rom's negative shares sum to 1/8 at most: a row overshoots by as much of the range, and a column of rows
+    /// by 1/8 of five quarters more.
+    height_range range() const {
+        const height_range field = field_->prepare().range();
+        const double over = 0.2813 * (field.highest - field.lowest) + surface_.most();
+        return field.empty() ? field : height_range{field.lowest - over, field.highest + over};
+    }
+
+  private:
+    /// Catmull-Rom in both directions; beside missing vertices, and where there is none, the drawn facets.
+    float smooth_at(double x, double y) const {
+        const image<float>& h = field_->heights;
+        const detail::grid_coordinate u((x - field_->origin.x) / field_->spacing, h.width() - 1),
+            v((y - field_->origin.y) / field_->spacing, h.height() - 1);
+        const auto held = [](int i, int size) { return i < 0 ? 0 : i < size ? i : size - 1; };
+        float column[4];
+        for (int j = 0; j < 4; ++j) {
+            const int row = held(v.cell - 1 + j, h.height());
+            float p[4];
+            for (int i = 0; i < 4; ++i) p[i] = h(held(u.cell - 1 + i, h.width()), row);
+            column[j] = between(p, static_cast<float>(u.across));
+        }
+        const float height = between(column, static_cast<float>(v.across));
+        return numeric::is_finite(height) ? height : field_->height_at(x, y);
+    }
+    static float between(const float (&p)[4], float t) {
+        const float b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2 * p[2] - 0.5f * p[3],
+                    d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
+        return p[1] + t * (b + t * (c + t * d));
+    }
+
+    const heightfield* field_;
+    power_law_noise surface_;
+};
+
+inline detailed_sampler detailed::prepare() const {
+    return detailed_sampler(*this);
+}
+inline float detailed::operator()(double x, double y) const {
+    return at(prepare(), x, y).height;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/mixed.hpp -----------------------------------------------------------------
+// A seabed of many: bottoms laid one over the other, each where its area says, and the type at every point.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+class mixed_sampler;
+
+/// One bottom of a `mixed` seabed.
+struct layer {
+    any bottom = ripples{};
+    area where = patches{};
+    float border = 0.6f;  ///< metres, from 0.001: width of the border, about a ripple or two
+    float ragged = 0.5f;  ///< metres, >= 0: how far the outline of a shape strays; patches are ragged by themselves
+};
+
+/// Bottoms on a base, in order: a later layer hides the earlier where it lies.
+///
+///     mixed{.base = flat{}, .layers = {{ripples{}, patches{.coverage = 0.4f}}, {rock{}, disc{{10, 5}, 8}}}}
+struct mixed {
+    any base = flat{};
+    std::vector<layer> layers;
+    std::uint64_t seed = 1;  ///< of the outlines; patches of different layers are independent
+
+    /// The sampler owns what it needs.
+    /// @throws invalid_input for parameters out of their range
+    mixed_sampler prepare() const;
+    std::vector<type_properties> legend() const {
+        std::vector<type_properties> all = base.legend();
+        for (const layer& l : layers) extend(all, l.bottom.legend());
+        return all;
+    }
+    float operator()(double x, double y) const;
+    type type_at(double x, double y) const;
+};
+
+/// Evaluates `mixed`.
+class mixed_sampler {
+  public:
+    explicit mixed_sampler(const mixed& m) : base_(m.base.prepare()) {
+        float relief = m.base.sink_depth();
+        for (std::uint32_t i = 0; i < m.layers.size(); ++i) {
+            const layer& l = m.layers[i];
+            relief = (std::max)(relief, l.bottom.sink_depth());
+            layers_.push_back({l.bottom.prepare(), {l.where, l.border, l.ragged, m.seed, i}, {l.border, relief}});
+        }
+    }
+
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+        detail::by_parts(line, heights, types, [&](const scanline& l, std::span<float> h, std::span<type> t) {
+            fill(layers_.size(), l, h, t);
+        });
+    }
+
+    height_range range() const {
+        height_range all = base_.range();
+        for (const prepared_layer& l : layers_) all = merge(all, l.bottom.range());
+        return all;
+    }
+
+  private:
+    /// What the base and the first `count` layers make.
+    void fill(std::size_t count, const scanline& line, std::span<float> heights, std::span<type> types) const {
+        if (count == 0) return base_.row(line, heights, types);
+        const prepared_layer& top = layers_[count - 1];
+        detail::lay_over(top.where, top.edge, top.bottom, line, heights, types,
+                         [&](const scanline& l, std::span<float> h, std::span<type> t) { fill(count - 1, l, h, t); });
+    }
+
+    struct prepared_layer {
+        any_sampler bottom;
+        detail::outline where;
+        detail::border edge;
+    };
+    any_sampler base_;
+    std::vector<prepared_layer> layers_;
+};
+
+inline mixed_sampler mixed::prepare() const {
+    return mixed_sampler(*this);
+}
+inline float mixed::operator()(double x, double y) const {
+    return at(prepare(), x, y).height;
+}
+inline type mixed::type_at(double x, double y) const {
+    return at(prepare(), x, y).kind;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/strewn.hpp ----------------------------------------------------------------
+// Things strewn over the plane by lot: which cells of a lattice may hold one that a row crosses, and round ones drawn.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed::detail {
+
+/// Calls `visit(first, count)` for runs of columns of a lattice, which together hold each column from which something
+/// reaches a sample of the stretch once, in rising order.
+/// @param reach  how many columns a thing reaches beyond its own
+template <class Visit>
+INSONIFY_INLINE void visit_columns(const lattice& l, const stretch& part, std::int64_t reach, Visit&& visit) {
+    const std::int64_t first = numeric::floor_to_int(l.u(part.x[0])), last = numeric::floor_to_int(l.u(part.last()));
+    const bool sparse = last - first > 4 * static_cast<std::int64_t>(part.count);
+    std::int64_t next = first - reach;
+    for (std::size_t i = sparse ? 0 : part.count - 1; i < part.count; ++i) {
+        // Columns between samples that are far apart reach none.
+        const std::int64_t column = numeric::floor_to_int(l.u(part.x[i]));
+        if (sparse) next = (std::max)(next, column - reach);
+        const std::int64_t count = column + reach + 1 - next;
+        if (count > 0) visit(next, count);
+        next += (std::max)(count, std::int64_t{0});
+    }
+}
+
+/// Mounds and pock marks: a cell holds one round bump or dent, wholly inside it, or none.
+class round_marks {
+  public:
+    round_marks() = default;
+    /// @param cell          metres
+    /// @param filled, high  how many cells hold a mark, and how many of those that do a mound, as shares of all cells
+    /// @param mound, pock   metres: of the largest
+    round_marks(double cell, float filled, float high, float mound, float pock, cell_hash hash)
+        : hash_(hash), filled_(filled), high_(high), mound_(mound), pock_(-pock) {
+        lattice_.frequency = 1 / cell;
+    }
+
+    void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
+        if (filled_ > 0) dispatch(kernel{*this, part, values.data()}, level);
+    }
+
+    /// The largest dent and the largest bump, metres.
+    double lowest() const { return 1.00001 * static_cast<double>(pock_); }
+    double highest() const { return 1.00001 * static_cast<double>(mound_); }
+
+  private:
+    struct kernel {
+        static constexpr int widest = 16;
+
+        const round_marks& marks;
+        const stretch& part;
+        float* values;
+
+        template <int N>
+        INSONIFY_INLINE void run() const {
+            const lattice& l = marks.lattice_;
+            const float kept = carried(1 / l.frequency, part.grid_spacing);  // the largest span half a cell
+            if (kept == 0) return;
+            const lattice_coordinate v(l.v(part.y));
+            const cell_hash::row hash = marks.hash_[v.cell];
+            visit_columns(l, part, 0, [&](std::int64_t first, std::int64_t count) INSONIFY_INLINE_LAMBDA {
+                for (std::int64_t column = first; column < first + count; ++column)
+                    draw<N>(kept, v.fraction, column, hash(column));
+            });
+        }
+
+        template <int N>
+        INSONIFY_INLINE void draw(float kept, float up, std::int64_t column, std::uint64_t bits) const {
+            const lattice& l = marks.lattice_;
+            const pair_of_bits centre(bits), traits(scramble(bits));
+            const float chance = 0.5f * traits.b + 0.5f;
+            if (chance >= marks.filled_) return;
+            const float radius = 0.175f + 0.075f * traits.a;  // in cells; a quarter at most
+            const float y = up - (0.5f + 0.25f * centre.b);
+            const float y_square = y * y, inverse_square = 1 / (radius * radius);
+            if (y_square >= radius * radius) return;
+            const float height = kept * ((chance < marks.high_ ? marks.mound_ : marks.pock_) * (radius * 4));
+
+            const double middle = 0.5 + 0.25 * static_cast<double>(centre.a), reach = static_cast<double>(radius);
+            const double left = static_cast<double>(column) + middle;
+            const double cell = 1 / l.frequency;
+            const stretch::range reached = part.within((left - reach) * cell, (left + reach) * cell);
+            for (std::size_t i = reached.begin; i < reached.end; i += N) {
+                lanes<float, N> dx, inside, sum;
+                offsets<N>(dx, &part.x[i], l.frequency, -left);
+                inside = 1.0f - (dx * dx + y_square) * inverse_square;
+                clamp_lanes(inside);
+                insonify::detail::load(sum, values + i);
+                sum = sum + height * inside * inside;
+                insonify::detail::store(values + i, sum);
+            }
+        }
+    };
+
+    lattice lattice_;
+    cell_hash hash_{0, stream::mounds};
+    float filled_ = 0, high_ = 0, mound_ = 0, pock_ = 0;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed::detail
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/trawls.hpp ----------------------------------------------------------------
 // Furrows that trawl boards plough: long, nearly straight, in the few directions in which boats work.
 //
@@ -9535,6 +10463,7 @@ struct mud {
     /// @throws invalid_input for parameters out of their range
     mud_sampler prepare() const;
     float operator()(double x, double y) const;
+    float sink_depth() const { return (std::max)((std::max)(mound_height, pock_depth), 2 * surface.rms); }
 };
 
 /// Evaluates `mud`.
@@ -9577,82 +10506,6 @@ inline mud_sampler mud::prepare() const {
     return mud_sampler(*this);
 }
 inline float mud::operator()(double x, double y) const {
-    return height_at(prepare(), x, y);
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::seabed
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/ripples.hpp ---------------------------------------------------------------
-// Sand ripples: one system of crests, or two that cross, and what lies on them.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::seabed {
-
-class ripples_sampler;
-
-/// Rippled sand. The first six parameters are those of `ripple_system`.
-struct ripples {
-    float wavelength = 0.8f;                             ///< metres, > 0: from crest to crest; nature has 0.05 to 1.5
-    float steepness = 0.11f;                             ///< in [0, 0.5]: height / wavelength; nature has 0.05 to 0.2
-    float direction = 0;                                 ///< radians from +x: across the crests
-    float spread = 0.09f;                                ///< radians, in [0, 0.5]: of the direction
-    float bandwidth = 0.09f;                             ///< in [0, 0.25]: of the wave number, relative
-    float sharpness = 0.25f;                             ///< in [0, 0.9]: of the crests, 0 for a sinusoid
-    ripple_system second{.steepness = 0};                ///< other waves' ripples, added; none if they have no height
-    roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< what lies on the ripples, beyond their height
-    std::uint64_t seed = 1;
-    type kind = type::ripples;
-
-    /// @throws invalid_input for parameters out of their range
-    ripples_sampler prepare() const;
-    float operator()(double x, double y) const;
-
-    ripple_system first() const { return {wavelength, steepness, direction, spread, bandwidth, sharpness}; }
-    /// Metres from trough to crest, of the first system.
-    float height() const { return steepness * wavelength; }
-    /// Ends of crests per square metre to expect, of the first system.
-    double forks() const {
-        return 2 * numeric::pi * static_cast<double>(spread) * static_cast<double>(bandwidth) /
-               (static_cast<double>(wavelength) * static_cast<double>(wavelength));
-    }
-};
-
-/// Evaluates `ripples`.
-class ripples_sampler {
-  public:
-    explicit ripples_sampler(const ripples& r)
-        : first_(r.first(), r.seed, detail::stream::ripples, "ripples"),
-          second_(r.second, r.seed, detail::stream::second_ripples, "ripples.second"),
-          surface_(r.surface, r.seed, detail::stream::ripples) {}
-
-    void row(const scanline& line, std::span<float> heights) const {
-        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
-            first_.add(part, values);
-            second_.add(part, values);
-            surface_.add(part, values);
-        });
-    }
-
-    /// See ripple_train::psi: of the first system.
-    detail::ripple_train::phasor psi(double x, double y) const { return first_.psi(x, y); }
-
-    height_range range() const {
-        const double most = first_.most() + second_.most() + surface_.most();
-        return {-most, most};
-    }
-
-  private:
-    detail::ripple_train first_, second_;
-    power_law_noise surface_;
-};
-
-inline ripples_sampler ripples::prepare() const {
-    return ripples_sampler(*this);
-}
-inline float ripples::operator()(double x, double y) const {
     return height_at(prepare(), x, y);
 }
 
@@ -9869,6 +10722,7 @@ struct rock {
     /// @throws invalid_input for parameters out of their range
     rock_sampler prepare() const;
     float operator()(double x, double y) const;
+    float sink_depth() const { return 0.5f * relief + 2 * surface.rms; }
 };
 
 /// Evaluates `rock`.
@@ -9988,411 +10842,6 @@ inline rock_sampler rock::prepare() const {
 inline float rock::operator()(double x, double y) const {
     return height_at(prepare(), x, y);
 }
-
-}  // namespace insonify::inline INSONIFY_ABI::seabed
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/cover.hpp -----------------------------------------------------------------
-// One bottom laid over another, with the border between them as nature makes it: what stands high is buried last.
-//
-// Across a border the layer rises from beneath: its crests come out first, as narrow tips, while its troughs are still
-// filled; further in, the highest of what lies below looks out of it last. Types follow the surface that is on top.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::seabed {
-
-/// The recipes of a single type.
-using simple = std::variant<flat, ripples, mud, rock>;
-
-namespace detail {
-
-/// About how far a recipe's surface strays from its mean level, metres: how deep it has to sink to be gone.
-inline float relief_of(const roughness& r) {
-    return 2 * r.rms;
-}
-inline float relief_of(const flat& f) {
-    return relief_of(f.surface);
-}
-inline float relief_of(const ripples& r) {
-    return 0.5f * (r.height() + r.second.height()) + relief_of(r.surface);
-}
-inline float relief_of(const mud& m) {
-    return (std::max)((std::max)(m.mound_height, m.pock_depth), relief_of(m.surface));
-}
-inline float relief_of(const rock& r) {
-    return 0.5f * r.relief + relief_of(r.surface);
-}
-template <recipe R>
-float relief_of(const R&) {
-    return 0.05f;
-}
-template <recipe... R>
-float relief_of(const std::variant<R...>& any_of) {
-    return std::visit([](const auto& held) { return relief_of(held); }, any_of);
-}
-
-/// A layer along its border.
-class border {
-  public:
-    /// @param width   metres, > 0
-    /// @param relief  metres: that of the layer and of what lies below it, the larger
-    border(float width, float relief) : per_metre_(1 / width), relief_(relief + 1e-6f) {}
-
-    /// From 0, where there is no layer, to 1, where there is nothing else.
-    float across(float margin) const { return clamp01(0.5f + margin * per_metre_); }
-
-    struct meeting {
-        float height;
-        bool is_layer;
-    };
-    /// What is on top at `t` of the way across; at 0 and 1 the very heights of the one and the other.
-    meeting at(float t, float below, float layer) const {
-        const float rise = layer - below;
-        if (t <= 0) return {below, false};
-        if (t >= 1) return {layer, true};
-        // Relief beyond what was foreseen fades.
-        if (t < 0.5f) {
-            const float over = rise - relief_ * (1 - 2 * t);
-            return {over > 0 ? below + over * clamp01(4 * t) : below, over > 0};
-        }
-        const float over = -rise - relief_ * (2 * t - 1);
-        return {over > 0 ? layer + over * clamp01(4 - 4 * t) : layer, !(over > 0)};
-    }
-
-  private:
-    float per_metre_, relief_;
-};
-
-/// From the first to the last sample of a row that is wanted.
-struct extent {
-    std::size_t begin, end = 0;
-
-    void include(std::size_t i) {
-        begin = (std::min)(begin, i);
-        end = i + 1;
-    }
-    std::size_t size() const { return end > begin ? end - begin : 0; }
-    template <class T>
-    std::span<T> of(std::span<T> row) const {
-        return row.empty() ? row : row.subspan(begin, size());
-    }
-};
-
-/// Lays what `layer` samples over `heights` and `types`, which hold what lies below, or don't where the layer hides it:
-/// `below` is asked to fill them where they are wanted.
-template <class Below, typed_sampler Layer>
-void lay_over(const outline& where, const border& edge, const Layer& layer, const scanline& line,
-              std::span<float> heights, std::span<type> types, Below&& below) {
-    const std::size_t count = heights.size();
-    const stretch part(line, count);
-    stretch_values across;
-    where.margins(part, across);
-    // Away from borders one of the two is all there is to evaluate.
-    extent above{count}, under{count};
-    for (std::size_t i = 0; i < count; ++i) {
-        across[i] = edge.across(across[i]);
-        if (across[i] > 0) above.include(i);
-        if (across[i] < 1) under.include(i);
-    }
-    if (under.size() > 0) below(line.from(under.begin), under.of(heights), under.of(types));
-    if (above.size() == 0) return;
-
-    std::array<float, chunk> other;
-    std::array<type, chunk> other_types;
-    const std::span<float> layer_heights(other.data(), count);
-    const std::span<type> layer_types(other_types.data(), types.size());
-    layer.row(line.from(above.begin), above.of(layer_heights), above.of(layer_types));
-    for (std::size_t i = above.begin; i < above.end; ++i) {
-        const border::meeting top = edge.at(across[i], heights[i], other[i]);
-        heights[i] = top.height;
-        if (top.is_layer && !types.empty()) types[i] = other_types[i];
-    }
-}
-
-/// Calls `fill(line, heights, types)` for parts of a row no longer than a stretch.
-template <class Fill>
-void by_parts(const scanline& line, std::span<float> heights, std::span<type> types, Fill&& fill) {
-    for (std::size_t i = 0; i < heights.size(); i += chunk) {
-        const std::size_t count = (std::min)(chunk, heights.size() - i);
-        fill(line.from(i), heights.subspan(i, count), types.empty() ? types : types.subspan(i, count));
-    }
-}
-
-}  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI::seabed
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/blend.hpp -----------------------------------------------------------------
-// Two seabeds side by side: patches of one in the other, with natural borders, and the type at every point.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::seabed {
-
-template <preparable First, preparable Second>
-class blend_sampler;
-
-/// Patches of `first` in `second`: where a noise exceeds a threshold there is one, else the other. Across the border
-/// one relief sinks beneath the other, so ripples end in tips within about a border's width.
-///
-/// `blend` holds any two simple recipes; spell out the template for recipes of your own. For more than two, see
-/// `mixed`.
-template <preparable First, preparable Second>
-struct basic_blend {
-    First first = ripples{};
-    Second second = flat{};
-    float coverage = 0.5f;  ///< in [0, 1]: share of the area that is `first`, over many patches
-    float patch = 12.0f;    ///< metres, > 0: scale of the patches
-    float border = 0.6f;    ///< metres, in (0, patch]: typical width of borders, about a ripple or two
-    std::uint64_t seed = 1;
-
-    /// @throws invalid_input for parameters out of their range
-    blend_sampler<First, Second> prepare() const { return blend_sampler<First, Second>(*this); }
-    float operator()(double x, double y) const { return at(prepare(), x, y).height; }
-    type type_at(double x, double y) const { return at(prepare(), x, y).kind; }
-};
-using blend = basic_blend<simple, simple>;
-
-/// Evaluates `basic_blend`.
-template <preparable First, preparable Second>
-class blend_sampler {
-  public:
-    explicit blend_sampler(const basic_blend<First, Second>& b)
-        : first_(seabed::prepare(b.first)),
-          second_(seabed::prepare(b.second)),
-          where_(patches_of(b), b.border, 0, b.seed, 0),
-          edge_(b.border, (std::max)(detail::relief_of(b.first), detail::relief_of(b.second))) {}
-
-    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
-        const auto second = [&](const scanline& l, std::span<float> h, std::span<type> t) { second_.row(l, h, t); };
-        detail::by_parts(line, heights, types, [&](const scanline& l, std::span<float> h, std::span<type> t) {
-            detail::lay_over(where_, edge_, first_, l, h, t, second);
-        });
-    }
-
-    height_range range() const { return merge(first_.range(), second_.range()); }
-
-  private:
-    static patches patches_of(const basic_blend<First, Second>& b) {
-        detail::require(b.coverage >= 0 && b.coverage <= 1, "blend.coverage", b.coverage, "0 to 1");
-        detail::require(b.patch > 0 && b.patch < 1e6f, "blend.patch", b.patch, "metres above 0");
-        detail::require(b.border >= 1e-3f && b.border <= b.patch, "blend.border", b.border,
-                        "metres from 0.001 to blend.patch");
-        return {b.coverage, b.patch};
-    }
-
-    decltype(seabed::prepare(std::declval<const First&>())) first_;
-    decltype(seabed::prepare(std::declval<const Second&>())) second_;
-    detail::outline where_;
-    detail::border edge_;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::seabed
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/detailed.hpp --------------------------------------------------------------
-// A coarse survey with relief finer than its grid: what multibeam maps of a metre's spacing need before a sonar of
-// centimetres looks at them.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::seabed {
-
-class detailed_sampler;
-
-/// A heightfield, smooth between its vertices instead of in facets, and roughness on top.
-///
-/// To go on where the survey's spectrum ends, take its spacing for the longest cell: of a sediment's relief all that is
-/// shorter than L metres has an rms of facts_of(sediment).rms() L^0.625.
-struct detailed {
-    heightfield field{};
-    roughness surface{.rms = 0.01f, .longest = 1, .shortest = 0.06f};
-    std::uint64_t seed = 1;
-
-    /// By reference: the heightfield has to outlive the sampler.
-    /// @throws invalid_input as `validate` of heightfields, and for parameters of the roughness out of their range
-    detailed_sampler prepare() const;
-    float operator()(double x, double y) const;
-    type type_at(double x, double y) const { return field.type_at(x, y); }
-};
-
-/// Evaluates `detailed`.
-class detailed_sampler {
-  public:
-    explicit detailed_sampler(const detailed& d)
-        : field_(&d.field), surface_(d.surface, d.seed, detail::stream::survey) {
-        validate(d.field);
-    }
-
-    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
-        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
-            for (std::size_t i = 0; i < part.count; ++i) values[i] = smooth_at(part.x[i], part.y);
-            surface_.add(part, values);
-        });
-        for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
-    }
-
-    /// Catmull-Rom's negative shares sum to 1/8 at most: a row overshoots by as much of the range, and a column of rows
-    /// by 1/8 of five quarters more.
-    height_range range() const {
-        const height_range field = field_->prepare().range();
-        const double over = 0.2813 * (field.highest - field.lowest) + surface_.most();
-        return field.empty() ? field : height_range{field.lowest - over, field.highest + over};
-    }
-
-  private:
-    /// Catmull-Rom in both directions; beside missing vertices, and where there is none, the drawn facets.
-    float smooth_at(double x, double y) const {
-        const image<float>& h = field_->heights;
-        const detail::grid_coordinate u((x - field_->origin.x) / field_->spacing, h.width() - 1),
-            v((y - field_->origin.y) / field_->spacing, h.height() - 1);
-        const auto held = [](int i, int size) { return i < 0 ? 0 : i < size ? i : size - 1; };
-        float column[4];
-        for (int j = 0; j < 4; ++j) {
-            const int row = held(v.cell - 1 + j, h.height());
-            float p[4];
-            for (int i = 0; i < 4; ++i) p[i] = h(held(u.cell - 1 + i, h.width()), row);
-            column[j] = between(p, static_cast<float>(u.across));
-        }
-        const float height = between(column, static_cast<float>(v.across));
-        return numeric::is_finite(height) ? height : field_->height_at(x, y);
-    }
-    static float between(const float (&p)[4], float t) {
-        const float b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2 * p[2] - 0.5f * p[3],
-                    d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
-        return p[1] + t * (b + t * (c + t * d));
-    }
-
-    const heightfield* field_;
-    power_law_noise surface_;
-};
-
-inline detailed_sampler detailed::prepare() const {
-    return detailed_sampler(*this);
-}
-inline float detailed::operator()(double x, double y) const {
-    return at(prepare(), x, y).height;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::seabed
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/mixed.hpp -----------------------------------------------------------------
-// A seabed of many: bottoms laid one over the other, each where its area says, and the type at every point.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::seabed {
-
-class mixed_sampler;
-
-/// One bottom of a `mixed` seabed.
-struct layer {
-    simple bottom = ripples{};
-    area where = patches{};
-    float border = 0.6f;  ///< metres, from 0.001: width of the border, about a ripple or two
-    float ragged = 0.5f;  ///< metres, >= 0: how far the outline of a shape strays; patches are ragged by themselves
-};
-
-/// Bottoms on a base, in order: a later layer hides the earlier where it lies.
-///
-///     mixed{.base = flat{}, .layers = {{ripples{}, patches{.coverage = 0.4f}}, {rock{}, disc{{10, 5}, 8}}}}
-struct mixed {
-    simple base = flat{};
-    std::vector<layer> layers;
-    std::uint64_t seed = 1;  ///< of the outlines; patches of different layers are independent
-
-    /// The sampler owns what it needs.
-    /// @throws invalid_input for parameters out of their range
-    mixed_sampler prepare() const;
-    float operator()(double x, double y) const;
-    type type_at(double x, double y) const;
-};
-
-/// Evaluates `mixed`.
-class mixed_sampler {
-  public:
-    explicit mixed_sampler(const mixed& m) : base_(seabed::prepare(m.base)) {
-        float relief = detail::relief_of(m.base);
-        for (std::uint32_t i = 0; i < m.layers.size(); ++i) {
-            const layer& l = m.layers[i];
-            relief = (std::max)(relief, detail::relief_of(l.bottom));
-            layers_.push_back(
-                {seabed::prepare(l.bottom), {l.where, l.border, l.ragged, m.seed, i}, {l.border, relief}});
-        }
-    }
-
-    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
-        detail::by_parts(line, heights, types, [&](const scanline& l, std::span<float> h, std::span<type> t) {
-            fill(layers_.size(), l, h, t);
-        });
-    }
-
-    height_range range() const {
-        height_range all = base_.range();
-        for (const prepared_layer& l : layers_) all = merge(all, l.bottom.range());
-        return all;
-    }
-
-  private:
-    using bottom_sampler = decltype(seabed::prepare(std::declval<const simple&>()));
-
-    /// What the base and the first `count` layers make.
-    void fill(std::size_t count, const scanline& line, std::span<float> heights, std::span<type> types) const {
-        if (count == 0) return base_.row(line, heights, types);
-        const prepared_layer& top = layers_[count - 1];
-        detail::lay_over(top.where, top.edge, top.bottom, line, heights, types,
-                         [&](const scanline& l, std::span<float> h, std::span<type> t) { fill(count - 1, l, h, t); });
-    }
-
-    struct prepared_layer {
-        bottom_sampler bottom;
-        detail::outline where;
-        detail::border edge;
-    };
-    bottom_sampler base_;
-    std::vector<prepared_layer> layers_;
-};
-
-inline mixed_sampler mixed::prepare() const {
-    return mixed_sampler(*this);
-}
-inline float mixed::operator()(double x, double y) const {
-    return at(prepare(), x, y).height;
-}
-inline type mixed::type_at(double x, double y) const {
-    return at(prepare(), x, y).kind;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::seabed
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/none.hpp ------------------------------------------------------------------
-// No seabed at all: for scenes that bring theirs as a mesh.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::seabed {
-
-/// Nothing there: no height is known anywhere (NaN), nothing is drawn and nothing rests on it.
-struct none {
-    static constexpr type kind = type::sand;
-
-    struct sampler {
-        void row(const scanline&, std::span<float> heights) const {
-            std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
-        }
-        height_range range() const { return {}; }
-    };
-    sampler prepare() const { return {}; }
-    float operator()(double, double) const { return std::numeric_limits<float>::quiet_NaN(); }
-};
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
@@ -10814,32 +11263,25 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
-template <preparable Ground>
 class sculpt_sampler;
 
-/// A ground and what is done to it. Types are the ground's.
-///
-/// `sculpted` holds any of the library's seabeds; spell out the template for recipes of your own.
-template <preparable Ground>
-struct basic_sculpted {
-    Ground ground{};
+/// A ground and what is done to it. Labels are the ground's.
+struct sculpted {
+    any ground = flat{};
     std::vector<edit> edits;  ///< the first is done first
 
-    /// The sampler refers to a heightfield that is the ground, and owns everything else.
     /// @throws invalid_input for parameters out of their range
-    sculpt_sampler<Ground> prepare() const { return sculpt_sampler<Ground>(*this); }
-    float operator()(double x, double y) const { return at(prepare(), x, y).height; }
-    type type_at(double x, double y) const { return at(prepare(), x, y).kind; }
+    sculpt_sampler prepare() const;
+    std::optional<type> only_type() const { return ground.only_type(); }
+    std::vector<type_properties> legend() const { return ground.legend(); }
+    float operator()(double x, double y) const;
+    type type_at(double x, double y) const;
 };
-using sculpted = basic_sculpted<std::variant<flat, ripples, mud, rock, blend, mixed, heightfield, detailed>>;
 
-/// Evaluates `basic_sculpted`.
-template <preparable Ground>
+/// Evaluates `sculpted`.
 class sculpt_sampler {
-    using ground_sampler = decltype(seabed::prepare(std::declval<const Ground&>()));
-
   public:
-    explicit sculpt_sampler(const basic_sculpted<Ground>& s) : ground_(seabed::prepare(s.ground)) {
+    explicit sculpt_sampler(const sculpted& s) : ground_(s.ground.prepare()) {
         for (const edit& e : s.edits)
             edits_.push_back({e, std::visit([](const auto& held) { return detail::box_of(held); }, e)});
     }
@@ -10848,7 +11290,7 @@ class sculpt_sampler {
         fill(edits_.size(), line, heights, types);
     }
 
-    height_range range() const requires(bounded_sampler<ground_sampler>) {
+    height_range range() const {
         height_range all = ground_.range();
         for (const bounded_edit& e : edits_)
             all = std::visit([&](const auto& held) { return detail::worked_range(held, all); }, e.done);
@@ -10896,41 +11338,38 @@ class sculpt_sampler {
         edit done;
         detail::box bounds;
     };
-    ground_sampler ground_;
+    any_sampler ground_;
     std::vector<bounded_edit> edits_;
 };
+
+inline sculpt_sampler sculpted::prepare() const {
+    return sculpt_sampler(*this);
+}
+inline float sculpted::operator()(double x, double y) const {
+    return at(prepare(), x, y).height;
+}
+inline type sculpted::type_at(double x, double y) const {
+    return at(prepare(), x, y).kind;
+}
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/any.hpp -------------------------------------------------------------------
-// Every kind of seabed a scene can be given.
-
-namespace insonify::inline INSONIFY_ABI::seabed {
-
-/// One of the library's seabeds, by value: `any bottom = ripples{.wavelength = 0.6f};`. `prepare` and `sample` take it
-/// as they take a recipe. Other recipes join as the heightfield that `sample` makes of them.
-using any = std::variant<flat, ripples, mud, rock, blend, mixed, sculpted, heightfield, detailed, none>;
-
-}  // namespace insonify::inline INSONIFY_ABI::seabed
-
 // ------------ insonify/seabed/sediment.hpp --------------------------------------------------------------
-// What bottoms are made of, by name or grain size: one word sets relief, brightness and speckle together.
+// Sediments by name or grain size: one word sets relief, brightness and speckle together (table in registry.hpp).
 //
-// `sediment::medium_sand` is a type of seabed too: a recipe of that type gets the table's brightness from the scene and
-// its speckle from `seabed_speckle` unless those are told otherwise.
-//
-// All values are relative. Levels and roughness are for 10 to 100 kHz; a side-scan sonar's 300 to 900 kHz extrapolates
+// A sediment is a label too: models of that label get the table's brightness and speckle by default. All values are
+// relative. Levels and roughness are for 10 to 100 kHz; a side-scan sonar's 300 to 900 kHz extrapolates
 // them. The report gives 3 dB for well known sands and silts, 10 dB for rock. Shapes of speckle are illustrative.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
-/// The bottoms of the table below, from the coarsest to the finest.
+/// The rows of `sediments`; each has the value of its label.
 enum class sediment : std::uint8_t {
-    rough_rock,
+    rough_rock = static_cast<std::uint8_t>(type::rough_rock),
     rock,
     cobble,
     sandy_gravel,
@@ -10944,48 +11383,20 @@ enum class sediment : std::uint8_t {
     silty_clay,
 };
 
-/// What is known of a sediment.
-struct sediment_facts {
-    std::string_view name;
-    float phi;       ///< mean grain size, -log2 of millimetres
-    float strength;  ///< w2 of the roughness spectrum W(K) = w2 (K cm)^-3.25, cm^4
-    float level;     ///< of Lambert's law, decibels: S_b = level + 20 log10(sin grazing)
-    float texture;   ///< shape of the K-distribution, 0 for none
-    float steady;    ///< power of a steady echo among the others, over theirs
-
-    /// Root mean square height of what is shorter than a metre, metres: 2 pi w2 K^-1.25 / 1.25 at K = 2 pi / 100 cm.
-    float rms() const { return 0.12641f * numeric::square_root(strength); }
-};
-
-/// Roughness: APL-UW High-Frequency Ocean Environmental Acoustic Models Handbook, TR 9407, 1994 (eqs. 2-10, table 2).
-/// Levels meet that report's backscattering strengths at 100 kHz and 20 degrees; that of medium silt lies between its
-/// neighbours'. Textures: few scatterers to a cell of stones, many to one of sand (D. A. Abraham, A. P. Lyons. Novel
-/// Physical Interpretations of K-Distributed Reverberation. IEEE Journal of Oceanic Engineering 27, 2002); muds are
-/// Rician (J. I. Dunlop. Statistical Modelling of Sidescan Sonar Images. OCEANS 1997).
-inline constexpr sediment_facts sediments[] = {
-    {"rough rock", -9.0f, 0.20693f, 3.1f, 0.8f, 0},    {"rock", -7.0f, 0.01862f, -2.7f, 1.2f, 0},
-    {"cobble", -3.0f, 0.0156f, -6.9f, 2, 0},           {"sandy gravel", -1.0f, 0.012937f, -10.0f, 3, 0},
-    {"coarse sand", 0.5f, 0.006957f, -12.5f, 6, 0},    {"medium sand", 1.5f, 0.004446f, -14.9f, 10, 0},
-    {"fine sand", 2.5f, 0.002715f, -17.9f, 15, 0},     {"very fine sand", 3.5f, 0.001544f, -17.7f, 20, 0},
-    {"coarse silt", 4.5f, 0.000781f, -18.5f, 0, 0.2f}, {"medium silt", 5.5f, 0.000517f, -21.2f, 0, 0.5f},
-    {"sandy mud", 6.0f, 0.000517f, -22.5f, 0, 1},      {"silty clay", 8.0f, 0.000517f, -22.6f, 0, 1},
-};
-inline constexpr std::size_t sediment_count = sizeof sediments / sizeof sediments[0];
-
-constexpr const sediment_facts& facts_of(sediment s) {
-    return sediments[static_cast<std::size_t>(s)];
+/// The label of a sediment.
+constexpr type type_of(sediment s) {
+    return static_cast<type>(s);
 }
 
-/// The label of a sediment, which is a type of its own.
-constexpr type type_of(sediment s) {
-    return static_cast<type>(static_cast<std::size_t>(type::rough_rock) + static_cast<std::size_t>(s));
+constexpr const sediment_facts& facts_of(sediment s) {
+    return sediments[static_cast<std::size_t>(s) - std::size(relief_types)];
 }
 
 /// A sediment by its name in the table.
 /// @throws invalid_input for a name that isn't there
 inline sediment sediment_of(std::string_view name) {
-    for (std::size_t i = 0; i < sediment_count; ++i)
-        if (sediments[i].name == name) return static_cast<sediment>(i);
+    for (const sediment_facts& s : sediments)
+        if (s.name == name) return static_cast<sediment>(s.label);
     insonify::detail::raise(
         invalid_input("sediment \"" + std::string(name) + "\" is unknown, expected a name of seabed::sediments"));
 }
@@ -10995,11 +11406,10 @@ inline sediment sediment_of(std::string_view name) {
 /// @throws invalid_input for a grain size that isn't finite
 inline sediment sediment_of_phi(float phi) {
     detail::require(numeric::is_finite(phi), "phi", phi, "a finite grain size");
-    std::size_t best = 0;
-    const auto distance = [&](std::size_t i) { return numeric::magnitude(sediments[i].phi - phi); };
-    for (std::size_t i = 1; i < sediment_count; ++i)
-        if (distance(i) < distance(best)) best = i;
-    return static_cast<sediment>(best);
+    const sediment_facts* best = sediments;
+    for (const sediment_facts& s : sediments)
+        if (numeric::magnitude(s.phi - phi) < numeric::magnitude(best->phi - phi)) best = &s;
+    return static_cast<sediment>(best->label);
 }
 
 /// The power-law roughness of a sediment: relief that is four times as long as a metre is 4^0.625 times as high.
@@ -11008,24 +11418,21 @@ inline roughness roughness_of(sediment s) {
 }
 
 /// The seabed that a sediment makes, with its label: outcrops and boulders of rock, cobbles, level sand, soft mud.
-inline simple bottom_of(sediment s, std::uint64_t seed = 1) {
+inline any bottom_of(sediment s, std::uint64_t seed = 1) {
     const roughness surface = roughness_of(s);
+    const sediment_form& form = facts_of(s).form;
     const type kind = type_of(s);
-    if (s == sediment::rough_rock) return rock{.relief = 1, .surface = surface, .seed = seed, .kind = kind};
-    if (s == sediment::rock)
-        return rock{.relief = 0.5f, .sizes = 2, .fracture = 0.35f, .surface = surface, .seed = seed, .kind = kind};
-    if (s == sediment::cobble)
-        return rock{.relief = 0.15f,
-                    .outcrop = 5,
-                    .block = 0.5f,
-                    .smallest = 0.12f,
-                    .sizes = 2.6f,
-                    .fracture = 0.6f,
-                    .surface = surface,
-                    .seed = seed,
-                    .kind = kind};
-    if (s >= sediment::medium_silt) return mud{.surface = surface, .seed = seed, .kind = kind};
-    return flat{.surface = surface, .seed = seed, .kind = kind};
+    if (form.kind == sediment_form::soft) return mud{.surface = surface, .seed = seed, .kind = kind};
+    if (form.kind == sediment_form::level) return flat{.surface = surface, .seed = seed, .kind = kind};
+    return rock{.relief = form.relief,
+                .outcrop = form.outcrop,
+                .block = form.block,
+                .smallest = form.smallest,
+                .sizes = form.sizes,
+                .fracture = form.fracture,
+                .surface = surface,
+                .seed = seed,
+                .kind = kind};
 }
 
 /// Ripples in a sediment.
@@ -11038,8 +11445,12 @@ inline ripples rippled(sediment s, ripples shape = {}) {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/seabed/models.hpp ----------------------------------------------------------------
+// Every seabed of the library.
+
+
 // ------------ insonify/sonar/sediment.hpp ---------------------------------------------------------------
-// How bright sediments are: the table of seabed/sediment.hpp as materials.
+// Brightness by label: the registry of seabed/registry.hpp as materials.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11049,19 +11460,21 @@ using seabed::sediment;
 
 /// The backscattering strength of a sediment at normal incidence by Lambert's law, as a factor; for those who compute
 /// levels. Use with `lambert_backscatter`.
-inline material surface_of(sediment s) {
-    return {static_cast<float>(numeric::pow(10, static_cast<double>(seabed::facts_of(s).level) / 10))};
+constexpr material surface_of(sediment s) {
+    return {seabed::facts_of(s).strength_at_nadir()};
 }
 
-/// What a scene takes the bottom to be made of, by seabed::type: gray values that the paper's pictures have, and
-/// sediments relative to those, medium sand as bright as sand.
-inline std::array<material, seabed::type_count> default_bottom() {
-    std::array<material, seabed::type_count> bottom{{{0.45f}, {0.5f}, {0.4f}, {0.6f}}};
-    const float sand = bottom[0].reflectivity / surface_of(sediment::medium_sand).reflectivity;
-    for (std::size_t i = 0; i < seabed::sediment_count; ++i) {
-        const auto s = static_cast<sediment>(i);
-        bottom[static_cast<std::size_t>(seabed::type_of(s))] = {sand * surface_of(s).reflectivity};
-    }
+/// A material per label.
+using bottom_materials = std::array<material, seabed::label_count>;
+
+/// The reflectivity of labels for which the seabed's own properties count.
+inline constexpr float by_seabed_model = -1;
+
+/// The registry's materials; users' own labels are as bright as their seabed says.
+constexpr bottom_materials default_bottom() {
+    bottom_materials bottom{};
+    bottom.fill({by_seabed_model});
+    for (const seabed::type_properties& t : seabed::built_in_types) bottom[seabed::index_of(t.label)] = {t.reflectivity};
     return bottom;
 }
 
@@ -11087,7 +11500,9 @@ struct target {
 /// The bottom and what lies on it. Heights are metres above the datum z = 0.
 struct scene {
     insonify::seabed::any seabed = insonify::seabed::flat{};
-    std::array<material, insonify::seabed::type_count> bottom = default_bottom();  ///< by seabed::type
+    /// Materials by label, seabed::index_of(type). Users' own labels have the reflectivity that their seabed states,
+    /// unless one is set here.
+    bottom_materials bottom = default_bottom();
     std::vector<target> targets;
 
     /// Adds a mesh, a shared mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
@@ -11107,8 +11522,6 @@ struct scene {
         else
             return to_mesh(shape);
     }
-
-    const material& bottom_of(insonify::seabed::type type) const { return bottom[static_cast<std::size_t>(type)]; }
 };
 
 /// @throws invalid_input for a material whose reflectivity is negative or not finite. Poses, meshes and seabeds are
@@ -11116,11 +11529,32 @@ struct scene {
 inline void validate(const scene& s) {
     const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
         if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
-        detail::refuse(list + ("[" + detail::to_text(i)) + member, m.reflectivity, "0 or more, finite");
+        std::string name = list;  // appended to: at -O3, g++ 12 warns of "[" + to_text(i)
+        name += '[';
+        name += detail::to_text(i);
+        name += member;
+        detail::refuse(name, m.reflectivity, "0 or more, finite");
     };
-    for (std::size_t i = 0; i < s.bottom.size(); ++i) check(s.bottom[i], "scene.bottom", i, "].reflectivity");
+    for (std::size_t i = 0; i < s.bottom.size(); ++i)
+        if (s.bottom[i].reflectivity != by_seabed_model) check(s.bottom[i], "scene.bottom", i, "].reflectivity");
     for (std::size_t i = 0; i < s.targets.size(); ++i)
         check(s.targets[i].surface, "scene.targets", i, "].surface.reflectivity");
+}
+
+/// The material of each label: the scene's, or the seabed's own where the scene leaves it to that.
+/// @throws invalid_input for a reflectivity of the seabed that is negative or not finite
+inline bottom_materials resolved_bottom(const scene& s) {
+    bottom_materials all = s.bottom;
+    for (const insonify::seabed::type_properties& t : s.seabed.legend()) {
+        detail::require(t.reflectivity >= 0 && numeric::is_finite(t.reflectivity), "type_properties.reflectivity",
+                        t.reflectivity, "0 or more, finite");
+        material& m = all[insonify::seabed::index_of(t.label)];
+        if (m.reflectivity == by_seabed_model) m = {t.reflectivity};
+    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (all[i].reflectivity == by_seabed_model)
+            all[i] = {insonify::seabed::properties_of(static_cast<insonify::seabed::type>(i)).reflectivity};
+    return all;
 }
 
 /// The same pose lowered or raised until the shape just touches the seabed: no vertex is below it, one is on it.
@@ -11132,7 +11566,7 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
     pose bare = placement;
     bare.burial = 0;
     const affine map = to_world(bare);
-    const auto bottom = insonify::seabed::prepare(seabed);
+    const auto bottom = seabed.prepare();
     double clearance = std::numeric_limits<double>::infinity();
     for (const glm::vec3& p : shape.positions) {
         const glm::dvec3 world = transform_point(map, p);
@@ -11182,6 +11616,7 @@ struct labels {
     image<std::uint16_t> shadow;    ///< is_lit, by_seabed, or the instance that casts the shadow
     image<std::uint8_t> seabed;     ///< a seabed::type, or no_seabed
     std::vector<target_label> targets;
+    std::vector<insonify::seabed::type_properties> legend;  ///< what the values of `seabed` mean
 
     labels() = default;
     template <executor_argument Executor = serial_executor>
@@ -12142,11 +12577,15 @@ class overhead_painter {
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
         : scene_(s), view_(rig), options_(options) {
         validate(s);
+        materials_ = resolved_bottom(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y, unfilled{});  // the first draw fills it, and the depths
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
-        if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y, ex);
+        if constexpr (labelled) {
+            out_.labels = labels(rig.size.x, rig.size.y, ex);
+            out_.labels.legend = s.seabed.legend();
+        }
         for (const target& t : s.targets) {
             targets_.push_back(
                 {t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.kind(), t.shape.grid()});
@@ -12197,7 +12636,7 @@ class overhead_painter {
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
     static constexpr bool casts = !std::is_same_v<Shadow, shadow::none>;
 
-    bool has_bottom() const { return !std::holds_alternative<seabed::none>(scene_.seabed); }
+    bool has_bottom() const { return !scene_.seabed.empty(); }
 
     /// Heights where the picture looks, and up-light of there as far as the relief can throw a shadow.
     template <executor E>
@@ -12210,7 +12649,8 @@ class overhead_painter {
         const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
         const double spacing = longer_side / cells;
 
-        seabed::height_range range = merge(seabed::prepare(scene_.seabed).range(), {0, 0});
+        seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
+        seabed::detail::require_finite(range);
         const double longest = static_cast<double>(options_.reach) * longer_side;
         ground_box ground = shown_ground(view_, range);
         if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
@@ -12330,10 +12770,10 @@ class overhead_painter {
         if (has_bottom()) {
             bottom_in_rig_ = bottom_in_rig();
             add(bottom_in_rig_, static_cast<std::uint32_t>(targets_.size()), labels::no_instance,
-                static_cast<std::uint8_t>(field_.fallback), scene_.bottom_of(field_.fallback));
+                static_cast<std::uint8_t>(field_.fallback), materials_[seabed::index_of(field_.fallback)]);
             if (!field_.types.empty()) {
                 surfaces_.back().types = bottom_types_.data();
-                surfaces_.back().materials = scene_.bottom.data();
+                surfaces_.back().materials = materials_.data();
             }
         }
         for (std::size_t i = 0; i < targets_.size(); ++i)
@@ -12392,6 +12832,7 @@ class overhead_painter {
     }
 
     const scene& scene_;
+    bottom_materials materials_;  ///< by seabed::type
     overhead_geometry view_;
     render_options<Shadow, Labels, Law> options_;
     image<std::uint32_t> ids_;  ///< the visibility buffer: triangles in the order of surfaces_
@@ -12612,7 +13053,7 @@ class seabed_probe {
         seabed::grid coarse = seabed::grid_over(low, low + side, spacing);
         coarse.band_limited = true;
         const seabed::heightfield field = seabed::sample(scene_.seabed, coarse);
-        const auto prepared = seabed::prepare(scene_.seabed);
+        const auto prepared = scene_.seabed.prepare();
         double sum = 0;
         int known = 0;
         for (int j = 0; j < net; ++j) {
@@ -13019,9 +13460,9 @@ inline bool keeps_to(const errors& found, const budget& tolerated) {
 /// What a picture is made of: plain values, to read and to change.
 template <shadow::policy Shadow = shadow::exact>
 struct settings {
-    Shadow shadow{};            ///< with its texels per pixel, if it has any
-    int cells = 0;              ///< of the seabed along the picture's longer side, as in render_options
-    int subpixel_bits = 8;      ///< as in render_options
+    Shadow shadow{};  ///< with its texels per pixel, if it has any
+    int cells = 0;    ///< of the seabed along the picture's longer side, as in render_options
+    int subpixel_bits = render_options<Shadow>{}.subpixel_bits;
     float edge_error = 0;       ///< as in render_options
     double side_error = 1;      ///< pixels by which facets of a curved target may displace its outline
     double shadow_error = 0.5;  ///< pixels by which they may displace the edge of its shadow
@@ -13111,10 +13552,10 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     const overhead_geometry view(rig);
     settings<Shadow> found{.rig = rig};
     // Rounding a vertex moves it by half a sub-pixel at most, along each axis.
-    found.subpixel_bits = tolerated.silhouette * 0.05 < 1.0 / 256 ? 16 : 8;
+    if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits)) found.subpixel_bits = 16;
     found.side_error = tolerated.silhouette;
     found.shadow_error = 0.5 * tolerated.shadow_edge;
-    if (std::holds_alternative<insonify::seabed::none>(bottom)) return found;
+    if (bottom.empty()) return found;
 
     const detail::seabed_probe probed(bottom, rig, how, ex);
     const double pixel = view.ground_sampling();
@@ -15198,11 +15639,11 @@ namespace detail {
 
 /// Bits that compare as unsigned integers the way floats compare, and back.
 constexpr std::uint32_t ordered_bits(float value) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const auto bits = numeric::bit_cast<std::uint32_t>(value);
     return bits ^ ((bits >> 31) != 0 ? 0xFFFFFFFFu : 0x80000000u);
 }
 constexpr float from_ordered_bits(std::uint32_t bits) {
-    return std::bit_cast<float>(bits ^ ((bits >> 31) != 0 ? 0x80000000u : 0xFFFFFFFFu));
+    return numeric::bit_cast<float>(bits ^ ((bits >> 31) != 0 ? 0x80000000u : 0xFFFFFFFFu));
 }
 
 /// Radix sort by three digits of 11 bits: five to six times as fast as std::sort on millions of values.
@@ -16648,7 +17089,6 @@ INSONIFY_ARITHMETIC_END
 // Source: Wavefront Technologies. Advanced Visualizer Manual, appendix B1: Object Files (.obj), 1993.
 
 #include <cerrno>
-#include <cstdio>
 #include <system_error>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -16747,15 +17187,11 @@ class obj_reader {
     float number() {
         const std::string_view digits = word();
         if (digits.empty()) fail("a vertex or normal has fewer than 3 numbers");
-        // from_chars takes no plus, so it is stepped over, but not before a minus.
-        const bool plus = digits[0] == '+' && digits.substr(1, 1) != "-";
-        const char* const first = digits.data() + (plus ? 1 : 0);
-        const char* const last = digits.data() + digits.size();
         double value = 0;
-        const auto [end, status] = std::from_chars(first, last, value);
-        if (status == std::errc::invalid_argument || end != last) fail(quoted(digits) + " is not a number");
+        const number_text found = parse_number(digits, value);
+        if (found == number_text::malformed) fail(quoted(digits) + " is not a number");
         constexpr auto limit = static_cast<double>((std::numeric_limits<float>::max)());
-        if (status != std::errc{} || !(value >= -limit && value <= limit)) {
+        if (found != number_text::fine || !(value >= -limit && value <= limit)) {
             fail(quoted(digits) + " is not a finite number that a float can hold");
         }
         return static_cast<float>(value);
@@ -19236,9 +19672,8 @@ class netpbm_reader {
         height_ = integer("height", 1, 1 << 30);
         if (is_float()) {
             const std::string_view text = token("scale");
-            float scale = 0;
-            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), scale);
-            if (status != std::errc() || end != text.data() + text.size() || !(scale < 0 || scale > 0)) {
+            double scale = 0;
+            if (parse_number(text, scale) != number_text::fine || !(scale < 0 || scale > 0)) {
                 fail("scale is " + quoted(text) + ", expected a number other than 0");
             }
             little_endian_ = scale < 0;
@@ -19271,7 +19706,7 @@ class netpbm_reader {
         for (std::size_t i = 0; i < 4; ++i)
             bits = bits << 8 | static_cast<std::uint32_t>(byte(little_endian_ ? 3 - i : i));
         rest_.remove_prefix(4);
-        return std::bit_cast<float>(bits);
+        return numeric::bit_cast<float>(bits);
     }
 
     [[noreturn]] void fail(const std::string& reason) const { raise_io(name_, reason); }
@@ -19353,7 +19788,7 @@ inline void append_sample(std::string& bytes, std::uint16_t sample) {
     bytes.push_back(static_cast<char>(sample & 0xFF));
 }
 inline void append_sample(std::string& bytes, float sample) {
-    const auto bits = std::bit_cast<std::uint32_t>(sample);
+    const auto bits = numeric::bit_cast<std::uint32_t>(sample);
     for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(bits >> shift & 0xFF));
 }
 template <class Sample>
@@ -19501,11 +19936,8 @@ class survey_reader {
     double number(std::string_view digits, const char* what) const {
         if (digits.empty())
             fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
-        const bool plus = digits[0] == '+' && digits.substr(1, 1) != "-";
         double value = 0;
-        const auto [end, status] =
-            std::from_chars(digits.data() + (plus ? 1 : 0), digits.data() + digits.size(), value);
-        if (status != std::errc{} || end != digits.data() + digits.size())
+        if (insonify::detail::parse_number(digits, value) != insonify::detail::number_text::fine)
             fail(quoted(digits) + " is not a number, expected " + what);
         return value;
     }
@@ -20434,7 +20866,7 @@ class bottom_tiles {
 
     /// @param spacing  metres between vertices; what `even` makes of it is taken
     bottom_tiles(const seabed::any& source, double spacing)
-        : prepared_(seabed::prepare(source)), spacing_(even(spacing)), scale_(1 / spacing_) {}
+        : prepared_(source.prepare()), spacing_(even(spacing)), scale_(1 / spacing_) {}
 
     /// A length whose multiples are exact, so that a vertex is the same in whatever row it is sampled.
     static double even(double length) {
@@ -20565,7 +20997,7 @@ class bottom_tiles {
         }
     }
 
-    decltype(seabed::prepare(std::declval<const seabed::any&>())) prepared_;
+    seabed::any_sampler prepared_;
     double spacing_, scale_;
     std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0;
     std::vector<std::uint32_t> slots_;
@@ -20846,10 +21278,11 @@ struct echo_bin {
 template <class Rig, class Law, class Equation, bool Labelled>
 class ping_listener {
   public:
-    ping_listener(const scene& s, std::span<const sliced_target> targets, const bottom_tiles& bottom, const Rig& rig,
-                  const Law& law, const Equation& equation, double cell, const seabed::height_range& relief,
-                  double start)
+    ping_listener(const scene& s, const bottom_materials& materials, std::span<const sliced_target> targets,
+                  const bottom_tiles& bottom, const Rig& rig, const Law& law, const Equation& equation, double cell,
+                  const seabed::height_range& relief, double start)
         : scene_(s),
+          materials_(materials),
           targets_(targets),
           tiles_(bottom),
           law_(law),
@@ -21060,8 +21493,8 @@ class ping_listener {
         const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
         const float facing =
             (slope * sine + cosine) / numeric::square_root(1 + slope * slope + slope_along * slope_along);
-        const float power = power_of(k, range, facing) *
-                            scene_.bottom[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
+        const float power =
+            power_of(k, range, facing) * materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
         spread(at - half, at + half, [&](echo_bin& bin, float share, float) { bin.bottom += power * share; });
     }
 
@@ -21149,6 +21582,7 @@ class ping_listener {
     }
 
     const scene& scene_;
+    const bottom_materials& materials_;
     std::span<const sliced_target> targets_;
     const bottom_tiles& tiles_;
     Law law_;
@@ -21481,10 +21915,14 @@ class recorder {
             require(numeric::is_finite(p.position.x + p.position.y + p.position.z + p.yaw), "ping.position",
                     p.position.x + p.position.y + p.position.z + p.yaw, "finite");
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
+        materials_ = resolved_bottom(s);
         for (const target& t : s.targets) targets_.emplace_back(t);
         const auto height = static_cast<int>(track.size());
         out_.image = filled(rig.bins, height, 0.0f, ex);
-        if constexpr (labelled) out_.labels = labels(rig.bins, height, ex);
+        if constexpr (labelled) {
+            out_.labels = labels(rig.bins, height, ex);
+            out_.labels.legend = s.seabed.legend();
+        }
     }
 
     template <executor E>
@@ -21515,7 +21953,7 @@ class recorder {
     void hear(E& ex) {
         using listener = ping_listener<Rig, Law, Equation, labelled>;
         bottom_tiles bottom(scene_.seabed, out_.stats.cell);
-        const seabed::height_range relief = seabed::prepare(scene_.seabed).range();
+        const seabed::height_range relief = scene_.seabed.prepare().range();
         const double cell = out_.stats.cell;
         std::vector<float> over_range;
         if constexpr (Equation::has_ranges)
@@ -21532,7 +21970,8 @@ class recorder {
                 begin = (std::min)(begin, listener::start(rig_, cell, relief, p, targets_));
             bottom.cover(frames, begin, listener::reach(rig_, cell), ex);
             bulk_ranges(ex, count, grain, [&](std::size_t from, std::size_t to) {
-                listener ears(scene_, targets_, bottom, rig_, options_.law, options_.equation, cell, relief, begin);
+                listener ears(scene_, materials_, targets_, bottom, rig_, options_.law, options_.equation, cell, relief,
+                              begin);
                 for (std::size_t i = from; i < to; ++i) keep(start + i, ears.hear(frames[i]), over_range);
             });
         }
@@ -21644,6 +22083,7 @@ class recorder {
     std::span<const ping> track_;
     Rig rig_;
     options_type options_;
+    bottom_materials materials_;
     std::vector<sliced_target> targets_;
     recording<Labels> out_;
 };
@@ -21728,35 +22168,30 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// How an intensity fluctuates around its mean, which stays what it was. As it is: Rayleigh amplitudes, exponential
-/// intensities. The scintillation index, variance / mean^2 of the intensity, is
-/// (1 + 1 / texture) (1 + (1 + 2 steady) / (looks (1 + steady)^2)) - 1.
-struct speckle_law {
-    int looks = 1;  ///< independent intensities that are averaged: 1 to 64
-    float texture =
-        0;  ///< shape of the gamma-distributed mean of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: none
-    float steady = 0;  ///< power of a steady echo among the others, over theirs: Rician amplitudes
-};
-
 /// The fluctuation of a sediment, as the table has it.
 constexpr speckle_law speckle_of(seabed::sediment s) {
-    return {1, seabed::facts_of(s).texture, seabed::facts_of(s).steady};
+    return seabed::properties_of(seabed::type_of(s)).speckle;
 }
 
-/// By seabed::type: sand, ripples, mud, rock, and the sediments.
-constexpr std::array<speckle_law, seabed::type_count> default_speckle() {
-    std::array<speckle_law, seabed::type_count> laws{{{1, 15, 0}, {1, 0, 0}, {1, 0, 1}, {1, 1.5f, 0}}};
-    for (std::size_t i = 0; i < seabed::sediment_count; ++i) {
-        const auto s = static_cast<seabed::sediment>(i);
-        laws[static_cast<std::size_t>(seabed::type_of(s))] = speckle_of(s);
-    }
+/// A law per label.
+using speckle_laws = std::array<speckle_law, seabed::label_count>;
+
+/// Looks of labels for which the seabed's own properties count.
+inline constexpr int looks_by_seabed_model = -1;
+
+/// The registry's laws; users' own labels fluctuate as their seabed says.
+constexpr speckle_laws default_speckle() {
+    speckle_laws laws{};
+    laws.fill({looks_by_seabed_model});
+    for (const seabed::type_properties& t : seabed::built_in_types) laws[seabed::index_of(t.label)] = t.speckle;
     return laws;
 }
 
 /// Speckle by type of seabed. The defaults are illustrative: relief that is drawn makes its own fluctuations, so
 /// ripples take plain Rayleigh, and a texture stands for structure finer than the seabed is sampled.
 struct seabed_speckle {
-    std::array<speckle_law, seabed::type_count> bottom = default_speckle();  ///< by seabed::type
+    /// By label, seabed::index_of(type). Users' own labels have the law that their seabed states, unless one is set.
+    speckle_laws bottom = default_speckle();
     speckle_law elsewhere{};   ///< where the labels name no seabed: targets, and noise in the water column
     float along_track = 1;     ///< pings at which the correlation of intensities has fallen to 1 / e, 0 to 16
     float across_track = 1;    ///< the same in bins
@@ -21900,14 +22335,16 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     require(s.texture_length >= 1 && s.texture_length <= 1024, "seabed_speckle.texture_length", s.texture_length,
             "1 to 1024");
     require(numbers.step == 1 || numbers.step == -1, "ping_numbers.step", numbers.step, "1 or -1");
-    for (const speckle_law& law : s.bottom) detail::validate(law);
     detail::validate(s.elsewhere);
+    std::vector<speckle_law> laws(s.bottom.begin(), s.bottom.end());
+    for (speckle_law& law : laws)
+        if (law.looks == looks_by_seabed_model) law = s.elsewhere;
+    laws[labels::no_seabed] = s.elsewhere;
+    for (const speckle_law& law : laws) detail::validate(law);
 
     // Looks that only some types have are drawn for all, and used by those.
-    std::vector<speckle_law> laws(256, s.elsewhere);
-    std::copy(s.bottom.begin(), s.bottom.end(), laws.begin());
-    int looks = s.elsewhere.looks;
-    for (const speckle_law& law : s.bottom) looks = (std::max)(looks, law.looks);
+    int looks = 1;
+    for (const speckle_law& law : laws) looks = (std::max)(looks, law.looks);
 
     const detail::speckle_field field({s.seed, numbers.side, detail::speckle_stream::field}, s, mean.width());
     const detail::speckle_texture texture(s, numbers.side);
@@ -21943,11 +22380,22 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     return out;
 }
 
+/// Speckle with the laws that a seabed states for its own labels.
+/// @param legend  as labels::legend
+inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type_properties> legend) {
+    for (const seabed::type_properties& t : legend) {
+        speckle_law& law = s.bottom[seabed::index_of(t.label)];
+        if (law.looks == looks_by_seabed_model) law = t.speckle;
+    }
+    return s;
+}
+
 /// The same recording with speckle: of one side, as `render` made it of this rig.
 template <across_track Axis, executor_argument E = serial_executor>
 recording<labels> with_speckle(recording<labels> r, const side_scan_rig<Axis>& rig, const seabed_speckle& s = {},
                                E&& ex = {}) {
-    r.image = with_speckle(r.image.view(), r.labels.seabed.view(), s, numbers_of(rig), ex);
+    r.image =
+        with_speckle(r.image.view(), r.labels.seabed.view(), with_legend(s, r.labels.legend), numbers_of(rig), ex);
     return r;
 }
 
@@ -22414,7 +22862,8 @@ class scene_occlusion {
                                   double radius, E& ex) const {
         std::vector<placed> all;
         for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
-        if (std::holds_alternative<seabed::none>(s.seabed)) return all;
+        if (s.seabed.empty()) return all;
+        seabed::detail::require_finite(s.seabed.prepare().range());
         const auto [first, last] = casting_part(s, light, within, radius);
         seabed::grid grid = seabed::grid_over(first, last, cell_of(within));
         grid.band_limited = true;
@@ -22429,7 +22878,7 @@ class scene_occlusion {
         const glm::dvec2 lower(within.box.lower), upper(within.box.upper);
         std::pair<glm::dvec2, glm::dvec2> part{lower - cell_of(within), upper + cell_of(within)};
         const double longest = within.reach * longer_side(within);
-        const double highest = seabed::prepare(s.seabed).range().highest, rise = highest - within.box.lower.z;
+        const double highest = s.seabed.prepare().range().highest, rise = highest - within.box.lower.z;
         if (!(rise > 0)) return part;
         for (int corner = 0; corner < 4; ++corner) {
             const glm::dvec2 from((corner & 1) != 0 ? upper.x : lower.x, (corner & 2) != 0 ? upper.y : lower.y);
@@ -22704,6 +23153,7 @@ recording<Labels> to_ground_range(const recording<Labels>& slant, const side_sca
     if constexpr (std::is_same_v<Labels, labels>) {
         out.labels = labels(to.bins, rows);
         out.labels.targets = slant.labels.targets;
+        out.labels.legend = slant.labels.legend;
     }
     for (int y = 0; y < rows; ++y) {
         const double altitude =
@@ -22788,6 +23238,7 @@ recording<Labels> both_sides(const recording<Labels>& port, const recording<Labe
         out.labels.shadow = beside(mirrored(port.labels.shadow), starboard.labels.shadow);
         out.labels.seabed = beside(mirrored(port.labels.seabed), starboard.labels.seabed);
         out.labels.targets = starboard.labels.targets;
+        out.labels.legend = starboard.labels.legend;
         detail::describe_again(out.labels);
     }
     return out;

@@ -165,7 +165,7 @@ class seabed_probe {
         seabed::grid coarse = seabed::grid_over(low, low + side, spacing);
         coarse.band_limited = true;
         const seabed::heightfield field = seabed::sample(scene_.seabed, coarse);
-        const auto prepared = seabed::prepare(scene_.seabed);
+        const auto prepared = scene_.seabed.prepare();
         double sum = 0;
         int known = 0;
         for (int j = 0; j < net; ++j) {

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <insonify/core/error.hpp>
+#include <insonify/core/portable.hpp>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -39,10 +39,10 @@ constexpr double to_degrees(double radians) {
 
 /// Finite by its bits, which no compiler flag can argue away.
 constexpr bool is_finite(float value) {
-    return (std::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
+    return (numeric::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
 }
 constexpr bool is_finite(double value) {
-    return (std::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
+    return (numeric::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
 
 /// A number without its sign.
@@ -68,7 +68,7 @@ constexpr std::int64_t floor_to_int(double value) {
 /// Natural logarithm, <= 1 ulp. log(0) = -infinity, negative and NaN give NaN.
 ///
 /// x = 2^k m with m in [sqrt(1/2), sqrt(2)); log m = 2 atanh((m - 1) / (m + 1)) as a series.
-inline double log(double x) {
+constexpr double log(double x) {
     if (!(x > 0)) return x == 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
     if (!is_finite(x)) return x;
     int k = 0;
@@ -76,11 +76,11 @@ inline double log(double x) {
         x *= 0x1p54;
         k = -54;
     }
-    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const auto bits = numeric::bit_cast<std::uint64_t>(x);
     // Adding the distance from sqrt(1/2) to 1 moves the cut between exponents to sqrt(2).
     const std::uint64_t shifted = bits + (0x3FF0000000000000u - 0x3FE6A09E667F3BCDu);
     k += static_cast<int>(shifted >> 52) - 1023;
-    const auto m = std::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFu) + 0x3FE6A09E667F3BCDu);
+    const auto m = numeric::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFu) + 0x3FE6A09E667F3BCDu);
     // m - 1 is exact and carries the result; what is added to it is smaller, so that errors stay in the last bit.
     const double f = m - 1;
     const double s = f / (m + 1);
@@ -95,7 +95,7 @@ inline double log(double x) {
 }
 
 /// Exponential, <= 2 ulp; overflow gives infinity, underflow 0 (gradually), NaN gives NaN.
-inline double exp(double x) {
+constexpr double exp(double x) {
     if (x > 709.8) return std::numeric_limits<double>::infinity();
     if (x < -745.2) return 0;
     if (!(x == x)) return x;
@@ -107,7 +107,9 @@ inline double exp(double x) {
     for (int n = 14; n >= 1; --n) sum = sum * r / n + 1.0;
     // 2^k in two steps, so that results below the normal range are reached without losing the factor.
     const std::int64_t half = k / 2;
-    const auto power = [](std::int64_t e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); };
+    const auto power = [](std::int64_t e) {
+        return numeric::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+    };
     return sum * power(half) * power(k - half);
 }
 
@@ -146,7 +148,7 @@ inline double tan(double radians) {
 }
 
 /// x to the power y for x >= 0, relative error below (|y log x| + 2) * 3e-16; pow(0, y > 0) = 0, pow(x, 0) = 1.
-inline double pow(double x, double y) {
+constexpr double pow(double x, double y) {
     return y == 0 ? 1.0 : x == 0 ? (y > 0 ? 0.0 : std::numeric_limits<double>::infinity()) : exp(y * log(x));
 }
 

@@ -2,44 +2,44 @@
 #pragma once
 
 #include <insonify/seabed/cover.hpp>
+#include <insonify/seabed/flat.hpp>
+#include <insonify/seabed/ripples.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
-template <preparable First, preparable Second>
 class blend_sampler;
 
 /// Patches of `first` in `second`: where a noise exceeds a threshold there is one, else the other. Across the border
 /// one relief sinks beneath the other, so ripples end in tips within about a border's width.
-///
-/// `blend` holds any two simple recipes; spell out the template for recipes of your own. For more than two, see
-/// `mixed`.
-template <preparable First, preparable Second>
-struct basic_blend {
-    First first = ripples{};
-    Second second = flat{};
+struct blend {
+    any first = ripples{};
+    any second = flat{};
     float coverage = 0.5f;  ///< in [0, 1]: share of the area that is `first`, over many patches
     float patch = 12.0f;    ///< metres, > 0: scale of the patches
     float border = 0.6f;    ///< metres, in (0, patch]: typical width of borders, about a ripple or two
     std::uint64_t seed = 1;
 
     /// @throws invalid_input for parameters out of their range
-    blend_sampler<First, Second> prepare() const { return blend_sampler<First, Second>(*this); }
-    float operator()(double x, double y) const { return at(prepare(), x, y).height; }
-    type type_at(double x, double y) const { return at(prepare(), x, y).kind; }
+    blend_sampler prepare() const;
+    std::vector<type_properties> legend() const {
+        std::vector<type_properties> all = first.legend();
+        extend(all, second.legend());
+        return all;
+    }
+    float operator()(double x, double y) const;
+    type type_at(double x, double y) const;
 };
-using blend = basic_blend<simple, simple>;
 
-/// Evaluates `basic_blend`.
-template <preparable First, preparable Second>
+/// Evaluates `blend`.
 class blend_sampler {
   public:
-    explicit blend_sampler(const basic_blend<First, Second>& b)
-        : first_(seabed::prepare(b.first)),
-          second_(seabed::prepare(b.second)),
+    explicit blend_sampler(const blend& b)
+        : first_(b.first.prepare()),
+          second_(b.second.prepare()),
           where_(patches_of(b), b.border, 0, b.seed, 0),
-          edge_(b.border, (std::max)(detail::relief_of(b.first), detail::relief_of(b.second))) {}
+          edge_(b.border, (std::max)(b.first.sink_depth(), b.second.sink_depth())) {}
 
     void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
         const auto second = [&](const scanline& l, std::span<float> h, std::span<type> t) { second_.row(l, h, t); };
@@ -51,7 +51,7 @@ class blend_sampler {
     height_range range() const { return merge(first_.range(), second_.range()); }
 
   private:
-    static patches patches_of(const basic_blend<First, Second>& b) {
+    static patches patches_of(const blend& b) {
         detail::require(b.coverage >= 0 && b.coverage <= 1, "blend.coverage", b.coverage, "0 to 1");
         detail::require(b.patch > 0 && b.patch < 1e6f, "blend.patch", b.patch, "metres above 0");
         detail::require(b.border >= 1e-3f && b.border <= b.patch, "blend.border", b.border,
@@ -59,11 +59,20 @@ class blend_sampler {
         return {b.coverage, b.patch};
     }
 
-    decltype(seabed::prepare(std::declval<const First&>())) first_;
-    decltype(seabed::prepare(std::declval<const Second&>())) second_;
+    any_sampler first_, second_;
     detail::outline where_;
     detail::border edge_;
 };
+
+inline blend_sampler blend::prepare() const {
+    return blend_sampler(*this);
+}
+inline float blend::operator()(double x, double y) const {
+    return at(prepare(), x, y).height;
+}
+inline type blend::type_at(double x, double y) const {
+    return at(prepare(), x, y).kind;
+}
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 

@@ -4,45 +4,14 @@
 // filled; further in, the highest of what lies below looks out of it last. Types follow the surface that is on top.
 #pragma once
 
+#include <insonify/seabed/any.hpp>
 #include <insonify/seabed/area.hpp>
-#include <insonify/seabed/flat.hpp>
-#include <insonify/seabed/mud.hpp>
-#include <insonify/seabed/ripples.hpp>
-#include <insonify/seabed/rock.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
-/// The recipes of a single type.
-using simple = std::variant<flat, ripples, mud, rock>;
-
 namespace detail {
-
-/// About how far a recipe's surface strays from its mean level, metres: how deep it has to sink to be gone.
-inline float relief_of(const roughness& r) {
-    return 2 * r.rms;
-}
-inline float relief_of(const flat& f) {
-    return relief_of(f.surface);
-}
-inline float relief_of(const ripples& r) {
-    return 0.5f * (r.height() + r.second.height()) + relief_of(r.surface);
-}
-inline float relief_of(const mud& m) {
-    return (std::max)((std::max)(m.mound_height, m.pock_depth), relief_of(m.surface));
-}
-inline float relief_of(const rock& r) {
-    return 0.5f * r.relief + relief_of(r.surface);
-}
-template <recipe R>
-float relief_of(const R&) {
-    return 0.05f;
-}
-template <recipe... R>
-float relief_of(const std::variant<R...>& any_of) {
-    return std::visit([](const auto& held) { return relief_of(held); }, any_of);
-}
 
 /// A layer along its border.
 class border {

@@ -25,6 +25,8 @@ struct detailed {
     detailed_sampler prepare() const;
     float operator()(double x, double y) const;
     type type_at(double x, double y) const { return field.type_at(x, y); }
+    std::optional<type> only_type() const { return field.only_type(); }
+    std::vector<type_properties> legend() const { return field.legend(); }
 };
 
 /// Evaluates `detailed`.

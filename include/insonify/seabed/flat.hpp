@@ -18,6 +18,7 @@ struct flat {
     /// @throws invalid_input for parameters out of the ranges of `roughness`
     flat_sampler prepare() const;
     float operator()(double x, double y) const;
+    float sink_depth() const { return 2 * surface.rms; }
 };
 
 /// Evaluates `flat`.

@@ -4,7 +4,9 @@
 #include <insonify/core/image.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
-#include <insonify/seabed/recipe.hpp>
+#include <insonify/seabed/model.hpp>
+
+#include <array>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -61,6 +63,8 @@ struct heightfield {
     glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
     double spacing = 1;           ///< metres between vertices, > 0
     type fallback = type::sand;
+    /// What belongs to labels of users' own; the library's are in its registry.
+    std::vector<type_properties> own_types{};
 
     /// Height of the drawn surface at a world position, metres; it and the next two expect a valid heightfield.
     float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
@@ -84,6 +88,8 @@ struct heightfield {
     /// The heightfield as a recipe, by reference: it has to outlive the sampler.
     /// @throws invalid_input as `validate`
     heightfield_sampler prepare() const;
+    std::optional<type> only_type() const { return types.empty() ? std::optional(fallback) : std::nullopt; }
+    std::vector<type_properties> legend() const;
 
     detail::facet facet_at(double x, double y) const {
         return detail::facet_at(heights, (x - origin.x) / spacing, (y - origin.y) / spacing);
@@ -130,6 +136,15 @@ class heightfield_sampler {
 
 inline heightfield_sampler heightfield::prepare() const {
     return heightfield_sampler(*this);
+}
+inline std::vector<type_properties> heightfield::legend() const {
+    std::array<bool, 256> occurs{};
+    if (types.empty()) occurs[index_of(fallback)] = true;
+    for (const type t : types.pixels()) occurs[index_of(t)] = true;
+    std::vector<type_properties> all = own_types;
+    for (std::size_t i = 0; i < label_count; ++i)
+        if (occurs[i]) extend(all, {properties_of(static_cast<type>(i))});
+    return all;
 }
 
 /// A heightfield from a picture of heights: one vertex per pixel, height = scale * pixel, the top row foremost (the

@@ -12,7 +12,7 @@
 #include <insonify/core/lanes.hpp>
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/random.hpp>
-#include <insonify/seabed/recipe.hpp>
+#include <insonify/seabed/model.hpp>
 
 #include <array>
 #include <cstdint>

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <insonify/seabed/cover.hpp>
+#include <insonify/seabed/flat.hpp>
+#include <insonify/seabed/ripples.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11,7 +13,7 @@ class mixed_sampler;
 
 /// One bottom of a `mixed` seabed.
 struct layer {
-    simple bottom = ripples{};
+    any bottom = ripples{};
     area where = patches{};
     float border = 0.6f;  ///< metres, from 0.001: width of the border, about a ripple or two
     float ragged = 0.5f;  ///< metres, >= 0: how far the outline of a shape strays; patches are ragged by themselves
@@ -21,13 +23,18 @@ struct layer {
 ///
 ///     mixed{.base = flat{}, .layers = {{ripples{}, patches{.coverage = 0.4f}}, {rock{}, disc{{10, 5}, 8}}}}
 struct mixed {
-    simple base = flat{};
+    any base = flat{};
     std::vector<layer> layers;
     std::uint64_t seed = 1;  ///< of the outlines; patches of different layers are independent
 
     /// The sampler owns what it needs.
     /// @throws invalid_input for parameters out of their range
     mixed_sampler prepare() const;
+    std::vector<type_properties> legend() const {
+        std::vector<type_properties> all = base.legend();
+        for (const layer& l : layers) extend(all, l.bottom.legend());
+        return all;
+    }
     float operator()(double x, double y) const;
     type type_at(double x, double y) const;
 };
@@ -35,13 +42,12 @@ struct mixed {
 /// Evaluates `mixed`.
 class mixed_sampler {
   public:
-    explicit mixed_sampler(const mixed& m) : base_(seabed::prepare(m.base)) {
-        float relief = detail::relief_of(m.base);
+    explicit mixed_sampler(const mixed& m) : base_(m.base.prepare()) {
+        float relief = m.base.sink_depth();
         for (std::uint32_t i = 0; i < m.layers.size(); ++i) {
             const layer& l = m.layers[i];
-            relief = (std::max)(relief, detail::relief_of(l.bottom));
-            layers_.push_back(
-                {seabed::prepare(l.bottom), {l.where, l.border, l.ragged, m.seed, i}, {l.border, relief}});
+            relief = (std::max)(relief, l.bottom.sink_depth());
+            layers_.push_back({l.bottom.prepare(), {l.where, l.border, l.ragged, m.seed, i}, {l.border, relief}});
         }
     }
 
@@ -58,8 +64,6 @@ class mixed_sampler {
     }
 
   private:
-    using bottom_sampler = decltype(seabed::prepare(std::declval<const simple&>()));
-
     /// What the base and the first `count` layers make.
     void fill(std::size_t count, const scanline& line, std::span<float> heights, std::span<type> types) const {
         if (count == 0) return base_.row(line, heights, types);
@@ -69,11 +73,11 @@ class mixed_sampler {
     }
 
     struct prepared_layer {
-        bottom_sampler bottom;
+        any_sampler bottom;
         detail::outline where;
         detail::border edge;
     };
-    bottom_sampler base_;
+    any_sampler base_;
     std::vector<prepared_layer> layers_;
 };
 

@@ -26,6 +26,7 @@ struct mud {
     /// @throws invalid_input for parameters out of their range
     mud_sampler prepare() const;
     float operator()(double x, double y) const;
+    float sink_depth() const { return (std::max)((std::max)(mound_height, pock_depth), 2 * surface.rms); }
 };
 
 /// Evaluates `mud`.

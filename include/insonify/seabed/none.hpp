@@ -1,7 +1,7 @@
 // No seabed at all: for scenes that bring theirs as a mesh.
 #pragma once
 
-#include <insonify/seabed/recipe.hpp>
+#include <insonify/seabed/model.hpp>
 
 #include <limits>
 

@@ -30,6 +30,7 @@ struct ripples {
     ripple_system first() const { return {wavelength, steepness, direction, spread, bandwidth, sharpness}; }
     /// Metres from trough to crest, of the first system.
     float height() const { return steepness * wavelength; }
+    float sink_depth() const { return 0.5f * (height() + second.height()) + 2 * surface.rms; }
     /// Ends of crests per square metre to expect, of the first system.
     double forks() const {
         return 2 * numeric::pi * static_cast<double>(spread) * static_cast<double>(bandwidth) /

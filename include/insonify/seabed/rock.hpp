@@ -29,6 +29,7 @@ struct rock {
     /// @throws invalid_input for parameters out of their range
     rock_sampler prepare() const;
     float operator()(double x, double y) const;
+    float sink_depth() const { return 0.5f * relief + 2 * surface.rms; }
 };
 
 /// Evaluates `rock`.

@@ -1,4 +1,4 @@
-// From recipe to heightfield: evaluates a recipe at the vertices of a grid, a row per task.
+// From model to heightfield: evaluates a seabed at the vertices of a grid, a row per task.
 #pragma once
 
 #include <insonify/core/executor.hpp>
@@ -36,24 +36,25 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
     return {.origin = {x, y}, .spacing = spacing, .width = width, .height = height};
 }
 
-/// The recipe's heights, and its types where it has more than one, at the vertices of a grid.
+/// The seabed's heights, and its labels where it has more than one, at the vertices of a grid.
 ///
-/// The bits depend on the recipe and the positions of the vertices alone, not on the executor or on what else is in
+/// The bits depend on the model and the positions of the vertices alone, not on the executor or on what else is in
 /// the grid.
-/// @param source  a recipe, a variant of recipes, or anything else that `prepare`s
+/// @param source  the library's or a user's own
 /// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing not above 0, and for
-/// parameters of the recipe out of their range
-template <preparable Recipe, executor_argument Executor = serial_executor>
-heightfield sample(const Recipe& source, const grid& where, Executor&& ex = serial_executor{}) {
+/// parameters of the model out of their range
+template <model Model, executor_argument Executor = serial_executor>
+heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::unfilled unfilled;
     heightfield result{.heights = image<float>(where.width, where.height, unfilled),
                        .origin = where.origin + where.spacing * glm::dvec2(where.first),
                        .spacing = where.spacing};
-    if constexpr (single_typed<Recipe>) {
-        result.fallback = source.kind;
-    } else {
+    for (const type_properties& t : legend_of(source))
+        if (index_of(t.label) >= type_count) result.own_types.push_back(t);
+    if (const std::optional<type> only = only_type(source))
+        result.fallback = *only;
+    else
         result.types = image<type>(where.width, where.height, unfilled);
-    }
     validate(result);
 
     const auto prepared = prepare(source);

@@ -4,42 +4,33 @@
 // what recipes are: unbounded, and the same wherever it is asked from. Away from an edit not a bit changes.
 #pragma once
 
-#include <insonify/seabed/blend.hpp>
-#include <insonify/seabed/detailed.hpp>
+#include <insonify/seabed/any.hpp>
 #include <insonify/seabed/edit.hpp>
-#include <insonify/seabed/heightfield.hpp>
-#include <insonify/seabed/mixed.hpp>
+#include <insonify/seabed/flat.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
-template <preparable Ground>
 class sculpt_sampler;
 
-/// A ground and what is done to it. Types are the ground's.
-///
-/// `sculpted` holds any of the library's seabeds; spell out the template for recipes of your own.
-template <preparable Ground>
-struct basic_sculpted {
-    Ground ground{};
+/// A ground and what is done to it. Labels are the ground's.
+struct sculpted {
+    any ground = flat{};
     std::vector<edit> edits;  ///< the first is done first
 
-    /// The sampler refers to a heightfield that is the ground, and owns everything else.
     /// @throws invalid_input for parameters out of their range
-    sculpt_sampler<Ground> prepare() const { return sculpt_sampler<Ground>(*this); }
-    float operator()(double x, double y) const { return at(prepare(), x, y).height; }
-    type type_at(double x, double y) const { return at(prepare(), x, y).kind; }
+    sculpt_sampler prepare() const;
+    std::optional<type> only_type() const { return ground.only_type(); }
+    std::vector<type_properties> legend() const { return ground.legend(); }
+    float operator()(double x, double y) const;
+    type type_at(double x, double y) const;
 };
-using sculpted = basic_sculpted<std::variant<flat, ripples, mud, rock, blend, mixed, heightfield, detailed>>;
 
-/// Evaluates `basic_sculpted`.
-template <preparable Ground>
+/// Evaluates `sculpted`.
 class sculpt_sampler {
-    using ground_sampler = decltype(seabed::prepare(std::declval<const Ground&>()));
-
   public:
-    explicit sculpt_sampler(const basic_sculpted<Ground>& s) : ground_(seabed::prepare(s.ground)) {
+    explicit sculpt_sampler(const sculpted& s) : ground_(s.ground.prepare()) {
         for (const edit& e : s.edits)
             edits_.push_back({e, std::visit([](const auto& held) { return detail::box_of(held); }, e)});
     }
@@ -48,7 +39,7 @@ class sculpt_sampler {
         fill(edits_.size(), line, heights, types);
     }
 
-    height_range range() const requires(bounded_sampler<ground_sampler>) {
+    height_range range() const {
         height_range all = ground_.range();
         for (const bounded_edit& e : edits_)
             all = std::visit([&](const auto& held) { return detail::worked_range(held, all); }, e.done);
@@ -96,9 +87,19 @@ class sculpt_sampler {
         edit done;
         detail::box bounds;
     };
-    ground_sampler ground_;
+    any_sampler ground_;
     std::vector<bounded_edit> edits_;
 };
+
+inline sculpt_sampler sculpted::prepare() const {
+    return sculpt_sampler(*this);
+}
+inline float sculpted::operator()(double x, double y) const {
+    return at(prepare(), x, y).height;
+}
+inline type sculpted::type_at(double x, double y) const {
+    return at(prepare(), x, y).kind;
+}
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 

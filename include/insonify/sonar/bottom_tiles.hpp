@@ -6,6 +6,7 @@
 
 #include <insonify/core/executor.hpp>
 #include <insonify/seabed/any.hpp>
+#include <insonify/seabed/lattice.hpp>
 #include <insonify/sonar/side_scan.hpp>
 
 #include <memory>
@@ -29,7 +30,7 @@ class bottom_tiles {
 
     /// @param spacing  metres between vertices; what `even` makes of it is taken
     bottom_tiles(const seabed::any& source, double spacing)
-        : prepared_(seabed::prepare(source)), spacing_(even(spacing)), scale_(1 / spacing_) {}
+        : prepared_(source.prepare()), spacing_(even(spacing)), scale_(1 / spacing_) {}
 
     /// A length whose multiples are exact, so that a vertex is the same in whatever row it is sampled.
     static double even(double length) {
@@ -160,7 +161,7 @@ class bottom_tiles {
         }
     }
 
-    decltype(seabed::prepare(std::declval<const seabed::any&>())) prepared_;
+    seabed::any_sampler prepared_;
     double spacing_, scale_;
     std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0;
     std::vector<std::uint32_t> slots_;

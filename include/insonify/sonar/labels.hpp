@@ -39,6 +39,7 @@ struct labels {
     image<std::uint16_t> shadow;    ///< is_lit, by_seabed, or the instance that casts the shadow
     image<std::uint8_t> seabed;     ///< a seabed::type, or no_seabed
     std::vector<target_label> targets;
+    std::vector<insonify::seabed::type_properties> legend;  ///< what the values of `seabed` mean
 
     labels() = default;
     template <executor_argument Executor = serial_executor>

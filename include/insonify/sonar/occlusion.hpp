@@ -125,7 +125,8 @@ class scene_occlusion {
                                   double radius, E& ex) const {
         std::vector<placed> all;
         for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
-        if (std::holds_alternative<seabed::none>(s.seabed)) return all;
+        if (s.seabed.empty()) return all;
+        seabed::detail::require_finite(s.seabed.prepare().range());
         const auto [first, last] = casting_part(s, light, within, radius);
         seabed::grid grid = seabed::grid_over(first, last, cell_of(within));
         grid.band_limited = true;
@@ -140,7 +141,7 @@ class scene_occlusion {
         const glm::dvec2 lower(within.box.lower), upper(within.box.upper);
         std::pair<glm::dvec2, glm::dvec2> part{lower - cell_of(within), upper + cell_of(within)};
         const double longest = within.reach * longer_side(within);
-        const double highest = seabed::prepare(s.seabed).range().highest, rise = highest - within.box.lower.z;
+        const double highest = s.seabed.prepare().range().highest, rise = highest - within.box.lower.z;
         if (!(rise > 0)) return part;
         for (int corner = 0; corner < 4; ++corner) {
             const glm::dvec2 from((corner & 1) != 0 ? upper.x : lower.x, (corner & 2) != 0 ? upper.y : lower.y);

@@ -30,10 +30,11 @@ struct echo_bin {
 template <class Rig, class Law, class Equation, bool Labelled>
 class ping_listener {
   public:
-    ping_listener(const scene& s, std::span<const sliced_target> targets, const bottom_tiles& bottom, const Rig& rig,
-                  const Law& law, const Equation& equation, double cell, const seabed::height_range& relief,
-                  double start)
+    ping_listener(const scene& s, const bottom_materials& materials, std::span<const sliced_target> targets,
+                  const bottom_tiles& bottom, const Rig& rig, const Law& law, const Equation& equation, double cell,
+                  const seabed::height_range& relief, double start)
         : scene_(s),
+          materials_(materials),
           targets_(targets),
           tiles_(bottom),
           law_(law),
@@ -244,8 +245,8 @@ class ping_listener {
         const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
         const float facing =
             (slope * sine + cosine) / numeric::square_root(1 + slope * slope + slope_along * slope_along);
-        const float power = power_of(k, range, facing) *
-                            scene_.bottom[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
+        const float power =
+            power_of(k, range, facing) * materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
         spread(at - half, at + half, [&](echo_bin& bin, float share, float) { bin.bottom += power * share; });
     }
 
@@ -333,6 +334,7 @@ class ping_listener {
     }
 
     const scene& scene_;
+    const bottom_materials& materials_;
     std::span<const sliced_target> targets_;
     const bottom_tiles& tiles_;
     Law law_;

@@ -69,11 +69,15 @@ class overhead_painter {
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
         : scene_(s), view_(rig), options_(options) {
         validate(s);
+        materials_ = resolved_bottom(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y, unfilled{});  // the first draw fills it, and the depths
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
-        if constexpr (labelled) out_.labels = labels(rig.size.x, rig.size.y, ex);
+        if constexpr (labelled) {
+            out_.labels = labels(rig.size.x, rig.size.y, ex);
+            out_.labels.legend = s.seabed.legend();
+        }
         for (const target& t : s.targets) {
             targets_.push_back(
                 {t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.kind(), t.shape.grid()});
@@ -124,7 +128,7 @@ class overhead_painter {
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
     static constexpr bool casts = !std::is_same_v<Shadow, shadow::none>;
 
-    bool has_bottom() const { return !std::holds_alternative<seabed::none>(scene_.seabed); }
+    bool has_bottom() const { return !scene_.seabed.empty(); }
 
     /// Heights where the picture looks, and up-light of there as far as the relief can throw a shadow.
     template <executor E>
@@ -137,7 +141,8 @@ class overhead_painter {
         const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
         const double spacing = longer_side / cells;
 
-        seabed::height_range range = merge(seabed::prepare(scene_.seabed).range(), {0, 0});
+        seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
+        seabed::detail::require_finite(range);
         const double longest = static_cast<double>(options_.reach) * longer_side;
         ground_box ground = shown_ground(view_, range);
         if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
@@ -257,10 +262,10 @@ class overhead_painter {
         if (has_bottom()) {
             bottom_in_rig_ = bottom_in_rig();
             add(bottom_in_rig_, static_cast<std::uint32_t>(targets_.size()), labels::no_instance,
-                static_cast<std::uint8_t>(field_.fallback), scene_.bottom_of(field_.fallback));
+                static_cast<std::uint8_t>(field_.fallback), materials_[seabed::index_of(field_.fallback)]);
             if (!field_.types.empty()) {
                 surfaces_.back().types = bottom_types_.data();
-                surfaces_.back().materials = scene_.bottom.data();
+                surfaces_.back().materials = materials_.data();
             }
         }
         for (std::size_t i = 0; i < targets_.size(); ++i)
@@ -319,6 +324,7 @@ class overhead_painter {
     }
 
     const scene& scene_;
+    bottom_materials materials_;  ///< by seabed::type
     overhead_geometry view_;
     render_options<Shadow, Labels, Law> options_;
     image<std::uint32_t> ids_;  ///< the visibility buffer: triangles in the order of surfaces_

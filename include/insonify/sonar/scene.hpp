@@ -3,7 +3,7 @@
 
 #include <insonify/geometry/shared_mesh.hpp>
 #include <insonify/geometry/transform.hpp>
-#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/models.hpp>
 #include <insonify/sonar/sediment.hpp>
 
 #include <array>
@@ -27,7 +27,9 @@ struct target {
 /// The bottom and what lies on it. Heights are metres above the datum z = 0.
 struct scene {
     insonify::seabed::any seabed = insonify::seabed::flat{};
-    std::array<material, insonify::seabed::type_count> bottom = default_bottom();  ///< by seabed::type
+    /// Materials by label, seabed::index_of(type). Users' own labels have the reflectivity that their seabed states,
+    /// unless one is set here.
+    bottom_materials bottom = default_bottom();
     std::vector<target> targets;
 
     /// Adds a mesh, a shared mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
@@ -47,8 +49,6 @@ struct scene {
         else
             return to_mesh(shape);
     }
-
-    const material& bottom_of(insonify::seabed::type type) const { return bottom[static_cast<std::size_t>(type)]; }
 };
 
 /// @throws invalid_input for a material whose reflectivity is negative or not finite. Poses, meshes and seabeds are
@@ -56,11 +56,32 @@ struct scene {
 inline void validate(const scene& s) {
     const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
         if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
-        detail::refuse(list + ("[" + detail::to_text(i)) + member, m.reflectivity, "0 or more, finite");
+        std::string name = list;  // appended to: at -O3, g++ 12 warns of "[" + to_text(i)
+        name += '[';
+        name += detail::to_text(i);
+        name += member;
+        detail::refuse(name, m.reflectivity, "0 or more, finite");
     };
-    for (std::size_t i = 0; i < s.bottom.size(); ++i) check(s.bottom[i], "scene.bottom", i, "].reflectivity");
+    for (std::size_t i = 0; i < s.bottom.size(); ++i)
+        if (s.bottom[i].reflectivity != by_seabed_model) check(s.bottom[i], "scene.bottom", i, "].reflectivity");
     for (std::size_t i = 0; i < s.targets.size(); ++i)
         check(s.targets[i].surface, "scene.targets", i, "].surface.reflectivity");
+}
+
+/// The material of each label: the scene's, or the seabed's own where the scene leaves it to that.
+/// @throws invalid_input for a reflectivity of the seabed that is negative or not finite
+inline bottom_materials resolved_bottom(const scene& s) {
+    bottom_materials all = s.bottom;
+    for (const insonify::seabed::type_properties& t : s.seabed.legend()) {
+        detail::require(t.reflectivity >= 0 && numeric::is_finite(t.reflectivity), "type_properties.reflectivity",
+                        t.reflectivity, "0 or more, finite");
+        material& m = all[insonify::seabed::index_of(t.label)];
+        if (m.reflectivity == by_seabed_model) m = {t.reflectivity};
+    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (all[i].reflectivity == by_seabed_model)
+            all[i] = {insonify::seabed::properties_of(static_cast<insonify::seabed::type>(i)).reflectivity};
+    return all;
 }
 
 /// The same pose lowered or raised until the shape just touches the seabed: no vertex is below it, one is on it.
@@ -72,7 +93,7 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
     pose bare = placement;
     bare.burial = 0;
     const affine map = to_world(bare);
-    const auto bottom = insonify::seabed::prepare(seabed);
+    const auto bottom = seabed.prepare();
     double clearance = std::numeric_limits<double>::infinity();
     for (const glm::vec3& p : shape.positions) {
         const glm::dvec3 world = transform_point(map, p);

@@ -1,7 +1,7 @@
 // How far beyond the picture the seabed has to be there, so that whatever can throw a shadow into it does.
 #pragma once
 
-#include <insonify/seabed/recipe.hpp>
+#include <insonify/seabed/model.hpp>
 #include <insonify/sonar/rig.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN

@@ -78,10 +78,14 @@ class recorder {
             require(numeric::is_finite(p.position.x + p.position.y + p.position.z + p.yaw), "ping.position",
                     p.position.x + p.position.y + p.position.z + p.yaw, "finite");
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
+        materials_ = resolved_bottom(s);
         for (const target& t : s.targets) targets_.emplace_back(t);
         const auto height = static_cast<int>(track.size());
         out_.image = filled(rig.bins, height, 0.0f, ex);
-        if constexpr (labelled) out_.labels = labels(rig.bins, height, ex);
+        if constexpr (labelled) {
+            out_.labels = labels(rig.bins, height, ex);
+            out_.labels.legend = s.seabed.legend();
+        }
     }
 
     template <executor E>
@@ -112,7 +116,7 @@ class recorder {
     void hear(E& ex) {
         using listener = ping_listener<Rig, Law, Equation, labelled>;
         bottom_tiles bottom(scene_.seabed, out_.stats.cell);
-        const seabed::height_range relief = seabed::prepare(scene_.seabed).range();
+        const seabed::height_range relief = scene_.seabed.prepare().range();
         const double cell = out_.stats.cell;
         std::vector<float> over_range;
         if constexpr (Equation::has_ranges)
@@ -129,7 +133,8 @@ class recorder {
                 begin = (std::min)(begin, listener::start(rig_, cell, relief, p, targets_));
             bottom.cover(frames, begin, listener::reach(rig_, cell), ex);
             bulk_ranges(ex, count, grain, [&](std::size_t from, std::size_t to) {
-                listener ears(scene_, targets_, bottom, rig_, options_.law, options_.equation, cell, relief, begin);
+                listener ears(scene_, materials_, targets_, bottom, rig_, options_.law, options_.equation, cell, relief,
+                              begin);
                 for (std::size_t i = from; i < to; ++i) keep(start + i, ears.hear(frames[i]), over_range);
             });
         }
@@ -241,6 +246,7 @@ class recorder {
     std::span<const ping> track_;
     Rig rig_;
     options_type options_;
+    bottom_materials materials_;
     std::vector<sliced_target> targets_;
     recording<Labels> out_;
 };

@@ -31,6 +31,7 @@ recording<Labels> to_ground_range(const recording<Labels>& slant, const side_sca
     if constexpr (std::is_same_v<Labels, labels>) {
         out.labels = labels(to.bins, rows);
         out.labels.targets = slant.labels.targets;
+        out.labels.legend = slant.labels.legend;
     }
     for (int y = 0; y < rows; ++y) {
         const double altitude =

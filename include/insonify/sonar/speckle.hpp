@@ -18,35 +18,30 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// How an intensity fluctuates around its mean, which stays what it was. As it is: Rayleigh amplitudes, exponential
-/// intensities. The scintillation index, variance / mean^2 of the intensity, is
-/// (1 + 1 / texture) (1 + (1 + 2 steady) / (looks (1 + steady)^2)) - 1.
-struct speckle_law {
-    int looks = 1;  ///< independent intensities that are averaged: 1 to 64
-    float texture =
-        0;  ///< shape of the gamma-distributed mean of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: none
-    float steady = 0;  ///< power of a steady echo among the others, over theirs: Rician amplitudes
-};
-
 /// The fluctuation of a sediment, as the table has it.
 constexpr speckle_law speckle_of(seabed::sediment s) {
-    return {1, seabed::facts_of(s).texture, seabed::facts_of(s).steady};
+    return seabed::properties_of(seabed::type_of(s)).speckle;
 }
 
-/// By seabed::type: sand, ripples, mud, rock, and the sediments.
-constexpr std::array<speckle_law, seabed::type_count> default_speckle() {
-    std::array<speckle_law, seabed::type_count> laws{{{1, 15, 0}, {1, 0, 0}, {1, 0, 1}, {1, 1.5f, 0}}};
-    for (std::size_t i = 0; i < seabed::sediment_count; ++i) {
-        const auto s = static_cast<seabed::sediment>(i);
-        laws[static_cast<std::size_t>(seabed::type_of(s))] = speckle_of(s);
-    }
+/// A law per label.
+using speckle_laws = std::array<speckle_law, seabed::label_count>;
+
+/// Looks of labels for which the seabed's own properties count.
+inline constexpr int looks_by_seabed_model = -1;
+
+/// The registry's laws; users' own labels fluctuate as their seabed says.
+constexpr speckle_laws default_speckle() {
+    speckle_laws laws{};
+    laws.fill({looks_by_seabed_model});
+    for (const seabed::type_properties& t : seabed::built_in_types) laws[seabed::index_of(t.label)] = t.speckle;
     return laws;
 }
 
 /// Speckle by type of seabed. The defaults are illustrative: relief that is drawn makes its own fluctuations, so
 /// ripples take plain Rayleigh, and a texture stands for structure finer than the seabed is sampled.
 struct seabed_speckle {
-    std::array<speckle_law, seabed::type_count> bottom = default_speckle();  ///< by seabed::type
+    /// By label, seabed::index_of(type). Users' own labels have the law that their seabed states, unless one is set.
+    speckle_laws bottom = default_speckle();
     speckle_law elsewhere{};   ///< where the labels name no seabed: targets, and noise in the water column
     float along_track = 1;     ///< pings at which the correlation of intensities has fallen to 1 / e, 0 to 16
     float across_track = 1;    ///< the same in bins
@@ -190,14 +185,16 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     require(s.texture_length >= 1 && s.texture_length <= 1024, "seabed_speckle.texture_length", s.texture_length,
             "1 to 1024");
     require(numbers.step == 1 || numbers.step == -1, "ping_numbers.step", numbers.step, "1 or -1");
-    for (const speckle_law& law : s.bottom) detail::validate(law);
     detail::validate(s.elsewhere);
+    std::vector<speckle_law> laws(s.bottom.begin(), s.bottom.end());
+    for (speckle_law& law : laws)
+        if (law.looks == looks_by_seabed_model) law = s.elsewhere;
+    laws[labels::no_seabed] = s.elsewhere;
+    for (const speckle_law& law : laws) detail::validate(law);
 
     // Looks that only some types have are drawn for all, and used by those.
-    std::vector<speckle_law> laws(256, s.elsewhere);
-    std::copy(s.bottom.begin(), s.bottom.end(), laws.begin());
-    int looks = s.elsewhere.looks;
-    for (const speckle_law& law : s.bottom) looks = (std::max)(looks, law.looks);
+    int looks = 1;
+    for (const speckle_law& law : laws) looks = (std::max)(looks, law.looks);
 
     const detail::speckle_field field({s.seed, numbers.side, detail::speckle_stream::field}, s, mean.width());
     const detail::speckle_texture texture(s, numbers.side);
@@ -233,11 +230,22 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     return out;
 }
 
+/// Speckle with the laws that a seabed states for its own labels.
+/// @param legend  as labels::legend
+inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type_properties> legend) {
+    for (const seabed::type_properties& t : legend) {
+        speckle_law& law = s.bottom[seabed::index_of(t.label)];
+        if (law.looks == looks_by_seabed_model) law = t.speckle;
+    }
+    return s;
+}
+
 /// The same recording with speckle: of one side, as `render` made it of this rig.
 template <across_track Axis, executor_argument E = serial_executor>
 recording<labels> with_speckle(recording<labels> r, const side_scan_rig<Axis>& rig, const seabed_speckle& s = {},
                                E&& ex = {}) {
-    r.image = with_speckle(r.image.view(), r.labels.seabed.view(), s, numbers_of(rig), ex);
+    r.image =
+        with_speckle(r.image.view(), r.labels.seabed.view(), with_legend(s, r.labels.legend), numbers_of(rig), ex);
     return r;
 }
 

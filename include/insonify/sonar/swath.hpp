@@ -54,6 +54,7 @@ recording<Labels> both_sides(const recording<Labels>& port, const recording<Labe
         out.labels.shadow = beside(mirrored(port.labels.shadow), starboard.labels.shadow);
         out.labels.seabed = beside(mirrored(port.labels.seabed), starboard.labels.seabed);
         out.labels.targets = starboard.labels.targets;
+        out.labels.legend = starboard.labels.legend;
         detail::describe_again(out.labels);
     }
     return out;

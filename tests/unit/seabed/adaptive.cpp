@@ -3,7 +3,7 @@
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/topology.hpp>
 #include <insonify/seabed/adaptive.hpp>
-#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 
 #include <algorithm>
@@ -123,7 +123,7 @@ TEST_CASE("No point of the mesh is farther off than the leeway, and no crack ope
     for (const sb::any& seabed : seabeds)
         for (const auto& [width, height] : {std::pair{65, 65}, {50, 71}})
             for (const double allowed : {0.0, 0.0005, 0.004, 0.03}) {
-                CAPTURE(seabed.index(), width, height, allowed);
+                CAPTURE(seabed.legend().front().name, width, height, allowed);
                 const sb::heightfield field = field_of(seabed, width, height);
                 const auto coarse = sb::tessellate(field, {.height = allowed});
                 CHECK(farthest_off(field, coarse.shape) <= allowed + 1e-6);
@@ -147,7 +147,7 @@ TEST_CASE("Where nothing may be left out, the triangles are those of the whole g
 TEST_CASE("No triangle is spared: where two halves could be drawn as one, that one would be too far off") {
     const double allowed = 0.004;
     for (const sb::any& seabed : seabeds) {
-        CAPTURE(seabed.index());
+        CAPTURE(seabed.legend().front().name);
         const sb::heightfield field = field_of(seabed, 65, 65);
         const auto coarse = sb::tessellate(field, {.height = allowed});
         CHECK(coarse.shape.triangles.size() < std::size_t{2} * 64 * 64);

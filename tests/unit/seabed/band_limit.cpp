@@ -1,5 +1,5 @@
 // Relief finer than a grid fades out on it: nothing turns up as other relief, whatever the spacing.
-#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 
 #include <cmath>
@@ -110,7 +110,7 @@ TEST_CASE("means over the ground are those of a fine grid, however coarse the sa
         double limited = 0, unlimited = 0;
         for (const double spacing : {0.05, 0.2, 0.45, 0.6, 0.85, 1.3}) {
             const double with = false_swell(seabed, spacing, true), without = false_swell(seabed, spacing, false);
-            CAPTURE(seabed.index(), spacing, with, without);
+            CAPTURE(seabed.legend().front().name, spacing, with, without);
             CHECK(with < 0.0025);
             limited += with, unlimited += without;
         }

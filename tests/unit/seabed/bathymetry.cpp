@@ -1,7 +1,7 @@
 // Surveys: what the readers make of good text and of bad, how gaps are closed, and what detail adds.
 #include <insonify/io/netpbm.hpp>
-#include <insonify/seabed/any.hpp>
 #include <insonify/seabed/bathymetry.hpp>
+#include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // Seabeds of many: which bottom lies where, and what happens where they meet.
-#include <insonify/seabed/mixed.hpp>
+#include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 
 #include <cmath>

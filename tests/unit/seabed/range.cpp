@@ -1,5 +1,5 @@
 // How high and how low a seabed can be, as its sampler promises: what may throw a shadow is found by it.
-#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/models.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -23,8 +23,8 @@ void check(const sb::any& bottom, double slack) {
         lowest = (std::min)(lowest, *std::min_element(heights.begin(), heights.end()));
         highest = (std::max)(highest, *std::max_element(heights.begin(), heights.end()));
     }
-    INFO("bottom " << bottom.index() << ": " << lowest << " to " << highest << ", promised " << promised.lowest
-                   << " to " << promised.highest);
+    INFO("bottom " << bottom.legend().front().name << ": " << lowest << " to " << highest << ", promised "
+                   << promised.lowest << " to " << promised.highest);
     CHECK(promised.lowest <= static_cast<double>(lowest));
     CHECK(promised.highest >= static_cast<double>(highest));
     CHECK(promised.highest - promised.lowest <= slack * static_cast<double>(highest - lowest));

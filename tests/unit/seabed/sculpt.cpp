@@ -1,5 +1,5 @@
 // Sculpting: what each edit does to a plane, that they compose in order, and that nothing else changes.
-#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 
 #include <cmath>
@@ -20,13 +20,9 @@ float height(const std::vector<sb::edit>& edits, double x, double y) {
 /// A slope of one in x, of a half in y.
 struct slope {
     static constexpr sb::type kind = sb::type::rock;
-    struct sampler {
-        void row(const sb::scanline& line, std::span<float> heights) const {
-            for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(line.x(i) + 0.5 * line.y);
-        }
-    };
-    sampler prepare() const { return {}; }
-    float operator()(double x, double y) const { return static_cast<float>(x + 0.5 * y); }
+    void row(const sb::scanline& line, std::span<float> heights) const {
+        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(line.x(i) + 0.5 * line.y);
+    }
 };
 
 double variance(const in::image<float>& heights) {
@@ -143,7 +139,7 @@ TEST_CASE("Smoothing takes away what is short, and leaves slopes as they are") {
     const sb::ripples waves{.wavelength = 0.3f};
     const sb::sculpted bed{.ground = waves, .edits = {sb::smooth{{0, 0}, 4, 0.4f}}};
     CHECK(variance(sb::sample(bed, area).heights) < 0.02 * variance(sb::sample(waves, area).heights));
-    const sb::basic_sculpted<slope> sloped{.ground = {}, .edits = {sb::smooth{{0, 0}, 4, 0.4f}}};
+    const sb::sculpted sloped{.ground = slope{}, .edits = {sb::smooth{{0, 0}, 4, 0.4f}}};
     for (const double x : {-1.3, 0.0, 0.77, 2.9})
         CHECK(static_cast<double>(sloped(x, 1.1)) == Approx(x + 0.55).margin(1e-5));
 }

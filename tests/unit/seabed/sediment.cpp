@@ -18,10 +18,11 @@ TEST_CASE("Sediments are found by name and by grain size") {
     CHECK(sb::sediment_of_phi(1.4f) == in::sediment::medium_sand);
     CHECK(sb::sediment_of_phi(40) == in::sediment::silty_clay);
     CHECK_THROWS_AS(sb::sediment_of_phi(std::nanf("")), in::invalid_input);
-    for (std::size_t i = 0; i < sb::sediment_count; ++i) {
-        const auto s = static_cast<in::sediment>(i);
-        CHECK(sb::sediment_of(sb::facts_of(s).name) == s);
-        CHECK(sb::sediment_of_phi(sb::facts_of(s).phi) == s);
+    for (const sb::sediment_facts& row : sb::sediments) {
+        const in::sediment s = sb::sediment_of(row.name);
+        CHECK(sb::type_of(s) == row.label);
+        CHECK(&sb::facts_of(s) == &row);
+        CHECK(sb::sediment_of_phi(row.phi) == s);
     }
     CHECK(static_cast<std::size_t>(sb::type_of(in::sediment::silty_clay)) + 1 == sb::type_count);
 }
@@ -47,8 +48,8 @@ TEST_CASE("One word sets relief, brightness and speckle together") {
     };
     const in::scene scene;
     const in::seabed_speckle speckle;
-    for (std::size_t i = 0; i < sb::sediment_count; ++i) {
-        const auto s = static_cast<in::sediment>(i);
+    for (const sb::sediment_facts& row : sb::sediments) {
+        const in::sediment s = sb::sediment_of(row.name);
         const auto field = sample(s);
         const sb::type type = field.types.empty() ? field.fallback : field.types(3, 5);
         REQUIRE(type == sb::type_of(s));

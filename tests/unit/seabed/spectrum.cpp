@@ -1,5 +1,5 @@
 // The statistics of relief: spectra that fall as asked, ripples of the wavelength, width and forks that were promised.
-#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/sediment.hpp>
 

@@ -3,7 +3,7 @@
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/cube.hpp>
 #include <insonify/geometry/sphere.hpp>
-#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/tessellate.hpp>
 
@@ -160,7 +160,7 @@ TEST_CASE("Seabeds of every kind at every elevation, cut either way, in order an
                 const lit::mesh soup(shuffled(*bottom, 3), parallel(azimuth, elevation));
                 const lit::point_list points = bottom.facing(500, 11).detached();
                 const std::vector<bool> dark = bottom.dark(points);
-                CAPTURE(recipe.index(), falls, azimuth, elevation);
+                CAPTURE(recipe.legend().front().name, falls, azimuth, elevation);
                 CHECK(bottom.wrong(points, dark) == 0);
                 CHECK((soup.dark(points) == dark));
             }

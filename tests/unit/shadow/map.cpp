@@ -37,15 +37,11 @@ float lit_on_ground(const shadow::height_map& map, double x, double y) {
 /// A rough seabed of crossing waves.
 struct waves {
     static constexpr in::seabed::type kind = in::seabed::type::sand;
-    struct sampler {
-        void row(const in::seabed::scanline& line, std::span<float> heights) const {
-            for (std::size_t i = 0; i < heights.size(); ++i)
-                heights[i] = static_cast<float>(0.05 * std::sin(7 * line.x(i) + 2 * std::sin(3 * line.y)) +
-                                                0.02 * std::sin(23 * line.y + 9 * line.x(i)));
-        }
-    };
-    sampler prepare() const { return {}; }
-    float operator()(double x, double y) const { return in::seabed::height_at(prepare(), x, y); }
+    void row(const in::seabed::scanline& line, std::span<float> heights) const {
+        for (std::size_t i = 0; i < heights.size(); ++i)
+            heights[i] = static_cast<float>(0.05 * std::sin(7 * line.x(i) + 2 * std::sin(3 * line.y)) +
+                                            0.02 * std::sin(23 * line.y + 9 * line.x(i)));
+    }
 };
 
 const double elevations[] = {1, 3, 6, 20, 45, 70, 89};

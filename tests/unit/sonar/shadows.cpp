@@ -364,8 +364,9 @@ TEST_CASE("Seabed that can't throw a shadow into the picture changes no pixel of
         options.cells = 128;
         const auto as_it_is = in::render(s, rig, options);
         // One stone far away, which the light comes to last, could be high enough to matter: more has to be there.
-        auto& heights = std::get<in::seabed::heightfield>(s.seabed).heights;
-        heights(azimuth == 200 ? 2 : 638, 320) = 3;
+        in::seabed::heightfield field = *s.seabed.get_if<in::seabed::heightfield>();
+        field.heights(azimuth == 200 ? 2 : 638, 320) = 3;
+        s.seabed = field;
         const auto more = in::render(s, rig, options);
         CHECK(more.stats.seabed_columns * more.stats.seabed_rows >
               as_it_is.stats.seabed_columns * as_it_is.stats.seabed_rows * 3 / 2);

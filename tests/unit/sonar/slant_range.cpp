@@ -441,7 +441,8 @@ TEST_CASE("A window samples the bottom that can be heard in it or hide it; the r
     for (const in::seabed::any& bottom : bottoms)
         for (const float altitude : {4.0f, 9.0f})
             for (const float distance : {3.0f, 8.0f}) {
-                INFO("bottom " << bottom.index() << ", altitude " << altitude << ", distance " << distance);
+                INFO("bottom " << bottom.legend().front().name << ", altitude " << altitude << ", distance "
+                               << distance);
                 in::side_scan rig{.position = {17, -40},
                                   .altitude = altitude,
                                   .yaw = altitude,

@@ -1,0 +1,247 @@
+// The concept of a seabed: heights and labels along rows of world points.
+//
+// A model is a copyable value of two or three members, of the library or of a user:
+//
+//     struct dunes {
+//         static constexpr in::seabed::type_properties kind{in::seabed::own_type(0), "dunes", 0.6f, {.texture = 8}};
+//         void row(const in::seabed::scanline& line, std::span<float> heights) const;  // metres above the datum
+//         in::seabed::height_range range() const { return {-1, 1}; }                   // which it never leaves
+//     };
+//
+// `kind` is one of the library's labels or a label with properties. Seabeds of several labels write them in
+// `row(line, heights, types)` and list them in `legend()`. Where parts are worth computing once (wave vectors,
+// octaves), `prepare()` returns a sampler that has `row` and `range` in the model's stead. Optional: `sink_depth()`,
+// see there.
+#pragma once
+
+#include <insonify/seabed/registry.hpp>
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::seabed {
+
+/// Equally spaced samples along x: sample i lies at (x(i), y), metres in the world. Each position is computed from i
+/// alone, never accumulated, and parts of a row keep their origin: cutting a row changes no bit of it.
+struct scanline {
+    double y = 0;
+    double origin = 0;       ///< x of sample 0 of the whole row
+    double spacing = 1;      ///< >= 0
+    std::int64_t first = 0;  ///< which sample of the whole row is sample 0 here; any, below 0 too
+    /// Metres between the vertices of the grid that the row is part of: relief that it can't carry fades out (see
+    /// `carried`). 0: nothing does.
+    double grid_spacing = 0;
+
+    double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
+    scanline from(std::size_t i) const { return {y, origin, spacing, number(i), grid_spacing}; }
+
+  private:
+    std::int64_t number(std::size_t i) const { return first + static_cast<std::int64_t>(i); }
+};
+
+/// The share in [0, 1] of a wave's amplitude that a grid keeps: nothing of two samples a wave or fewer, which would
+/// show up as another wave, and all from four on. Both in the same unit; a spacing of 0 keeps everything.
+///
+/// Alan Norton, Alyn P. Rockwood, Philip T. Skolmoski. Clamping: A Method of Antialiasing Textured Surfaces by
+/// Bandwidth Limiting in Object Space. SIGGRAPH, 1982.
+constexpr float carried(double wavelength, double spacing) {
+    if (wavelength >= 4 * spacing) return 1;
+    return wavelength <= 2 * spacing ? 0.0f : static_cast<float>(2 - 4 * spacing / wavelength);
+}
+
+/// Heights that a seabed never leaves, metres above the datum; nothing at all where lowest > highest. Rounding has to
+/// be included: the parts of the bottom that may cast a shadow into a picture are found by it.
+struct height_range {
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -std::numeric_limits<double>::infinity();
+
+    bool empty() const { return !(lowest <= highest); }
+    /// Any height at all: the range of models that do not state theirs. Overhead pictures refuse it.
+    static constexpr height_range unlimited() {
+        return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    }
+};
+inline height_range merge(const height_range& a, const height_range& b) {
+    return {(std::min)(a.lowest, b.lowest), (std::max)(a.highest, b.highest)};
+}
+
+/// Writes the heights of a row, in metres above the datum z = 0; NaN where there is no bottom. Heights depend on the
+/// model and the position alone; positions are good to 1e9 m from the origin.
+template <class S>
+concept sampler = requires(const S& s, const scanline& row, std::span<float> heights) {
+    s.row(row, heights);
+};
+
+/// Also writes the label of each sample; `types` is as long as `heights`, or empty where labels are not needed.
+template <class S>
+concept typed_sampler = requires(const S& s, const scanline& row, std::span<float> heights, std::span<type> types) {
+    s.row(row, heights, types);
+};
+
+/// Samplers that state their heights.
+template <class S>
+concept bounded_sampler = requires(const S& s) {
+    { s.range() } -> std::convertible_to<height_range>;
+};
+
+/// Models of a single label: `kind`, a `type` or `type_properties`, static or not.
+template <class M>
+concept single_typed = requires(const M& m) {
+    { seabed::label_of(m.kind) } -> std::same_as<type>;
+};
+
+namespace detail {
+
+using insonify::detail::refuse;
+using insonify::detail::require;
+
+/// Samples per chunk where scratch memory is needed.
+inline constexpr std::size_t chunk = 256;
+
+/// Evaluates a model that has no `prepare()`.
+template <class M>
+struct by_reference {
+    const M* model;
+
+    void row(const scanline& line, std::span<float> heights) const requires(sampler<M>) { model->row(line, heights); }
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const requires(typed_sampler<M>) {
+        model->row(line, heights, types);
+    }
+    height_range range() const requires(bounded_sampler<M>) { return model->range(); }
+};
+
+/// `prepare()`, or the model itself.
+template <class M>
+    requires(requires(const M& m) { m.prepare(); })
+auto sampler_of(const M& m) {
+    return m.prepare();
+}
+template <class M>
+    requires(sampler<M> || typed_sampler<M>)
+by_reference<M> sampler_of(const M& m) {
+    return {&m};
+}
+
+/// Gives the sampler of a single label the interface of a typed one.
+template <sampler S>
+struct with_kind {
+    S heights_only;
+    type kind;
+
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+        heights_only.row(line, heights);
+        std::fill(types.begin(), types.end(), kind);
+    }
+    height_range range() const requires(bounded_sampler<S>) { return heights_only.range(); }
+};
+
+/// @throws invalid_input for the range of a model that does not state its heights
+inline void require_finite(const height_range& range) {
+    require(range.empty() || numeric::is_finite(range.highest - range.lowest), "range() of the seabed", range.highest,
+            "finite heights that it never leaves");
+}
+
+template <class S>
+height_range range_of(const S& s) {
+    if constexpr (bounded_sampler<S>) return s.range();
+    return height_range::unlimited();
+}
+
+}  // namespace detail
+
+/// A seabed: see the top of this file.
+template <class M>
+concept model = requires(const M& m) {
+    detail::sampler_of(m);
+}
+&&(typed_sampler<decltype(detail::sampler_of(std::declval<const M&>()))> ||
+   (single_typed<M> && sampler<decltype(detail::sampler_of(std::declval<const M&>()))>));
+
+/// What the library evaluates: a typed sampler. It may refer to the model, which has to outlive it.
+/// @throws invalid_input for parameters out of their range
+template <model M>
+auto prepare(const M& m) {
+    using sampler_type = decltype(detail::sampler_of(m));
+    if constexpr (typed_sampler<sampler_type>)
+        return detail::sampler_of(m);
+    else
+        return detail::with_kind<sampler_type>{detail::sampler_of(m), label_of(m.kind)};
+}
+
+/// The label of the whole seabed, if it has but one.
+template <model M>
+std::optional<type> only_type(const M& m) {
+    if constexpr (requires { m.only_type(); })
+        return m.only_type();
+    else if constexpr (single_typed<M>)
+        return label_of(m.kind);
+    else
+        return std::nullopt;
+}
+
+/// The labels that may occur, with their properties, as far as they are known.
+template <model M>
+std::vector<type_properties> legend_of(const M& m) {
+    if constexpr (requires { m.legend(); })
+        return m.legend();
+    else if constexpr (requires { m.kind.label; })
+        return {m.kind};
+    else if constexpr (single_typed<M>)
+        return {properties_of(m.kind)};
+    else
+        return {};
+}
+
+/// Appends those of `more` whose labels are new.
+inline void extend(std::vector<type_properties>& legend, const std::vector<type_properties>& more) {
+    for (const type_properties& p : more)
+        if (std::none_of(legend.begin(), legend.end(), [&](const type_properties& q) { return q.label == p.label; }))
+            legend.push_back(p);
+}
+
+/// How deep a layer has to sink to disappear below another, metres: about as far as its surface strays from its mean
+/// level. A model's `sink_depth()`, or half of its range.
+template <model M>
+float sink_depth_of(const M& m) {
+    if constexpr (requires { m.sink_depth(); }) {
+        return m.sink_depth();
+    } else {
+        const height_range all = detail::range_of(seabed::prepare(m));
+        const double half = 0.5 * (all.highest - all.lowest);
+        return half > 0 && half < 1e6 ? static_cast<float>(half) : 0.05f;
+    }
+}
+
+/// Height and label at one point.
+struct ground {
+    float height;
+    type kind;
+};
+template <typed_sampler S>
+ground at(const S& prepared, double x, double y) {
+    ground result{};
+    prepared.row({.y = y, .origin = x}, {&result.height, 1}, {&result.kind, 1});
+    return result;
+}
+
+/// Height at one point, for the call operators of models.
+template <sampler S>
+float height_at(const S& prepared, double x, double y) {
+    float height = 0;
+    prepared.row({.y = y, .origin = x}, {&height, 1});
+    return height;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::seabed
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,205 @@
+// Users' own seabeds: models of the concept take every place that the library's take, with labels of their own.
+#include <insonify/geometry/cube.hpp>
+#include <insonify/seabed/blend.hpp>
+#include <insonify/seabed/mixed.hpp>
+#include <insonify/seabed/sample.hpp>
+#include <insonify/seabed/sculpt.hpp>
+#include <insonify/sonar/occlusion.hpp>
+#include <insonify/sonar/render.hpp>
+#include <insonify/sonar/speckle.hpp>
+#include <insonify/sonar/swath.hpp>
+
+#include <cmath>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+namespace sb = insonify::seabed;
+
+namespace {
+
+/// Long waves without end, with a label, a brightness and a speckle of their own.
+struct dunes {
+    static constexpr sb::type_properties kind{sb::own_type(3), "dunes", 0.8f, {.looks = 4}};
+    double height = 0.2;
+
+    void row(const sb::scanline& line, std::span<float> heights) const {
+        for (std::size_t i = 0; i < heights.size(); ++i)
+            heights[i] = static_cast<float>(height * std::sin(0.9 * line.x(i) + 0.2 * line.y)) *
+                         sb::carried(6.8, line.grid_spacing);
+    }
+    sb::height_range range() const { return {-height, height}; }
+};
+
+/// A level sheet.
+struct ice {
+    static constexpr sb::type_properties kind{sb::own_type(0), "ice", 0.9f, {}};
+    void row(const sb::scanline&, std::span<float> heights) const { std::fill(heights.begin(), heights.end(), 0.0f); }
+    sb::height_range range() const { return {0, 0}; }
+};
+
+/// Two labels of its own, in stripes across the track.
+struct stripes {
+    void row(const sb::scanline& line, std::span<float> heights, std::span<sb::type> types) const {
+        std::fill(heights.begin(), heights.end(), 0.0f);
+        for (std::size_t i = 0; i < types.size(); ++i)
+            types[i] = sb::own_type(in::numeric::floor_to_int(line.x(i)) & 1 ? 1 : 0);
+    }
+    sb::height_range range() const { return {0, 0}; }
+    std::vector<sb::type_properties> legend() const {
+        return {{sb::own_type(0), "dark", 0.1f, {}}, {sb::own_type(1), "bright", 0.9f, {}}};
+    }
+};
+
+/// What ripples are, written by a user: the library's sampler behind a model of one's own.
+struct own_ripples {
+    sb::ripples as;
+    sb::type kind = sb::type::ripples;
+    sb::ripples_sampler prepare() const { return as.prepare(); }
+};
+
+/// A plane that rises without end and states no range.
+struct slope {
+    static constexpr sb::type kind = sb::type::rock;
+    void row(const sb::scanline& line, std::span<float> heights) const {
+        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(0.01 * line.x(i));
+    }
+};
+
+static_assert(sb::model<dunes> && sb::model<stripes> && sb::model<own_ripples> && sb::model<slope>);
+
+const in::overhead rig{.position = {120, -40}, .size = {160, 120}, .grazing = in::literals::operator""_deg(8ull)};
+
+}  // namespace
+
+TEST_CASE("An own seabed is drawn without bounds, with its label, its reflectivity and its name in the legend") {
+    in::scene s;
+    s.seabed = dunes{};
+    in::overhead from = rig;
+    for (const double x : {120.0, 1e6}) {
+        from.position.x = x;
+        const auto frame = in::render(s, from);
+        const auto label = static_cast<std::uint8_t>(sb::own_type(3));
+        for (const std::uint8_t seabed : frame.labels.seabed.pixels()) REQUIRE(seabed == label);
+        REQUIRE(frame.labels.legend.size() == 1);
+        CHECK(frame.labels.legend[0] == dunes::kind);
+        float lowest = 1, highest = 0;
+        for (const float v : frame.image.pixels()) lowest = (std::min)(lowest, v), highest = (std::max)(highest, v);
+        CHECK(lowest < 0.5f * highest);
+    }
+}
+
+TEST_CASE("The reflectivity of an own label scales the picture; the scene's entry takes precedence") {
+    in::scene s;
+    const in::overhead dim{.size = {64, 64}, .intensity = 1};
+    const auto mean = [&] {
+        double sum = 0;
+        const auto picture = in::render(s, dim, in::render_options<in::shadow::none>{});
+        for (const float v : picture.image.pixels()) sum += static_cast<double>(v);
+        return sum;
+    };
+    s.seabed = sb::flat{.surface = {.rms = 0}, .kind = sb::type::sand};
+    const double sand = mean();
+    s.seabed = ice{};
+    CHECK(mean() == Approx(2 * sand).epsilon(1e-5));
+    s.bottom[sb::index_of(sb::own_type(0))] = {0.45f};
+    CHECK(mean() == Approx(sand).epsilon(1e-6));
+    s.bottom[sb::index_of(sb::own_type(0))] = {-2};
+    CHECK_THROWS_WITH(mean(), ContainsSubstring("scene.bottom[16].reflectivity is -2"));
+}
+
+TEST_CASE("An own model of the same function gives the same bytes as the library's") {
+    in::scene mine, theirs;
+    theirs.seabed = sb::ripples{.seed = 5};
+    mine.seabed = own_ripples{{.seed = 5}};
+    const auto a = in::render(mine, rig), b = in::render(theirs, rig);
+    CHECK(a.image == b.image);
+    CHECK(a.labels.seabed == b.labels.seabed);
+    CHECK(a.labels.shadow == b.labels.shadow);
+    const in::side_scan swath{.pings = 40, .range = 20, .bins = 256};
+    CHECK(in::render(mine, swath).image == in::render(theirs, swath).image);
+}
+
+TEST_CASE("Own labels reach side-scan pictures, and speckle takes their law from the legend") {
+    in::scene s;
+    s.seabed = sb::blend{.first = dunes{.height = 0}, .second = sb::flat{.surface = {.rms = 0}}, .coverage = 1};
+    const in::side_scan swath{.ping_spacing = 0.2f, .pings = 200, .first_range = 12, .range = 20, .bins = 200};
+    const auto quiet = in::render(s, swath);
+    CHECK(quiet.labels.legend.size() == 2);
+    CHECK(quiet.labels.seabed(100, 100) == static_cast<std::uint8_t>(sb::own_type(3)));
+    const auto noisy = in::with_speckle(quiet, swath, {.along_track = 0, .across_track = 0});
+    double sum = 0, square = 0;
+    for (std::size_t i = 0; i < noisy.image.size(); ++i) {
+        const double v = static_cast<double>(noisy.image.pixels()[i]) / static_cast<double>(quiet.image.pixels()[i]);
+        sum += v, square += v * v;
+    }
+    const double mean = sum / 40000;
+    CHECK(mean == Approx(1).epsilon(0.02));
+    CHECK(square / 40000 / mean / mean - 1 == Approx(0.25).epsilon(0.05));  // four looks
+}
+
+TEST_CASE("A seabed of several own labels names each pixel") {
+    in::scene s;
+    s.seabed = stripes{};
+    const auto frame = in::render(s, in::overhead{.altitude = 4, .size = {128, 128}});
+    int dark = 0, bright = 0;
+    for (const std::uint8_t t : frame.labels.seabed.pixels()) {
+        dark += t == static_cast<std::uint8_t>(sb::own_type(0));
+        bright += t == static_cast<std::uint8_t>(sb::own_type(1));
+    }
+    CHECK(dark + bright == 128 * 128);
+    CHECK(dark > 4000);
+    CHECK(bright > 4000);
+    CHECK(frame.labels.legend.size() == 2);
+}
+
+TEST_CASE("Own seabeds are layered, sculpted, sampled and rested upon as the library's are") {
+    const sb::mixed bed{.base = stripes{}, .layers = {{dunes{}, sb::disc{{0, 0}, 5}}}};
+    CHECK(bed.type_at(0, 0) == sb::own_type(3));
+    CHECK(bed.type_at(30.5, 0) == sb::own_type(0));
+    CHECK(bed.legend().size() == 3);
+    const sb::sculpted worked{.ground = dunes{}, .edits = {sb::flatten{.centre = {0, 0}, .radius = 2, .level = 1}}};
+    CHECK(worked(0, 0) == Approx(1));
+    CHECK(worked.type_at(0, 0) == sb::own_type(3));
+    const auto field = sb::sample(dunes{}, {.width = 8, .height = 8});
+    CHECK(field.fallback == sb::own_type(3));
+    REQUIRE(field.own_types.size() == 1);
+    CHECK(sb::any(field).legend()[0].name == "dunes");
+    in::scene s;
+    s.seabed = dunes{};
+    const auto pose = in::rest_on(s.seabed, to_mesh(in::cube{.size = {0.01f, 0.01f, 0.01f}}), {.position = {1, 2, 9}});
+    CHECK(pose.position.z == Approx(0.2 * std::sin(1.3) + 0.005).margin(2e-3));
+}
+
+TEST_CASE("A seabed without a range is heard by range modes and refused by name where a range is needed") {
+    in::scene s;
+    s.seabed = slope{};
+    CHECK_NOTHROW(in::render(s, in::side_scan{.pings = 4, .range = 20, .bins = 64}));
+    CHECK_THROWS_WITH(in::render(s, in::overhead{.size = {8, 8}}), ContainsSubstring("range() of the seabed is inf"));
+}
+
+TEST_CASE("Any shares its model, knows its type, and keeps it alive for samplers") {
+    sb::any_sampler prepared;
+    {
+        sb::heightfield field{.heights = in::image<float>(4, 4, 2.0f)};
+        const sb::any first = field, second = first;
+        CHECK(first.get_if<sb::heightfield>() == second.get_if<sb::heightfield>());
+        CHECK(first.get_if<sb::flat>() == nullptr);
+        prepared = second.prepare();
+    }
+    CHECK(sb::at(prepared, 1, 1).height == 2);
+    CHECK(sb::any().empty());
+    CHECK(sb::any(sb::none{}).empty());
+    CHECK(std::isnan(sb::any()(0, 0)));
+}
+
+TEST_CASE("The registry has one row per label, and own labels begin after it") {
+    for (std::size_t i = 0; i < sb::built_in_types.size(); ++i) {
+        CHECK(sb::index_of(sb::built_in_types[i].label) == i);
+        for (std::size_t j = 0; j < i; ++j) CHECK(sb::built_in_types[i].name != sb::built_in_types[j].name);
+    }
+    CHECK(sb::index_of(sb::own_type(0)) == sb::type_count);
+    CHECK(sb::index_of(sb::own_type(238)) == 254);
+    CHECK_THROWS_AS(sb::own_type(239), in::invalid_input);
+    CHECK_THROWS_AS(sb::own_type(-1), in::invalid_input);
+}
