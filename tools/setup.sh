@@ -15,11 +15,13 @@ python        command:python3                         python3               pyth
 glm           header:glm/vec3.hpp                     libglm-dev            glm-devel           glm
 catch2        header:catch2/catch_all.hpp|catch2/catch.hpp  catch2          catch-devel         catch2
 stb           header:stb/stb_image_write.h|stb_image_write.h  libstb-dev    stb-devel           stb
+gtest         header:gmock/gmock.h                    libgmock-dev          gmock-devel         googletest
 cli11         header:CLI/CLI.hpp                      libcli11-dev          cli11-devel         cli11
 json          header:nlohmann/json.hpp                nlohmann-json3-dev    json-devel          nlohmann-json
 openssl       header:openssl/evp.h                    libssl-dev            openssl-devel       openssl
 deflate       header:libdeflate.h                     libdeflate-dev        libdeflate-devel    libdeflate
 opencv        header:opencv4/opencv2/ml.hpp|opencv2/ml.hpp  libopencv-dev   opencv-devel        opencv
+chromium      command:chromium|chromium-browser|google-chrome  chromium     chromium            --cask chromium
 clang         command:clang++                         clang                 clang               llvm
 fuzzer        clang:-fsanitize=fuzzer                 libclang-rt-dev       compiler-rt         llvm
 egl           header:EGL/egl.h                        libegl-dev            mesa-libEGL-devel   mesa

@@ -51,6 +51,8 @@ json configuration_of(const options& o, const std::vector<input>& inputs) {
                                                                                     {"sha256", inputs[i].sha256}};
     return {{"format", format},
             {"version", version()},
+            {"recipe", o.recipe},
+            {"visible_share", o.visible_share},
             {"seed", o.seed},
             {"size", o.size},
             {"targets", o.targets},

@@ -102,7 +102,7 @@ int generate(const generator::options& o, const generator::stock& shared, insoni
         generator::writer files(into);
         for (std::uint64_t i = next(); i < work.last; i = next()) {
             if (const auto fault = generator::fault_of(root, i, false)) {
-                files.add(generator::files_of(o, generator::plan_image(o, i, shared.references()), shared));
+                files.add(generator::files_of(o, i, shared));
                 ++made;
                 if (std::filesystem::exists(root / generator::record_path(i)) && ++repaired <= 100)
                     std::fprintf(stderr, "%s; made again\n", fault->c_str());
@@ -118,7 +118,7 @@ int generate(const generator::options& o, const generator::stock& shared, insoni
                     number(bar.done()));
     else
         std::printf("%s: %llu images", o.out.c_str(),
-                    number(generator::write_tables(root, generator::class_names(o), into)));
+                    number(generator::write_tables(root, generator::category_names(o), into)));
     std::printf(", %llu of them new, %.2f images/s\n", number(made), static_cast<double>(made) / bar.elapsed());
     if (stop_signal != 0 && bar.done() < work.size()) {
         std::fprintf(stderr, "Stopped; the same command goes on from here.\n");

@@ -67,7 +67,9 @@ options parse(int argc, char** argv) {
 
     std::uint64_t input_limit = examples::usual_input_limit >> 20;
     std::string shard, target_size, aspect, tilt, burial, altitude, grazing, distance, beam;
-    const CLI::Validator target_names = CLI::IsMember({"cylinder", "cube", "cone", "sphere"});
+    const CLI::Validator target_names =
+        CLI::IsMember({"cylinder", "cube", "cone", "sphere", "ship", "plane", "truncated_cone", "wedge", "tyre", "pipe",
+                       "boulder", "crate", "lobster_pot", "empty"});
     const CLI::Validator seabed_names = CLI::IsMember({"ripples", "mud", "rock", "sand", "mixed", "heightmap"});
 
     const char* const what = "What to make";
@@ -96,7 +98,17 @@ options parse(int argc, char** argv) {
         ->group(what);
     app.add_flag("--demo", o.demo, "All targets on all seabeds, plain and with a reference")->group(what);
 
+    app.add_option("--recipe", o.recipe,
+                   "sonar: wrecks, aeroplanes and bare bottoms as side-scan sonars show them;\n"
+                   "published: the paper's camera, light and primitives")
+        ->check(CLI::IsMember({"sonar", "published"}))
+        ->group(what);
+
     const char* const scene = "Scene";
+    app.add_option("--visible-share", o.visible_share,
+                   "Recipe sonar: share of its outline that a target shows at least, or it is drawn again (0.1)")
+        ->check(number(0, 1))
+        ->group(scene);
     app.add_option("--targets", o.targets, "cylinder,cube,cone,sphere; taken in turn")
         ->delimiter(',')
         ->check(target_names)
@@ -164,7 +176,10 @@ options parse(int argc, char** argv) {
     try {
         app.parse(argc, argv);
         const auto given = [&](const char* name) { return !app.get_option(name)->empty(); };
-        if (!o.is_overhead()) {
+        if (o.is_sonar()) {
+            if (!given("--size")) o.size = 128;
+            if (!given("--targets")) o.targets = {"ship", "plane", "empty"};
+        } else if (!o.is_overhead()) {
             if (!given("--size")) o.size = 128;
             if (o.chip == 0) o.chip = 5;
             if (!given("--noise")) o.noise = {"seabed"};

@@ -26,8 +26,10 @@ struct options {
 
     // What decides pixels: pinned in the folder's config.json.
 
+    std::string recipe = "published";
     std::uint64_t seed = 1;
     int size = 2048;
+    double visible_share = 0.1;  ///< of a target's outline, recipe sonar
     std::vector<std::string> targets{"cylinder", "cube", "cone", "sphere"};
     std::vector<std::string> meshes;  ///< class=path
     std::string mesh_up = "y";
@@ -45,6 +47,7 @@ struct options {
     bool demo = false;
 
     bool is_overhead() const { return mode == "overhead"; }
+    bool is_sonar() const { return recipe == "sonar"; }
 };
 
 /// One step of the noise chain: a kind and its strength.

@@ -5,6 +5,7 @@
 #include "draw.hpp"
 #include "record.hpp"
 #include "run_lengths.hpp"
+#include "sonar_pictures.hpp"
 
 namespace generator {
 
@@ -120,6 +121,15 @@ std::vector<file> files_of(const options& o, const plan& p, const stock& shared)
     return files;
 } catch (const in::invalid_input& error) {
     throw in::io_error("image " + std::to_string(p.index) + ": " + in_words_of_options(error.what()));
+}
+
+std::vector<file> files_of(const options& o, std::uint64_t index, const stock& shared) {
+    if (!o.is_sonar()) return files_of(o, plan_image(o, index, shared.references()), shared);
+    try {
+        return files_of_sonar(o, index, o.targets[index % o.targets.size()], nullptr);
+    } catch (const std::exception& error) {
+        throw in::io_error("image " + std::to_string(index) + ": " + error.what());
+    }
 }
 
 void set_packing() {

@@ -12,6 +12,9 @@ namespace generator {
 /// @throws io_error, with the index and the options at fault, if the plan can't be drawn
 std::vector<file> files_of(const options& o, const plan& p, const stock& shared);
 
+/// The files of image `index` of whichever recipe.
+std::vector<file> files_of(const options& o, std::uint64_t index, const stock& shared);
+
 /// How PNG files are packed: to be called once, before the first.
 void set_packing();
 

@@ -19,6 +19,7 @@
 #include <insonify/core/lanes.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
+#include <insonify/core/portable.hpp>
 #include <insonify/core/quantize.hpp>
 #include <insonify/core/random.hpp>
 #include <insonify/core/random_lanes.hpp>
@@ -139,13 +140,16 @@
 #include <insonify/shadow/policy.hpp>
 #include <insonify/sonar/backscatter.hpp>
 #include <insonify/sonar/bottom_tiles.hpp>
+#include <insonify/sonar/bottom_tone.hpp>
 #include <insonify/sonar/display.hpp>
+#include <insonify/sonar/instruments.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/light_pass.hpp>
 #include <insonify/sonar/name_tally.hpp>
 #include <insonify/sonar/occlusion.hpp>
 #include <insonify/sonar/ping_echo.hpp>
 #include <insonify/sonar/ping_fan.hpp>
+#include <insonify/sonar/ping_gain.hpp>
 #include <insonify/sonar/placed_mesh.hpp>
 #include <insonify/sonar/point_pass.hpp>
 #include <insonify/sonar/range_geometry.hpp>
@@ -159,9 +163,11 @@
 #include <insonify/sonar/side_scan.hpp>
 #include <insonify/sonar/slant_range.hpp>
 #include <insonify/sonar/slant_to_ground.hpp>
+#include <insonify/sonar/smooth_noise.hpp>
 #include <insonify/sonar/sonar_equation.hpp>
 #include <insonify/sonar/speckle.hpp>
 #include <insonify/sonar/swath.hpp>
 #include <insonify/sonar/target_hits.hpp>
 #include <insonify/sonar/target_slices.hpp>
+#include <insonify/sonar/water_column.hpp>
 #include <insonify/version.hpp>

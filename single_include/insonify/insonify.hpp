@@ -71,7 +71,16 @@
 // Every header that computes with floats stands between these two, which forbid it there whatever the user's flags
 // allow. (clang heeds no pragma under an explicit -ffp-contract=fast; fast-honor-pragmas is the same and does.) g++ is
 // also asked not to remark on how wide vectors are passed: they stay inside always-inlined code.
-#if defined(__clang__)
+#if defined(__clang__) && !defined(__x86_64__) && !defined(__i386__)
+// No float_control there. WebAssembly has no fused instruction.
+#if defined(__wasm__)
+#define INSONIFY_ARITHMETIC_BEGIN
+#define INSONIFY_ARITHMETIC_END
+#else
+#define INSONIFY_ARITHMETIC_BEGIN _Pragma("clang fp contract(off)")
+#define INSONIFY_ARITHMETIC_END _Pragma("clang fp contract(on)")
+#endif
+#elif defined(__clang__)
 #define INSONIFY_ARITHMETIC_BEGIN _Pragma("float_control(push)") _Pragma("clang fp contract(off)")
 #define INSONIFY_ARITHMETIC_END _Pragma("float_control(pop)")
 #elif defined(__GNUC__)
@@ -90,15 +99,17 @@
 #define INSONIFY_ARITHMETIC_END
 #endif
 
-// Run-time dispatch to wider instruction sets: x86-64 with GNU attributes only. Other targets compile one path.
-#if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__)
+// Run-time dispatch to wider instruction sets: x86-64 with GNU attributes, and only where kernels are optimized. Other
+// builds compile one path, to the same bytes.
+#if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__) && defined(__OPTIMIZE__)
 #define INSONIFY_DISPATCH 1
 #else
 #define INSONIFY_DISPATCH 0
 #endif
 
-// Whether a kernel is one function, whatever it calls. With 0 programs compile in half of the time and run several
-// times as long, to the same bytes. The sanitizers choose 0, because what they add would compile for minutes.
+// Whether a kernel is one function, whatever it calls. With 0 programs compile a little faster and run several times as
+// long, to the same bytes. Builds without optimization choose 0, as do the sanitizers, because what they add would
+// compile for minutes.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define INSONIFY_SANITIZED 1
 #elif defined(__has_feature)
@@ -107,7 +118,7 @@
 #endif
 #endif
 #if !defined(INSONIFY_WHOLE_KERNELS)
-#if defined(__GNUC__) && !defined(INSONIFY_SANITIZED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(INSONIFY_SANITIZED)
 #define INSONIFY_WHOLE_KERNELS 1
 #else
 #define INSONIFY_WHOLE_KERNELS 0
@@ -157,6 +168,8 @@
 
 #if !INSONIFY_SIMD
 #define INSONIFY_TAG_SIMD _scalar
+#elif !INSONIFY_DISPATCH
+#define INSONIFY_TAG_SIMD _plain
 #elif defined(__AVX512F__)
 #define INSONIFY_TAG_SIMD _avx512
 #elif defined(__AVX2__)
@@ -188,18 +201,107 @@
 
 namespace insonify::inline INSONIFY_ABI {}
 
+// ------------ insonify/core/portable.hpp ----------------------------------------------------------------
+// Parts of the C++20 library that some standard libraries lack: libc++ has std::bit_cast from version 14 on, floats in
+// std::from_chars from 20 on and in std::to_chars from 14 on.
+
+#include <bit>
+#include <charconv>
+#include <clocale>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace numeric {
+
+/// The value of type To that has the same bits.
+template <class To, class From>
+constexpr To bit_cast(const From& from) noexcept {
+    static_assert(sizeof(To) == sizeof(From) && std::is_trivially_copyable_v<To> && std::is_trivially_copyable_v<From>);
+#if defined(__cpp_lib_bit_cast)
+    return std::bit_cast<To>(from);
+#else
+    return __builtin_bit_cast(To, from);
+#endif
+}
+
+}  // namespace numeric
+
+namespace detail {
+
+/// What became of a text that should be a number.
+enum class number_text { fine, malformed, out_of_range };
+
+/// Reads all of a text as a decimal number, with a sign or without, whatever the locale.
+inline number_text parse_number(std::string_view text, double& value) {
+    // from_chars takes no plus, so it is stepped over, but not before a minus.
+    if (text.substr(0, 1) == "+" && text.substr(1, 1) != "-") text.remove_prefix(1);
+    const char *const first = text.data(), *const last = first + text.size();
+#if defined(__cpp_lib_to_chars)
+    const auto [end, status] = std::from_chars(first, last, value);
+    if (status == std::errc::invalid_argument || end != last) return number_text::malformed;
+    return status == std::errc{} ? number_text::fine : number_text::out_of_range;
+#else
+    // strtod also takes white space and hexadecimal numbers, and expects the locale's decimal point.
+    const auto is_taken = [](char c) {
+        return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
+    };
+    std::string copy;
+    for (const char* c = first; c != last; ++c) {
+        const bool is_word = text.find_first_of("nN") != text.npos && *c != 'x' && *c != 'X' && *c > ' ';  // inf, nan
+        if (!is_taken(*c) && !is_word) return number_text::malformed;
+        if (*c == '.')
+            copy += std::localeconv()->decimal_point;
+        else
+            copy += *c;
+    }
+    if (copy.empty() || copy[0] == '+') return number_text::malformed;
+    char* end = nullptr;
+    value = std::strtod(copy.c_str(), &end);
+    if (end != copy.c_str() + copy.size()) return number_text::malformed;
+    const bool names_infinity = text.find_first_of("iI") != text.npos;
+    const bool overflowed =
+        (value > (std::numeric_limits<double>::max)() || value < std::numeric_limits<double>::lowest());
+    return overflowed && !names_infinity ? number_text::out_of_range : number_text::fine;
+#endif
+}
+
+/// The shortest text that reads back as the same number, without the locale; returns its end.
+template <class Number>
+char* format_number(char* first, char* last, Number value) {
+#if !defined(__cpp_lib_to_chars)
+    if constexpr (std::is_floating_point_v<Number>) {
+        for (int digits = 1; digits <= std::numeric_limits<Number>::max_digits10; ++digits) {
+            std::snprintf(first, static_cast<std::size_t>(last - first), "%.*g", digits, static_cast<double>(value));
+            if (static_cast<Number>(std::strtod(first, nullptr)) == value) break;
+        }
+        char* end = first;
+        for (; *end != '\0'; ++end)
+            if (*end == *std::localeconv()->decimal_point) *end = '.';
+        return end;
+    } else
+#endif
+        return std::to_chars(first, last, value).ptr;
+}
+
+}  // namespace detail
+
+}  // namespace insonify::inline INSONIFY_ABI
+
 // ------------ insonify/core/error.hpp -------------------------------------------------------------------
 // The two errors that leave the library, and the one way they do.
 //
 // Bad data that comes by the million (a NaN vertex, a degenerate triangle) is never an error: it is skipped and
 // counted.
 
-#include <charconv>
 #include <exception>
 #include <stdexcept>
-#include <string>
-#include <string_view>
-#include <type_traits>
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -237,10 +339,8 @@ std::string to_text(Number value) {
     if constexpr (std::is_same_v<Number, bool>) {
         return value ? "true" : "false";
     } else {
-        char buffer[64];
-        const auto [end, status] = std::to_chars(buffer, buffer + sizeof buffer, value);
-        static_cast<void>(status);  // 64 characters hold any number
-        return {buffer, end};
+        char buffer[64];  // holds any number
+        return {buffer, format_number(buffer, buffer + sizeof buffer, value)};
     }
 }
 
@@ -262,7 +362,6 @@ void require(bool holds, std::string_view argument, Number value, std::string_vi
 // A window onto pixels that live somewhere else: pointer, size and row stride. Every algorithm takes these.
 
 #include <concepts>
-#include <cstddef>
 #include <span>
 
 namespace insonify::inline INSONIFY_ABI {
@@ -335,10 +434,8 @@ class image_view {
 // The C library's log, sin and exp differ between versions and even between processors of one version, so whatever
 // reaches a pixel is computed here: + - * / and the correctly rounded square root alone, in a fixed order.
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -368,10 +465,10 @@ constexpr double to_degrees(double radians) {
 
 /// Finite by its bits, which no compiler flag can argue away.
 constexpr bool is_finite(float value) {
-    return (std::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
+    return (numeric::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
 }
 constexpr bool is_finite(double value) {
-    return (std::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
+    return (numeric::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
 
 /// A number without its sign.
@@ -405,11 +502,11 @@ constexpr double log(double x) {
         x *= 0x1p54;
         k = -54;
     }
-    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const auto bits = numeric::bit_cast<std::uint64_t>(x);
     // Adding the distance from sqrt(1/2) to 1 moves the cut between exponents to sqrt(2).
     const std::uint64_t shifted = bits + (0x3FF0000000000000u - 0x3FE6A09E667F3BCDu);
     k += static_cast<int>(shifted >> 52) - 1023;
-    const auto m = std::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFu) + 0x3FE6A09E667F3BCDu);
+    const auto m = numeric::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFu) + 0x3FE6A09E667F3BCDu);
     // m - 1 is exact and carries the result; what is added to it is smaller, so that errors stay in the last bit.
     const double f = m - 1;
     const double s = f / (m + 1);
@@ -436,7 +533,9 @@ constexpr double exp(double x) {
     for (int n = 14; n >= 1; --n) sum = sum * r / n + 1.0;
     // 2^k in two steps, so that results below the normal range are reached without losing the factor.
     const std::int64_t half = k / 2;
-    const auto power = [](std::int64_t e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); };
+    const auto power = [](std::int64_t e) {
+        return numeric::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+    };
     return sum * power(half) * power(k - half);
 }
 
@@ -634,9 +733,9 @@ INSONIFY_ARITHMETIC_END
 //
 // A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
 // values go through it at a time. Its arithmetic is the same in every lane at every N, and products are never fused
-// with sums, so all levels give the same bytes; N = 1 is plain scalar code. Kernels that gain by AVX-512 say how many
-// values at a time are best there, `static constexpr int widest = 16` (or 8, for its registers alone); others stay at
-// AVX2.
+// with sums, so all levels give the same bytes; N = 1 is plain scalar code, compiled where INSONIFY_SIMD is 0. Kernels
+// that gain by AVX-512 say how many values at a time are best there, `static constexpr int widest = 16`; others stay at
+// AVX2. That is for kernels that gain more than a tenth: each copy costs compile time.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -644,7 +743,7 @@ namespace insonify::inline INSONIFY_ABI {
 
 /// Instruction sets that kernels are compiled for, slowest first.
 enum class isa {
-    scalar,    ///< one value at a time
+    scalar,    ///< one value at a time: builds with INSONIFY_SIMD=0; others take it for `baseline`
     baseline,  ///< the 128-bit vectors that every processor of the target has (SSE2, NEON)
     avx2,      ///< 256-bit integer and float vectors
     avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
@@ -693,9 +792,10 @@ void dispatch(const Kernel& kernel, isa level) {
     if (level >= isa::avx2) return run_avx2(kernel);
 #endif
 #if INSONIFY_SIMD
-    if (level == isa::baseline) return kernel.template run<4>();
-#endif
+    kernel.template run<4>();
+#else
     kernel.template run<1>();
+#endif
 }
 
 }  // namespace detail
@@ -1128,7 +1228,7 @@ struct memory_block {
         void* const mapped = ::mmap(nullptr, all, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
         if (mapped == MAP_FAILED) raise(std::bad_alloc());
         char* const start = static_cast<char*>(mapped);
-        const std::size_t past = std::bit_cast<std::uintptr_t>(start + margin) % page;
+        const std::size_t past = numeric::bit_cast<std::uintptr_t>(start + margin) % page;
         const std::size_t before = past == 0 ? 0 : page - past, after = page - before;
         if (before > 0) ::munmap(start, before);
         if (after > 0) ::munmap(start + all - after, after);
@@ -1760,7 +1860,7 @@ struct pixel_grid {
     /// Rounds a distance in pixels from the centre of an axis, to nearest, ties to even; |pixels| < reach(51).
     std::int64_t snap(double pixels, int extent) const {
         const double scaled = pixels * static_cast<double>(unit());
-        const auto rounded = std::bit_cast<std::int64_t>(scaled + magic) - std::bit_cast<std::int64_t>(magic);
+        const auto rounded = numeric::bit_cast<std::int64_t>(scaled + magic) - numeric::bit_cast<std::int64_t>(magic);
         return rounded + extent * half();
     }
     bool is_compact(const screen_vertex& v) const {
@@ -2083,9 +2183,9 @@ struct double_double {
 
     /// The nearest float. Rounding the upper half to odd first keeps the lower one's say in ties.
     float to_float() const {
-        auto bits = std::bit_cast<std::uint64_t>(high);
+        auto bits = numeric::bit_cast<std::uint64_t>(high);
         if (low != 0 && (bits & 1) == 0) bits += (low > 0) == (high > 0) ? 1u : ~std::uint64_t{0};
-        return static_cast<float>(std::bit_cast<double>(bits));
+        return static_cast<float>(numeric::bit_cast<double>(bits));
     }
 
   private:
@@ -2315,8 +2415,8 @@ class projection {
         std::uint64_t origin;  ///< of the picture, less what the magic number leaves
         axis(const pixel_grid& grid, int extent, double half)
             : units(half * static_cast<double>(grid.unit())),
-              origin(
-                  static_cast<std::uint64_t>(extent * grid.half() - std::bit_cast<std::int64_t>(pixel_grid::magic))) {}
+              origin(static_cast<std::uint64_t>(extent * grid.half() -
+                                                numeric::bit_cast<std::int64_t>(pixel_grid::magic))) {}
     };
     template <int N>
     INSONIFY_INLINE static void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& units,
@@ -2646,15 +2746,15 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
         return a;
     } else {
         using floats = std::array<float, sizeof(V) / sizeof(float)>;
-        const auto fa = std::bit_cast<floats>(a);
-        const auto fb = std::bit_cast<floats>(b);
-        const auto fc = std::bit_cast<floats>(c);
+        const auto fa = numeric::bit_cast<floats>(a);
+        const auto fb = numeric::bit_cast<floats>(b);
+        const auto fc = numeric::bit_cast<floats>(c);
         floats sum;
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] =
                 static_cast<float>(static_cast<double>(fa[i]) * weights.x + static_cast<double>(fb[i]) * weights.y +
                                    static_cast<double>(fc[i]) * weights.z);
-        return std::bit_cast<V>(sum);
+        return numeric::bit_cast<V>(sum);
     }
 }
 
@@ -3444,8 +3544,8 @@ class tile_buffer {
     explicit tile_buffer(int size)
         : stride_(size + slack),
           count_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
-          depth_(std::make_unique_for_overwrite<float[]>(count_)),
-          winner_(Winners ? std::make_unique_for_overwrite<std::uint32_t[]>(count_) : nullptr) {
+          depth_(new float[count_]),
+          winner_(Winners ? new std::uint32_t[count_] : nullptr) {
         for (int i = 0; i < block * block; ++i) block_[i] = static_cast<std::uint32_t>(i / block * stride_ + i % block);
     }
 
@@ -4123,7 +4223,6 @@ class fragment_lanes {
 /// part of a row before any of it is shaded: either is one long chain, and so neighbours' chains run side by side.
 template <class Screen, class Varyings, class Shader>
 struct shading_kernel {
-    static constexpr int widest = 8;  // of AVX-512 its registers help, wider vectors don't
     const Screen& screen;
     const vertex_record<Varyings>* records;
     tile_buffer<true>& tile;
@@ -4495,9 +4594,11 @@ class image {
         return extent;
     }
     std::size_t area() const {
-        const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-        detail::require(pixels <= (std::size_t{1} << 40), "width x height", pixels, "at most 2^40 pixels");
-        return pixels;
+        const std::uint64_t pixels = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+        detail::require(pixels <= (std::uint64_t{1} << 40), "width x height", pixels, "at most 2^40 pixels");
+        constexpr std::uint64_t addressable = (std::numeric_limits<std::size_t>::max)() / sizeof(T);
+        detail::require(pixels <= addressable, "width x height", pixels, "as many as this machine can address");
+        return static_cast<std::size_t>(pixels);
     }
     std::size_t index(int x, int y) const {
         INSONIFY_ASSERT(0 <= x && (x < width_ || width_ == 0) && 0 <= y && y < height_);
@@ -5296,7 +5397,7 @@ void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 f
     validate(field);
     const image<float>& heights = field.heights;
     const auto width = static_cast<std::size_t>(heights.width()), height = static_cast<std::size_t>(heights.height());
-    insonify::detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
+    insonify::detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(),
                               "below 2^32");
 
     result.positions.resize(heights.size());
@@ -5723,8 +5824,7 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
     detail::require(allowed.slope >= 0, "leeway.slope", allowed.slope, "a slope, at least 0");
     detail::require(allowed.lean >= 0, "leeway.lean", allowed.lean, "square metres, at least 0");
     const image<float>& heights = field.heights;
-    detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
-                    "below 2^32");
+    detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(), "below 2^32");
     const detail::needed_vertices needed(field, allowed, ex);
 
     const int size = needed.size();
@@ -7664,6 +7764,24 @@ struct lambert_backscatter {
     }
 };
 
+/// Lambert's law plus the mirror-like echo of facets near normal incidence, which makes the bright band below the
+/// sonar: s^2 + facets exp(-tan^2(incidence) / (2 slope^2)) (P. Beckmann, A. Spizzichino. The Scattering of
+/// Electromagnetic Waves from Rough Surfaces, 1963, chapter 5; D. R. Jackson, M. D. Richardson. High-Frequency Seafloor
+/// Acoustics, 2007, chapter 13: Kirchhoff approximation).
+struct facet_backscatter {
+    float facets = 4;     ///< echo at normal incidence over that of Lambert's law, >= 0
+    float slope = 0.15f;  ///< rms slope of the facets, above 0: smooth mud 0.05, sand 0.1 to 0.2, gravel 0.3
+
+    float operator()(float s) const {
+        const double square = static_cast<double>(s) * static_cast<double>(s);
+        if (!(square > 1e-6)) return 0;
+        const double tangent_square = 1 / square - 1, spread = static_cast<double>(slope);
+        const double exponent = 0.5 * tangent_square / (spread * spread);
+        return static_cast<float>(square +
+                                  (exponent < 80 ? static_cast<double>(facets) * numeric::exp(-exponent) : 0.0));
+    }
+};
+
 }  // namespace insonify::inline INSONIFY_ABI
 
 INSONIFY_ARITHMETIC_END
@@ -7894,8 +8012,8 @@ image<T> filled(int width, int height, T value, E& ex) {
         T* const start = result.row(static_cast<int>(first)).data();
         const std::size_t count = (last - first) * static_cast<std::size_t>(width);
         // Most values are the same byte over and over, which the system writes fastest.
-        const auto bytes = std::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
-        if (std::ranges::count(bytes, bytes[0]) == std::ssize(bytes))
+        const auto bytes = numeric::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
+        if (std::count(bytes.begin(), bytes.end(), bytes[0]) == std::ssize(bytes))
             std::memset(start, bytes[0], count * sizeof(T));
         else
             std::fill_n(start, count, value);
@@ -11513,7 +11631,11 @@ struct scene {
 inline void validate(const scene& s) {
     const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
         if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
-        detail::refuse(list + ("[" + detail::to_text(i)) + member, m.reflectivity, "0 or more, finite");
+        std::string name = list;  // appended to: at -O3, g++ 12 warns of "[" + to_text(i)
+        name += '[';
+        name += detail::to_text(i);
+        name += member;
+        detail::refuse(name, m.reflectivity, "0 or more, finite");
     };
     for (std::size_t i = 0; i < s.bottom.size(); ++i)
         if (s.bottom[i].reflectivity != by_seabed_model) check(s.bottom[i], "scene.bottom", i, "].reflectivity");
@@ -13440,9 +13562,9 @@ inline bool keeps_to(const errors& found, const budget& tolerated) {
 /// What a picture is made of: plain values, to read and to change.
 template <shadow::policy Shadow = shadow::exact>
 struct settings {
-    Shadow shadow{};            ///< with its texels per pixel, if it has any
-    int cells = 0;              ///< of the seabed along the picture's longer side, as in render_options
-    int subpixel_bits = 8;      ///< as in render_options
+    Shadow shadow{};  ///< with its texels per pixel, if it has any
+    int cells = 0;    ///< of the seabed along the picture's longer side, as in render_options
+    int subpixel_bits = render_options<Shadow>{}.subpixel_bits;
     float edge_error = 0;       ///< as in render_options
     double side_error = 1;      ///< pixels by which facets of a curved target may displace its outline
     double shadow_error = 0.5;  ///< pixels by which they may displace the edge of its shadow
@@ -13532,7 +13654,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     const overhead_geometry view(rig);
     settings<Shadow> found{.rig = rig};
     // Rounding a vertex moves it by half a sub-pixel at most, along each axis.
-    found.subpixel_bits = tolerated.silhouette * 0.05 < 1.0 / 256 ? 16 : 8;
+    if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits)) found.subpixel_bits = 16;
     found.side_error = tolerated.silhouette;
     found.shadow_error = 0.5 * tolerated.shadow_edge;
     if (bottom.empty()) return found;
@@ -15619,11 +15741,11 @@ namespace detail {
 
 /// Bits that compare as unsigned integers the way floats compare, and back.
 constexpr std::uint32_t ordered_bits(float value) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const auto bits = numeric::bit_cast<std::uint32_t>(value);
     return bits ^ ((bits >> 31) != 0 ? 0xFFFFFFFFu : 0x80000000u);
 }
 constexpr float from_ordered_bits(std::uint32_t bits) {
-    return std::bit_cast<float>(bits ^ ((bits >> 31) != 0 ? 0x80000000u : 0xFFFFFFFFu));
+    return numeric::bit_cast<float>(bits ^ ((bits >> 31) != 0 ? 0x80000000u : 0xFFFFFFFFu));
 }
 
 /// Radix sort by three digits of 11 bits: five to six times as fast as std::sort on millions of values.
@@ -17139,7 +17261,6 @@ INSONIFY_ARITHMETIC_END
 // Source: Wavefront Technologies. Advanced Visualizer Manual, appendix B1: Object Files (.obj), 1993.
 
 #include <cerrno>
-#include <cstdio>
 #include <system_error>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -17238,15 +17359,11 @@ class obj_reader {
     float number() {
         const std::string_view digits = word();
         if (digits.empty()) fail("a vertex or normal has fewer than 3 numbers");
-        // from_chars takes no plus, so it is stepped over, but not before a minus.
-        const bool plus = digits[0] == '+' && digits.substr(1, 1) != "-";
-        const char* const first = digits.data() + (plus ? 1 : 0);
-        const char* const last = digits.data() + digits.size();
         double value = 0;
-        const auto [end, status] = std::from_chars(first, last, value);
-        if (status == std::errc::invalid_argument || end != last) fail(quoted(digits) + " is not a number");
+        const number_text found = parse_number(digits, value);
+        if (found == number_text::malformed) fail(quoted(digits) + " is not a number");
         constexpr auto limit = static_cast<double>((std::numeric_limits<float>::max)());
-        if (status != std::errc{} || !(value >= -limit && value <= limit)) {
+        if (found != number_text::fine || !(value >= -limit && value <= limit)) {
             fail(quoted(digits) + " is not a finite number that a float can hold");
         }
         return static_cast<float>(value);
@@ -19727,9 +19844,8 @@ class netpbm_reader {
         height_ = integer("height", 1, 1 << 30);
         if (is_float()) {
             const std::string_view text = token("scale");
-            float scale = 0;
-            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), scale);
-            if (status != std::errc() || end != text.data() + text.size() || !(scale < 0 || scale > 0)) {
+            double scale = 0;
+            if (parse_number(text, scale) != number_text::fine || !(scale < 0 || scale > 0)) {
                 fail("scale is " + quoted(text) + ", expected a number other than 0");
             }
             little_endian_ = scale < 0;
@@ -19762,7 +19878,7 @@ class netpbm_reader {
         for (std::size_t i = 0; i < 4; ++i)
             bits = bits << 8 | static_cast<std::uint32_t>(byte(little_endian_ ? 3 - i : i));
         rest_.remove_prefix(4);
-        return std::bit_cast<float>(bits);
+        return numeric::bit_cast<float>(bits);
     }
 
     [[noreturn]] void fail(const std::string& reason) const { raise_io(name_, reason); }
@@ -19844,7 +19960,7 @@ inline void append_sample(std::string& bytes, std::uint16_t sample) {
     bytes.push_back(static_cast<char>(sample & 0xFF));
 }
 inline void append_sample(std::string& bytes, float sample) {
-    const auto bits = std::bit_cast<std::uint32_t>(sample);
+    const auto bits = numeric::bit_cast<std::uint32_t>(sample);
     for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(bits >> shift & 0xFF));
 }
 template <class Sample>
@@ -19992,11 +20108,8 @@ class survey_reader {
     double number(std::string_view digits, const char* what) const {
         if (digits.empty())
             fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
-        const bool plus = digits[0] == '+' && digits.substr(1, 1) != "-";
         double value = 0;
-        const auto [end, status] =
-            std::from_chars(digits.data() + (plus ? 1 : 0), digits.data() + digits.size(), value);
-        if (status != std::errc{} || end != digits.data() + digits.size())
+        if (insonify::detail::parse_number(digits, value) != insonify::detail::number_text::fine)
             fail(quoted(digits) + " is not a number, expected " + what);
         return value;
     }
@@ -21128,30 +21241,61 @@ class bottom_tiles {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/display.hpp ----------------------------------------------------------------
-// From intensities to gray values: the last step, and the only one that isn't linear.
+// ------------ insonify/sonar/smooth_noise.hpp -----------------------------------------------------------
+// Noise without grain, for what drifts: gain from ping to ping, the brightness of the bottom from place to place.
+//
+// Standard normal numbers at the nodes of a lattice, blended with weights whose squares add up to one: the variance is
+// one everywhere, not only at the nodes. Each value is a function of (key, position).
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify::inline INSONIFY_ABI::detail {
 
-/// A filter that makes gray values in [0, 1] of intensities: their square root, the amplitude, is what sonars show.
-struct display {
-    float white = 6;  ///< the intensity that is white, above 0; brighter ones are cut
+/// What a smooth field is drawn for; part of what a seed means.
+enum class drift_stream : std::uint32_t {
+    range_gain = 0x64726900,
+    ping_gain,
+    ping_jitter,
+    surface,
+    tone,
+    streaks,
+    patches
+};
 
-    using is_filter = std::true_type;
+/// Where a position lies between two nodes, and the nodes' weights.
+struct lattice_place {
+    std::int64_t node;
+    double low, high;  // weights, of squares that add up to one
 
-    /// @throws invalid_input for a `white` that isn't positive
-    auto pass() const {
-        detail::require(white > 0 && numeric::is_finite(white), "display.white", white, "above 0");
-        return [scale = 1 / white]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
-            const float share = intensity * scale;
-            return share > 0 ? (share < 1 ? numeric::square_root(share) : 1.0f) : 0.0f;
-        };
+    explicit lattice_place(double position) : node(numeric::floor_to_int(position)) {
+        const double t = position - static_cast<double>(node), s = t * t * (3 - 2 * t);
+        const double norm = 1 / numeric::square_root(s * s + (1 - s) * (1 - s));
+        low = (1 - s) * norm, high = s * norm;
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+inline double lattice_normal(std::int64_t i, std::int64_t j, std::uint32_t layer, const philox_key& key) {
+    const auto row = static_cast<std::uint64_t>(j);
+    const philox_counter word = philox4x32(
+        {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(row >> 32), layer},
+        key);
+    return normal_pair(word[0], word[1])[0];
+}
+
+/// Of mean 0 and variance 1. Values two nodes apart, and more, are independent.
+inline double smooth_noise(double position, const philox_key& key) {
+    const lattice_place p(position);
+    return p.low * lattice_normal(p.node, 0, 0, key) + p.high * lattice_normal(p.node + 1, 0, 0, key);
+}
+
+/// The same over a plane.
+inline double smooth_noise(double x, double y, std::uint32_t layer, const philox_key& key) {
+    const lattice_place p(x), q(y);
+    const auto at = [&](int i, int j) { return lattice_normal(p.node + i, q.node + j, layer, key); };
+    return q.low * (p.low * at(0, 0) + p.high * at(1, 0)) + q.high * (p.low * at(0, 1) + p.high * at(1, 1));
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
 
 INSONIFY_ARITHMETIC_END
 
@@ -21205,194 +21349,6 @@ class name_tally {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/occlusion.hpp --------------------------------------------------------------
-// Which points of a scene a light reaches: built once for a light, tested for many points, without a picture.
-//
-// The casters are those of `render`: the targets, and the seabed sampled around the points and towards the light.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-
-/// Where points will be tested, and how finely the seabed is sampled there.
-struct occlusion_bounds {
-    bounding_box box;  ///< around all of the points, in the world; not empty
-    double cell = 0;   ///< metres from one vertex of the seabed to the next; 0: a 512th of the box's longer side
-    double reach = 8;  ///< how far towards the light the seabed is sampled, at most, in lengths of the longer side
-};
-
-/// The light of a rig, in the world.
-inline shadow::any_light light_of(const overhead& rig) {
-    const overhead_geometry view(rig);
-    if (!view.has_near_light())
-        return shadow::directional_light{static_cast<double>(rig.light_azimuth) + static_cast<double>(rig.yaw),
-                                         static_cast<double>(rig.grazing)};
-    const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
-    return shadow::point_light{numeric::product(to_world, view.light_position()) + glm::dvec3(rig.position, 0)};
-}
-
-/// How much light points get, and from what they are shaded.
-struct point_light_shares {
-    std::vector<float> lit;             ///< 0 to 1
-    std::vector<std::uint16_t> shadow;  ///< as in labels::shadow: 0, an instance, or labels::by_seabed
-};
-
-/// The casters of a scene under one light. It holds the targets' meshes; the scene may go.
-/// @param Occlusion  what a shadow policy builds
-template <class Occlusion>
-class scene_occlusion {
-  public:
-    /// See occlusion_of.
-    template <class Shadow, executor E>
-    scene_occlusion(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
-                    const Shadow& policy, E& ex)
-        : centre_((require_box(within), within.box.centre())),
-          shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
-          targets_(s.targets.size()),
-          built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
-
-    /// @param at  in the world, within the bounds
-    template <executor_argument E = serial_executor>
-    point_light_shares test(std::span<const glm::dvec3> at, E&& ex = {}) const {
-        point_light_shares all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
-        bulk_ranges(ex, at.size(), most_points, [&](std::size_t first, std::size_t last) {
-            const std::size_t count = last - first;
-            std::vector<double> x(count), y(count), z(count);
-            for (std::size_t i = 0; i < count; ++i) {
-                x[i] = at[first + i].x - centre_.x;
-                y[i] = at[first + i].y - centre_.y;
-                z[i] = at[first + i].z;
-            }
-            const std::vector<std::uint32_t> none(count, shadow::invalid_id);
-            std::vector<std::uint32_t> caster(count);
-            built_.test(shadow::points{x, y, z, none, none},
-                        shadow::shares{std::span(all.lit).subspan(first, count), caster});
-            for (std::size_t i = 0; i < count; ++i)
-                if (caster[i] != shadow::invalid_id)
-                    all.shadow[first + i] =
-                        caster[i] < targets_ ? static_cast<std::uint16_t>(caster[i] + 1) : labels::by_seabed;
-        });
-        return all;
-    }
-
-  private:
-    static constexpr std::size_t most_points = 16384;
-
-    struct placed {
-        shared_mesh shape;
-        affine placement;  ///< into a frame around the centre of the bounds, over the datum
-    };
-
-    static void require_box(const occlusion_bounds& within) {
-        const glm::dvec3 size = within.box.size();
-        detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
-                        "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
-        detail::require(within.cell >= 0 && numeric::is_finite(within.cell), "occlusion_bounds.cell", within.cell,
-                        "0 metres or more");
-        detail::require(within.reach >= 0 && numeric::is_finite(within.reach), "occlusion_bounds.reach", within.reach,
-                        "0 or more");
-    }
-    affine around_centre(affine to_world) const {
-        to_world.offset -= glm::dvec3(centre_.x, centre_.y, 0);
-        return to_world;
-    }
-    shadow::any_light from_centre(shadow::any_light light) const {
-        if (auto* from_nearby = std::get_if<shadow::point_light>(&light))
-            from_nearby->position -= glm::dvec3(centre_.x, centre_.y, 0);
-        return light;
-    }
-    shadow::point_bounds local(const occlusion_bounds& within) const {
-        const glm::dvec3 away(centre_.x, centre_.y, 0);
-        return {{within.box.lower - away, within.box.upper - away}, 0.5 * cell_of(within)};
-    }
-    static double longer_side(const occlusion_bounds& within) {
-        const glm::dvec3 size = within.box.size();
-        return (std::max)({size.x, size.y, 1e-3 * size.z, 1e-9});
-    }
-    static double cell_of(const occlusion_bounds& within) {
-        return within.cell > 0 ? within.cell : longer_side(within) / 512;
-    }
-
-    std::vector<shadow::caster> casters() const {
-        std::vector<shadow::caster> all;
-        for (const placed& p : shapes_) all.push_back({p.shape, p.placement, p.shape.box()});
-        return all;
-    }
-
-    template <executor E>
-    std::vector<placed> shapes_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
-                                  double radius, E& ex) const {
-        std::vector<placed> all;
-        for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
-        if (s.seabed.empty()) return all;
-        seabed::detail::require_finite(s.seabed.prepare().range());
-        const auto [first, last] = casting_part(s, light, within, radius);
-        seabed::grid grid = seabed::grid_over(first, last, cell_of(within));
-        grid.band_limited = true;
-        const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);
-        all.push_back({seabed::tessellate(field, ex), around_centre({glm::dmat3(1), glm::dvec3(field.origin, 0)})});
-        return all;
-    }
-
-    /// The ground below the box, and towards the light as far as the bottom may rise into a ray.
-    static std::pair<glm::dvec2, glm::dvec2> casting_part(const scene& s, const shadow::any_light& light,
-                                                          const occlusion_bounds& within, double radius) {
-        const glm::dvec2 lower(within.box.lower), upper(within.box.upper);
-        std::pair<glm::dvec2, glm::dvec2> part{lower - cell_of(within), upper + cell_of(within)};
-        const double longest = within.reach * longer_side(within);
-        const double highest = s.seabed.prepare().range().highest, rise = highest - within.box.lower.z;
-        if (!(rise > 0)) return part;
-        for (int corner = 0; corner < 4; ++corner) {
-            const glm::dvec2 from((corner & 1) != 0 ? upper.x : lower.x, (corner & 2) != 0 ? upper.y : lower.y);
-            glm::dvec2 way;
-            if (const auto* from_nearby = std::get_if<shadow::point_light>(&light)) {
-                const double up = from_nearby->position.z - within.box.lower.z;
-                way = (up > rise ? rise / up : 1.0) * (glm::dvec2(from_nearby->position) - from);
-            } else {
-                const shadow::light_frame frame(std::get<shadow::directional_light>(light));
-                way = -rise * frame.cot_elevation() * frame.travel();
-            }
-            // Light that is no point comes from a little farther and from beside.
-            const double length = numeric::square_root(way.x * way.x + way.y * way.y);
-            const double wider = length + radius * (length * length / rise + rise);
-            const double aside = (std::min)(longest, wider) - (std::min)(longest, length);
-            const glm::dvec2 end = from + (length > longest ? longest / length : 1.0) * way;
-            for (int axis = 0; axis < 2; ++axis) {
-                part.first[axis] = (std::min)(part.first[axis], end[axis] - aside);
-                part.second[axis] = (std::max)(part.second[axis], end[axis] + aside);
-            }
-        }
-        return part;
-    }
-
-    glm::dvec3 centre_;
-    std::vector<placed> shapes_;  ///< the targets, then the seabed
-    std::size_t targets_;
-    Occlusion built_;
-};
-
-/// Prepares to test which points of a scene a light reaches.
-///
-/// A point on a surface is not shaded by the triangle that it lies on, up to rounding: compute it in doubles, from that
-/// triangle's vertices. The seabed's mesh lies beside its analytic heights by what sampling leaves out.
-/// @param light   in the world; `light_of(rig)` is that of a rig
-/// @param within  where the points are, and how finely the seabed is sampled
-/// @param policy  any shadow policy
-/// @param ex      who runs it; the result is the same for any executor
-/// @throws invalid_input for bounds that are empty or not finite, a light or a policy that cannot be
-template <shadow::casting_policy Shadow = shadow::exact, executor_argument E = serial_executor>
-auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
-                  const Shadow& policy = {}, E&& ex = {}) {
-    using built = decltype(policy.build(std::span<const shadow::caster>(), light, shadow::point_bounds{}, ex));
-    return scene_occlusion<built>(s, light, within, policy, ex);
-}
-
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -22302,81 +22258,6 @@ class ping_listener {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/range_geometry.hpp ---------------------------------------------------------
-// The closed forms of side-scan geometry over a level bottom: ranges, shadows, layover and what is measured from them.
-//
-// Lengths are metres. `altitude` is the sonar's above the bottom, `ground` a distance across the track on the bottom,
-// `height` that of a point above the bottom. Answers that don't exist are 0 (a distance inside the water column) or
-// infinity (the shadow of what reaches the sonar's height), never NaN for finite arguments.
-//
-// Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::range_geometry {
-
-/// Distance from the sonar to a point.
-inline double slant_range(double ground, double altitude, double height = 0) {
-    const double down = altitude - height;
-    return numeric::square_root(ground * ground + down * down);
-}
-
-/// Where the bottom is at a slant range; 0 in the water column.
-inline double ground_range(double slant, double altitude) {
-    return slant > altitude ? numeric::square_root(slant * slant - altitude * altitude) : 0;
-}
-
-/// Angle of the sound with the bottom, radians: pi / 2 below the sonar.
-inline double grazing_angle(double ground, double altitude) {
-    return numeric::atan2(altitude, ground);
-}
-
-/// Where the shadow of a point ends on the bottom.
-inline double shadow_tip(double ground, double altitude, double height) {
-    return height < altitude ? ground * altitude / (altitude - height) : std::numeric_limits<double>::infinity();
-}
-
-/// Length of a shadow on the bottom, from below the point that casts it.
-inline double shadow_length(double ground, double altitude, double height) {
-    return height < altitude ? height * ground / (altitude - height) : std::numeric_limits<double>::infinity();
-}
-
-/// Length of a shadow in a picture of slant ranges, from the echo of the point that casts it.
-inline double slant_shadow_length(double ground, double altitude, double height) {
-    if (!(height < altitude)) return std::numeric_limits<double>::infinity();
-    return slant_range(shadow_tip(ground, altitude, height), altitude) - slant_range(ground, altitude, height);
-}
-
-/// Where a raised point appears after `ground_range`: layover moves it towards the sonar, to 0 at most.
-inline double apparent_ground(double ground, double altitude, double height) {
-    return ground_range(slant_range(ground, altitude, height), altitude);
-}
-
-/// Height of what casts a shadow, from the slant ranges of its top and of the shadow's tip.
-inline double height_from_slant(double top, double tip, double altitude) {
-    return tip > 0 ? altitude * (tip - top) / tip : 0;
-}
-
-/// The same from distances on the bottom.
-inline double height_from_ground(double foot, double tip, double altitude) {
-    return tip > 0 ? altitude * (tip - foot) / tip : 0;
-}
-
-/// Metres of bottom in a bin of slant range; infinite straight below the sonar.
-inline double ground_resolution(double bin, double grazing) {
-    const double cosine = numeric::sin_cos(grazing).cosine;
-    return cosine > 0 ? bin / cosine : std::numeric_limits<double>::infinity();
-}
-
-/// Metres of track between the half-power points of a beam of so many radians, one way.
-inline double along_track_footprint(double slant, double beam_width) {
-    return slant * beam_width;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::range_geometry
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/sonar/sonar_equation.hpp ---------------------------------------------------------
 // The sonar equation as a list of parts: what is not in the list is not computed, and not compiled.
 //
@@ -22964,68 +22845,6 @@ recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/slant_to_ground.hpp --------------------------------------------------------
-// Slant-range correction: a recording laid out on the bottom, as if that were level.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// Lays a recording out on a level bottom at the datum: the water column goes, what is raised stays shifted towards the
-/// sonar by its layover. Intensities are interpolated linearly between the centres of bins and labels are those of the
-/// nearest bin; what the recording doesn't reach is 0, without labels.
-///
-/// @param slant      as `render` or `record` made it
-/// @param from       its rig
-/// @param to         which ground ranges the result's columns are: first_range, range and bins count
-/// @param altitudes  of the sonar above the bottom, one per row from the top, or none: then all are the rig's
-/// @throws invalid_input for a rig that can't be right, or a number of altitudes that is neither 0 nor that of rows
-template <class Labels>
-recording<Labels> to_ground_range(const recording<Labels>& slant, const side_scan& from, const ground_range& to,
-                                  std::span<const double> altitudes = {}) {
-    validate(from), validate(to);
-    const int rows = slant.image.height(), bins = slant.image.width();
-    detail::require(bins == from.bins, "from.bins", from.bins, "the recording's width");
-    detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
-                    altitudes.size(), "0 or one per row");
-    recording<Labels> out;
-    out.stats = slant.stats;
-    out.rows = slant.rows;
-    out.image = image<float>(to.bins, rows);
-    if constexpr (std::is_same_v<Labels, labels>) {
-        out.labels = labels(to.bins, rows);
-        out.labels.targets = slant.labels.targets;
-        out.labels.legend = slant.labels.legend;
-    }
-    for (int y = 0; y < rows; ++y) {
-        const double altitude =
-            altitudes.empty() ? static_cast<double>(from.altitude) : altitudes[static_cast<std::size_t>(y)];
-        for (int x = 0; x < to.bins; ++x) {
-            const double ground = static_cast<double>(to.first_range) + (x + 0.5) * to.bin();
-            const double range = range_geometry::slant_range(ground, altitude);
-            const double column = (range - static_cast<double>(from.first_range)) / from.bin();
-            if (!(column >= 0 && column < bins)) continue;
-            const int nearest = static_cast<int>(column);
-            const int left = column - nearest < 0.5 ? nearest - 1 : nearest;
-            const auto share = static_cast<float>(column - 0.5 - left);
-            const float before = slant.image((std::max)(left, 0), y);
-            const float after = slant.image((std::min)(left + 1, bins - 1), y);
-            out.image(x, y) = before + share * (after - before);
-            if constexpr (std::is_same_v<Labels, labels>) {
-                out.labels.instance(x, y) = slant.labels.instance(nearest, y);
-                out.labels.shadow(x, y) = slant.labels.shadow(nearest, y);
-                out.labels.seabed(x, y) = slant.labels.seabed(nearest, y);
-            }
-        }
-    }
-    if constexpr (std::is_same_v<Labels, labels>) detail::describe_again(out.labels);
-    return out;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/sonar/swath.hpp ------------------------------------------------------------------
 // Both sides of the track in one picture.
 
@@ -23368,6 +23187,899 @@ recording<labels> with_speckle(recording<labels> r, const seabed_speckle& s = {}
     r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));
     return r;
 }
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/bottom_tone.hpp ------------------------------------------------------------
+// The bottom's brightness from place to place: drift of its backscatter, streaks, and patches of another sediment.
+//
+// A survey line over "one" bottom is not one gray: grain size, shell and cover change over metres to hundreds of metres
+// (T. K. Stanton. Sonar Estimates of Seafloor Microroughness. JASA 75, 1984; J. A. Goff and others. Correlation of
+// sidescan backscatter with grain size distribution of surficial seabed sediments. Marine Geology 205, 2004), and
+// currents sort it into streaks along the flow. Levels are a function of (seed, position), so a bottom that is seen
+// twice, from either side, has the same tone.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Levels in decibels that are added to a bottom's; all of them 0 is none.
+struct bottom_tone {
+    float drift = 0;            ///< rms of what drifts, 0 to 30
+    float drift_length = 20;    ///< metres between the nodes of its coarsest octave, above 0
+    int octaves = 3;            ///< each of half the length and half the level of the one before, 1 to 8
+    float streaks = 0;          ///< rms of streaks, 0 to 30
+    float streak_width = 1.5f;  ///< metres between nodes across them, above 0
+    float streak_length = 40;   ///< metres between nodes along them, above 0
+    float direction = 0;        ///< radians from +x: along the streaks
+    float patches = 0;          ///< by how much patches are brighter (or, negative, darker), -30 to 30
+    float patch_size = 15;      ///< metres between the nodes that make their outline, above 0
+    float patch_share = 0.3f;   ///< of the area, 0.01 to 0.99
+    std::uint64_t seed = 1;
+
+    bool is_none() const { return drift == 0 && streaks == 0 && patches == 0; }
+};
+
+namespace detail {
+
+inline void validate(const bottom_tone& t) {
+    const auto level = [](const char* name, float v) { require(v >= 0 && v <= 30, name, v, "0 to 30 dB"); };
+    const auto length = [](const char* name, float v) {
+        require(v >= 1e-4f && v <= 1e9f, name, v, "1e-4 to 1e9 metres");
+    };
+    level("bottom_tone.drift", t.drift);
+    level("bottom_tone.streaks", t.streaks);
+    length("bottom_tone.drift_length", t.drift_length);
+    length("bottom_tone.streak_width", t.streak_width);
+    length("bottom_tone.streak_length", t.streak_length);
+    length("bottom_tone.patch_size", t.patch_size);
+    require(t.octaves >= 1 && t.octaves <= 8, "bottom_tone.octaves", t.octaves, "1 to 8");
+    require(numeric::is_finite(t.direction), "bottom_tone.direction", t.direction, "a finite angle");
+    require(t.patches >= -30 && t.patches <= 30, "bottom_tone.patches", t.patches, "-30 to 30 dB");
+    require(t.patch_share >= 0.01f && t.patch_share <= 0.99f, "bottom_tone.patch_share", t.patch_share, "0.01 to 0.99");
+}
+
+/// Where the standard normal distribution reaches a share, to 5e-4 (C. Hastings. Approximations for Digital Computers,
+/// 1955, sheet 67).
+inline double normal_quantile(double share) {
+    const double tail = share < 0.5 ? share : 1 - share, t = numeric::square_root(-2 * numeric::log(tail));
+    const double z =
+        t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+    return share < 0.5 ? -z : z;
+}
+
+/// Evaluates a tone.
+class tone_sampler {
+  public:
+    /// @throws invalid_input for a parameter out of its range
+    explicit tone_sampler(const bottom_tone& t) : t_((validate(t), t)), along_(numeric::sin_cos(t.direction)) {
+        const auto key = [&](drift_stream stream) { return stream_key(t.seed, static_cast<std::uint32_t>(stream)); };
+        drift_ = key(drift_stream::tone), streaks_ = key(drift_stream::streaks), patches_ = key(drift_stream::patches);
+        double squares = 0, share = 1;
+        for (int i = 0; i < t.octaves; ++i, share *= 0.5) squares += share * share;
+        scale_ = static_cast<double>(t.drift) / numeric::square_root(squares);
+        threshold_ = normal_quantile(1 - static_cast<double>(t.patch_share));
+    }
+
+    /// @returns decibels
+    double operator()(const glm::dvec2& at) const {
+        double level = 0;
+        if (t_.drift > 0) {
+            double per_metre = 1 / static_cast<double>(t_.drift_length), share = scale_;
+            for (int i = 0; i < t_.octaves; ++i, per_metre *= 2, share *= 0.5)
+                level +=
+                    share * smooth_noise(at.x * per_metre, at.y * per_metre, static_cast<std::uint32_t>(i), drift_);
+        }
+        if (t_.streaks > 0) {
+            const double along = at.x * along_.cosine + at.y * along_.sine,
+                         across = at.y * along_.cosine - at.x * along_.sine;
+            level += static_cast<double>(t_.streaks) * smooth_noise(along / static_cast<double>(t_.streak_length),
+                                                                    across / static_cast<double>(t_.streak_width), 0,
+                                                                    streaks_);
+        }
+        if (t_.patches != 0) {
+            // Two octaves, so that outlines are ragged; a soft border.
+            const double size = static_cast<double>(t_.patch_size);
+            const double field = 0.89442719 * smooth_noise(at.x / size, at.y / size, 0, patches_) +
+                                 0.44721360 * smooth_noise(4 * at.x / size, 4 * at.y / size, 1, patches_);
+            const double inside = 0.5 + 4 * (field - threshold_);
+            level += static_cast<double>(t_.patches) * (inside > 0 ? (inside < 1 ? inside : 1.0) : 0.0);
+        }
+        return level;
+    }
+
+  private:
+    bottom_tone t_;
+    numeric::sine_cosine along_;
+    philox_key drift_{}, streaks_{}, patches_{};
+    double scale_ = 0, threshold_ = 0;
+};
+
+}  // namespace detail
+
+/// The level that a tone adds at a position, decibels.
+/// @throws invalid_input for a parameter out of its range
+inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
+    return detail::tone_sampler(tone)(position);
+}
+
+/// A recording whose bottom has a tone: intensities of pixels that the labels name a seabed for change by the level at
+/// their place on the datum; targets, shadows' noise and the water column stay.
+///
+/// @param r    as `render` made it of this rig: before noise and speckle
+/// @throws invalid_input for a parameter out of its range
+template <across_track Axis, executor_argument E = serial_executor>
+recording<labels> with_tone(recording<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
+    const detail::tone_sampler level(tone);
+    if (tone.is_none()) return r;
+    const ping_numbers numbers = r.rows;
+    const double altitude = static_cast<double>(rig.altitude), first = static_cast<double>(rig.first_range);
+    bulk_ranges(ex, static_cast<std::size_t>(r.image.height()), 16, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+            const int y = static_cast<int>(i);
+            const ping_frame frame(ping_of(rig, static_cast<int>(numbers.first) + numbers.step * y), rig.side);
+            const auto row = r.image.row(y);
+            const auto types = r.labels.seabed.row(y);
+            for (std::size_t x = 0; x < row.size(); ++x) {
+                if (types[x] == labels::no_seabed) continue;
+                const double range = first + (static_cast<double>(x) + 0.5) * rig.bin();
+                const double square = range * range - altitude * altitude;
+                const double ground = Axis == across_track::ground_range ? range
+                                      : square > 0                       ? numeric::square_root(square)
+                                                                         : 0.0;
+                row[x] *= static_cast<float>(from_decibels(level(frame.world(ground, 0))));
+            }
+        }
+    });
+    return r;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/display.hpp ----------------------------------------------------------------
+// From intensities to gray values: the last step, and the only one that isn't linear.
+//
+// What real pictures show differs more by their display than by their sonar: amplitude or power at a fixed white,
+// decibels over a range below a reference, or black and white wherever the picture's own extremes are (P. Blondel. The
+// Handbook of Sidescan Sonar, 2009, chapter 4: gain, contrast stretch and dynamic range of displays).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// A filter that makes gray values in [0, 1] of intensities by a power: (intensity / white)^exponent. The default is
+/// their square root, the amplitude, which is what most sonars show. NaN is black.
+struct display {
+    float white = 6;        ///< the intensity that is white, above 0; brighter ones are cut
+    float exponent = 0.5f;  ///< 0.5: amplitude, 1: power; above 0, at most 4
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a `white` that isn't positive, or an exponent outside its range
+    auto pass() const {
+        detail::require(white > 0 && numeric::is_finite(white), "display.white", white, "above 0");
+        detail::require(exponent > 0 && exponent <= 4, "display.exponent", exponent, "above 0, at most 4");
+        return [scale = 1 / white, to = exponent]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
+            const float share = intensity * scale;
+            if (!(share > 0)) return 0;
+            if (share >= 1) return 1;
+            if (to == 0.5f) return numeric::square_root(share);
+            if (to == 1) return share;
+            return static_cast<float>(numeric::pow(static_cast<double>(share), static_cast<double>(to)));
+        };
+    }
+};
+
+/// Gray values by decibels: black at `range` below white, white at `white`, even steps between. NaN, 0 and below are
+/// black. Sonars record over 60 to 120 dB and show 20 to 50 of them.
+struct decibel_display {
+    float white = 6;   ///< the intensity that is white, above 0
+    float range = 40;  ///< decibels from black to white, above 0, at most 400
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a parameter out of its range
+    auto pass() const {
+        detail::require(white > 0 && numeric::is_finite(white), "decibel_display.white", white, "above 0");
+        detail::require(range > 0 && range <= 400, "decibel_display.range", range, "above 0, at most 400 dB");
+        // 10 log10(e) / range for each natural logarithm
+        return [white = static_cast<double>(white),
+                step = 4.3429448190325182 / static_cast<double>(range)]<std::same_as<float> Pixel>(Pixel intensity, int,
+                                                                                                   int) -> Pixel {
+            if (!(intensity > 0)) return 0;
+            if (!numeric::is_finite(intensity)) return 1;
+            const double gray = 1 + step * numeric::log(static_cast<double>(intensity) / white);
+            return gray > 0 ? (gray < 1 ? static_cast<float>(gray) : 1.0f) : 0.0f;
+        };
+    }
+};
+
+/// What automatic_display measures in.
+enum class display_scale { power, amplitude, decibels };
+
+/// Black and white by the picture's own percentiles, as the "auto" of survey software stretches a picture: the share
+/// `black` of the pixels is black, the share `white` of them white.
+struct automatic_display {
+    display_scale scale = display_scale::amplitude;
+    float black = 0.01f;  ///< share of the pixels, 0 to 0.49
+    float white = 0.01f;  ///< share of the pixels, 0 to 0.49
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a share out of its range
+    auto pass(image_view<const float> picture) const {
+        detail::require(black >= 0 && black <= 0.49f, "automatic_display.black", black, "0 to 0.49");
+        detail::require(white >= 0 && white <= 0.49f, "automatic_display.white", white, "0 to 0.49");
+        std::vector<float> values;
+        values.reserve(picture.size());
+        for (int y = 0; y < picture.height(); ++y)
+            for (const float v : picture.row(y))
+                if (numeric::is_finite(v)) values.push_back(v);
+        const auto quantile = [&](double share) {
+            const auto at =
+                values.begin() + numeric::floor_to_int(share * static_cast<double>(values.size() - 1) + 0.5);
+            std::nth_element(values.begin(), at, values.end());
+            return measure(static_cast<double>(*at), scale);
+        };
+        double low = 0, high = 1;
+        if (!values.empty())
+            low = quantile(static_cast<double>(black)), high = quantile(1 - static_cast<double>(white));
+        return [low, step = high > low ? 1 / (high - low) : 0.0, as = scale]<std::same_as<float> Pixel>(
+                   Pixel intensity, int, int) -> Pixel {
+            const double gray = (measure(static_cast<double>(intensity), as) - low) * step;
+            return gray > 0 ? (gray < 1 ? static_cast<float>(gray) : 1.0f) : 0.0f;
+        };
+    }
+
+  private:
+    /// -300 dB stands for no sound at all, 1e30 for an endless one.
+    static double measure(double intensity, display_scale as) {
+        if (!(intensity > 1e-30)) intensity = as == display_scale::decibels ? 1e-30 : 0.0;
+        if (intensity > 1e30) intensity = 1e30;
+        if (as == display_scale::power) return intensity;
+        if (as == display_scale::amplitude) return numeric::square_root(intensity);
+        return 4.3429448190325182 * numeric::log(intensity);
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/instruments.hpp ------------------------------------------------------------
+// Classes of sonars by name: what sets their grain, their range and how they are shown.
+//
+// Values are typical of a class, rounded from makers' data sheets of the instruments that are named, and are the middle
+// of what a generator varies: beams are between the -3 dB points of one way, resolutions are c / (2 bandwidth), ranges
+// are usable ones over sand. Absorption is that of salt water (M. A. Ainslie, J. G. McColm. A Simplified Formula for
+// Viscous and Chemical Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m). A towed sonar is flown at 10 to
+// 20 % of its range above the bottom (NOAA. Hydrographic Surveys Field Procedures Manual, 2014, side scan sonar: 8 to
+// 20 %).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// What a class of sonars has in common.
+struct instrument {
+    std::string_view name;
+    float frequency;               ///< hertz
+    float beam;                    ///< width along the track, radians
+    float range_resolution;        ///< metres of slant range
+    float along_track_resolution;  ///< metres at every range of a synthetic aperture; 0: what the beam makes it
+    float range;                   ///< metres of slant range to one side
+    int looks;                     ///< intensities that a pixel averages before it is shown
+    float dynamic_range;           ///< decibels that are shown
+    float absorption_per_km;       ///< decibels, one way
+    float vertical_beam;           ///< width, radians
+    float tilt;                    ///< of the vertical beam's axis below the horizon, radians
+
+    float wavelength() const { return 1500 / frequency; }
+    horizontal_beam horizontal() const { return {beam}; }
+    bool is_synthetic_aperture() const { return along_track_resolution > 0; }
+    /// Metres along the track that one pixel mixes at a slant range.
+    double along_track(double slant_range) const {
+        return is_synthetic_aperture() ? static_cast<double>(along_track_resolution)
+                                       : slant_range * static_cast<double>(beam);
+    }
+    /// Metres over which the correlation of speckle intensities falls to 1 / e, across the track: 0.516 of the
+    /// resolution for a pulse with a flat band, whose correlation is the square of sin(u) / u.
+    double grain_across() const { return 0.516 * static_cast<double>(range_resolution); }
+    /// The same along the track: see horizontal_beam::speckle_length.
+    double grain_along(double slant_range) const {
+        return is_synthetic_aperture() ? 0.516 * static_cast<double>(along_track_resolution)
+                                       : horizontal().speckle_length(slant_range, static_cast<double>(wavelength()));
+    }
+};
+
+namespace instruments {
+
+/// 450 kHz side-scan: Klein 3900 at 445 kHz, EdgeTech 4200 at 400 kHz (0.3 to 0.5 degrees), StarFish 450.
+inline constexpr instrument side_scan_450{"side_scan_450", 450e3f, 0.0070f, 0.03f, 0, 150, 1, 40, 116, 0.87f, 0.26f};
+/// 600 kHz side-scan: EdgeTech 4125 at 600 kHz, 4205 at 520 kHz.
+inline constexpr instrument side_scan_600{"side_scan_600", 600e3f, 0.0058f, 0.015f, 0, 100, 1, 40, 169, 0.87f, 0.35f};
+/// 900 kHz side-scan: Klein 3900 and EdgeTech 4125 at 900 kHz, Marine Sonic ARC.
+inline constexpr instrument side_scan_900{"side_scan_900", 900e3f, 0.0049f, 0.01f, 0, 60, 1, 36, 322, 0.87f, 0.35f};
+/// 1800 kHz side-scan of small vehicles: EdgeTech 2205 and 4125 at 1600 kHz, Marine Sonic at 1800 kHz.
+inline constexpr instrument side_scan_1800{
+    "side_scan_1800", 1800e3f, 0.0035f, 0.006f, 0, 25, 1, 34, 1070, 0.87f, 0.35f};
+/// Interferometric synthetic aperture of 60 to 120 kHz: Kongsberg HISAS 1032 (R. E. Hansen. Introduction to Synthetic
+/// Aperture Sonar. In: Sonar Systems, 2011).
+inline constexpr instrument synthetic_aperture{
+    "synthetic_aperture", 100e3f, 0.35f, 0.03f, 0.03f, 180, 2, 50, 34, 0.6f, 0.3f};
+
+inline constexpr std::array<instrument, 5> all{side_scan_450, side_scan_600, side_scan_900, side_scan_1800,
+                                               synthetic_aperture};
+
+}  // namespace instruments
+
+/// An instrument by its name.
+/// @throws invalid_input for a name that none has
+inline const instrument& instrument_named(std::string_view name) {
+    for (const instrument& i : instruments::all)
+        if (i.name == name) return i;
+    detail::raise(invalid_input("instrument is '" + std::string(name) +
+                                "', expected side_scan_450, side_scan_600, side_scan_900, side_scan_1800 or "
+                                "synthetic_aperture"));
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/occlusion.hpp --------------------------------------------------------------
+// Which points of a scene a light reaches: built once for a light, tested for many points, without a picture.
+//
+// The casters are those of `render`: the targets, and the seabed sampled around the points and towards the light.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Where points will be tested, and how finely the seabed is sampled there.
+struct occlusion_bounds {
+    bounding_box box;  ///< around all of the points, in the world; not empty
+    double cell = 0;   ///< metres from one vertex of the seabed to the next; 0: a 512th of the box's longer side
+    double reach = 8;  ///< how far towards the light the seabed is sampled, at most, in lengths of the longer side
+};
+
+/// The light of a rig, in the world.
+inline shadow::any_light light_of(const overhead& rig) {
+    const overhead_geometry view(rig);
+    if (!view.has_near_light())
+        return shadow::directional_light{static_cast<double>(rig.light_azimuth) + static_cast<double>(rig.yaw),
+                                         static_cast<double>(rig.grazing)};
+    const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
+    return shadow::point_light{numeric::product(to_world, view.light_position()) + glm::dvec3(rig.position, 0)};
+}
+
+/// How much light points get, and from what they are shaded.
+struct point_light_shares {
+    std::vector<float> lit;             ///< 0 to 1
+    std::vector<std::uint16_t> shadow;  ///< as in labels::shadow: 0, an instance, or labels::by_seabed
+};
+
+/// The casters of a scene under one light. It holds the targets' meshes; the scene may go.
+/// @param Occlusion  what a shadow policy builds
+template <class Occlusion>
+class scene_occlusion {
+  public:
+    /// See occlusion_of.
+    template <class Shadow, executor E>
+    scene_occlusion(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
+                    const Shadow& policy, E& ex)
+        : centre_((require_box(within), within.box.centre())),
+          shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
+          targets_(s.targets.size()),
+          built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
+
+    /// @param at  in the world, within the bounds
+    template <executor_argument E = serial_executor>
+    point_light_shares test(std::span<const glm::dvec3> at, E&& ex = {}) const {
+        point_light_shares all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
+        bulk_ranges(ex, at.size(), most_points, [&](std::size_t first, std::size_t last) {
+            const std::size_t count = last - first;
+            std::vector<double> x(count), y(count), z(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                x[i] = at[first + i].x - centre_.x;
+                y[i] = at[first + i].y - centre_.y;
+                z[i] = at[first + i].z;
+            }
+            const std::vector<std::uint32_t> none(count, shadow::invalid_id);
+            std::vector<std::uint32_t> caster(count);
+            built_.test(shadow::points{x, y, z, none, none},
+                        shadow::shares{std::span(all.lit).subspan(first, count), caster});
+            for (std::size_t i = 0; i < count; ++i)
+                if (caster[i] != shadow::invalid_id)
+                    all.shadow[first + i] =
+                        caster[i] < targets_ ? static_cast<std::uint16_t>(caster[i] + 1) : labels::by_seabed;
+        });
+        return all;
+    }
+
+  private:
+    static constexpr std::size_t most_points = 16384;
+
+    struct placed {
+        shared_mesh shape;
+        affine placement;  ///< into a frame around the centre of the bounds, over the datum
+    };
+
+    static void require_box(const occlusion_bounds& within) {
+        const glm::dvec3 size = within.box.size();
+        detail::require(!within.box.empty() && numeric::is_finite(size.x + size.y + size.z),
+                        "occlusion_bounds.box.size()", size.x + size.y + size.z, "that of a box around the points");
+        detail::require(within.cell >= 0 && numeric::is_finite(within.cell), "occlusion_bounds.cell", within.cell,
+                        "0 metres or more");
+        detail::require(within.reach >= 0 && numeric::is_finite(within.reach), "occlusion_bounds.reach", within.reach,
+                        "0 or more");
+    }
+    affine around_centre(affine to_world) const {
+        to_world.offset -= glm::dvec3(centre_.x, centre_.y, 0);
+        return to_world;
+    }
+    shadow::any_light from_centre(shadow::any_light light) const {
+        if (auto* from_nearby = std::get_if<shadow::point_light>(&light))
+            from_nearby->position -= glm::dvec3(centre_.x, centre_.y, 0);
+        return light;
+    }
+    shadow::point_bounds local(const occlusion_bounds& within) const {
+        const glm::dvec3 away(centre_.x, centre_.y, 0);
+        return {{within.box.lower - away, within.box.upper - away}, 0.5 * cell_of(within)};
+    }
+    static double longer_side(const occlusion_bounds& within) {
+        const glm::dvec3 size = within.box.size();
+        return (std::max)({size.x, size.y, 1e-3 * size.z, 1e-9});
+    }
+    static double cell_of(const occlusion_bounds& within) {
+        return within.cell > 0 ? within.cell : longer_side(within) / 512;
+    }
+
+    std::vector<shadow::caster> casters() const {
+        std::vector<shadow::caster> all;
+        for (const placed& p : shapes_) all.push_back({p.shape, p.placement, p.shape.box()});
+        return all;
+    }
+
+    template <executor E>
+    std::vector<placed> shapes_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
+                                  double radius, E& ex) const {
+        std::vector<placed> all;
+        for (const target& t : s.targets) all.push_back({t.shape, around_centre(to_world(t.placement))});
+        if (s.seabed.empty()) return all;
+        seabed::detail::require_finite(s.seabed.prepare().range());
+        const auto [first, last] = casting_part(s, light, within, radius);
+        seabed::grid grid = seabed::grid_over(first, last, cell_of(within));
+        grid.band_limited = true;
+        const seabed::heightfield field = seabed::sample(s.seabed, grid, ex);
+        all.push_back({seabed::tessellate(field, ex), around_centre({glm::dmat3(1), glm::dvec3(field.origin, 0)})});
+        return all;
+    }
+
+    /// The ground below the box, and towards the light as far as the bottom may rise into a ray.
+    static std::pair<glm::dvec2, glm::dvec2> casting_part(const scene& s, const shadow::any_light& light,
+                                                          const occlusion_bounds& within, double radius) {
+        const glm::dvec2 lower(within.box.lower), upper(within.box.upper);
+        std::pair<glm::dvec2, glm::dvec2> part{lower - cell_of(within), upper + cell_of(within)};
+        const double longest = within.reach * longer_side(within);
+        const double highest = s.seabed.prepare().range().highest, rise = highest - within.box.lower.z;
+        if (!(rise > 0)) return part;
+        for (int corner = 0; corner < 4; ++corner) {
+            const glm::dvec2 from((corner & 1) != 0 ? upper.x : lower.x, (corner & 2) != 0 ? upper.y : lower.y);
+            glm::dvec2 way;
+            if (const auto* from_nearby = std::get_if<shadow::point_light>(&light)) {
+                const double up = from_nearby->position.z - within.box.lower.z;
+                way = (up > rise ? rise / up : 1.0) * (glm::dvec2(from_nearby->position) - from);
+            } else {
+                const shadow::light_frame frame(std::get<shadow::directional_light>(light));
+                way = -rise * frame.cot_elevation() * frame.travel();
+            }
+            // Light that is no point comes from a little farther and from beside.
+            const double length = numeric::square_root(way.x * way.x + way.y * way.y);
+            const double wider = length + radius * (length * length / rise + rise);
+            const double aside = (std::min)(longest, wider) - (std::min)(longest, length);
+            const glm::dvec2 end = from + (length > longest ? longest / length : 1.0) * way;
+            for (int axis = 0; axis < 2; ++axis) {
+                part.first[axis] = (std::min)(part.first[axis], end[axis] - aside);
+                part.second[axis] = (std::max)(part.second[axis], end[axis] + aside);
+            }
+        }
+        return part;
+    }
+
+    glm::dvec3 centre_;
+    std::vector<placed> shapes_;  ///< the targets, then the seabed
+    std::size_t targets_;
+    Occlusion built_;
+};
+
+/// Prepares to test which points of a scene a light reaches.
+///
+/// A point on a surface is not shaded by the triangle that it lies on, up to rounding: compute it in doubles, from that
+/// triangle's vertices. The seabed's mesh lies beside its analytic heights by what sampling leaves out.
+/// @param light   in the world; `light_of(rig)` is that of a rig
+/// @param within  where the points are, and how finely the seabed is sampled
+/// @param policy  any shadow policy
+/// @param ex      who runs it; the result is the same for any executor
+/// @throws invalid_input for bounds that are empty or not finite, a light or a policy that cannot be
+template <shadow::casting_policy Shadow = shadow::exact, executor_argument E = serial_executor>
+auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
+                  const Shadow& policy = {}, E&& ex = {}) {
+    using built = decltype(policy.build(std::span<const shadow::caster>(), light, shadow::point_bounds{}, ex));
+    return scene_occlusion<built>(s, light, within, policy, ex);
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/ping_gain.hpp --------------------------------------------------------------
+// What a receiver's gain leaves behind: brightness that drifts across range, and from ping to ping.
+//
+// Recordings are corrected for spreading, absorption and beam pattern by models that don't hold exactly, so a level
+// bottom is shown brighter at some ranges than at others; heave, roll and aeration make whole pings brighter or
+// darker (P. Blondel. The Handbook of Sidescan Sonar, 2009, chapter 4; P. Cervenka, C. de Moustier. Sidescan Sonar
+// Image Processing Techniques. IEEE Journal of Oceanic Engineering 18, 1993). Both are filters of intensities: rows are
+// pings, columns are bins.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+inline void check_decibels(const char* name, float value) {
+    require(value >= 0 && value <= 60, name, value, "0 to 60 dB");
+}
+inline void check_length(const char* name, float value) {
+    require(value >= 1 && value <= 1e9f, name, value, "1 to 1e9 pixels");
+}
+
+/// Multiplies pixels by a factor that depends on the column alone, computed once for each column.
+class column_gain {
+  public:
+    template <class DecibelsAt>
+    column_gain(int width, const DecibelsAt& decibels_at) {
+        for (int x = 0; x < width; ++x) factors_.push_back(static_cast<float>(from_decibels(decibels_at(x))));
+    }
+    template <std::same_as<float> Pixel>
+    Pixel operator()(Pixel intensity, int x, int) const {
+        return intensity * factors_[static_cast<std::size_t>(x)];
+    }
+
+  private:
+    std::vector<float> factors_;
+};
+
+/// Of a ping_banding.
+template <class Banding>
+class banding_law {
+  public:
+    explicit banding_law(const Banding& b)
+        : b_(b),
+          drift_(stream_key(b.seed, static_cast<std::uint32_t>(drift_stream::ping_gain))),
+          jitter_(stream_key(b.seed, static_cast<std::uint32_t>(drift_stream::ping_jitter))) {}
+
+    template <std::same_as<float> Pixel>
+    Pixel operator()(Pixel intensity, int, int y) {
+        if (y != row_) row_ = y, factor_ = factor_of(b_.first_ping + b_.step * std::int64_t{y});
+        return intensity * factor_;
+    }
+
+  private:
+    float factor_of(std::int64_t ping) const {
+        const double at = static_cast<double>(ping) / static_cast<double>(b_.length);
+        return static_cast<float>(from_decibels(static_cast<double>(b_.drift) * smooth_noise(at, drift_) +
+                                                static_cast<double>(b_.jitter) * lattice_normal(ping, 0, 0, jitter_)));
+    }
+
+    Banding b_;
+    philox_key drift_, jitter_;
+    int row_ = -1;
+    float factor_ = 1;
+};
+
+}  // namespace detail
+
+/// The error that time-varied gain leaves across range, in decibels: a slope, and a smooth random curve. Factors of a
+/// column are the same in all rows.
+struct range_gain_error {
+    float rms = 1.5f;    ///< decibels of the random curve, 0 to 60
+    float length = 120;  ///< bins between the nodes of the curve; two of them apart it is independent
+    float slope = 0;     ///< decibels from the first bin to the last, -60 to 60; its middle is 0
+    std::uint64_t seed = 1;
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a parameter out of its range
+    auto pass(image_view<const float> picture) const {
+        detail::check_decibels("range_gain_error.rms", rms);
+        detail::check_length("range_gain_error.length", length);
+        detail::require(slope >= -60 && slope <= 60, "range_gain_error.slope", slope, "-60 to 60 dB");
+        const int width = picture.width();
+        const philox_key key = stream_key(seed, static_cast<std::uint32_t>(detail::drift_stream::range_gain));
+        return detail::column_gain(width, [&](int x) {
+            return static_cast<double>(slope) * ((x + 0.5) / width - 0.5) +
+                   static_cast<double>(rms) * detail::smooth_noise(x / static_cast<double>(length), key);
+        });
+    }
+};
+
+/// Pings that are brighter or darker than their neighbours, in decibels: a drift over many pings, and a jitter of each
+/// by itself. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
+struct ping_banding {
+    float drift = 1;      ///< decibels (rms), 0 to 60
+    float length = 40;    ///< pings between the nodes of the drift
+    float jitter = 0.5f;  ///< decibels (rms), 0 to 60
+    std::int64_t first_ping = 0;
+    int step = 1;  ///< 1 or -1
+    std::uint64_t seed = 1;
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a parameter out of its range
+    auto pass() const {
+        detail::check_decibels("ping_banding.drift", drift);
+        detail::check_length("ping_banding.length", length);
+        detail::check_decibels("ping_banding.jitter", jitter);
+        detail::require(step == 1 || step == -1, "ping_banding.step", step, "1 or -1");
+        return detail::banding_law<ping_banding>(*this);
+    }
+};
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/range_geometry.hpp ---------------------------------------------------------
+// The closed forms of side-scan geometry over a level bottom: ranges, shadows, layover and what is measured from them.
+//
+// Lengths are metres. `altitude` is the sonar's above the bottom, `ground` a distance across the track on the bottom,
+// `height` that of a point above the bottom. Answers that don't exist are 0 (a distance inside the water column) or
+// infinity (the shadow of what reaches the sonar's height), never NaN for finite arguments.
+//
+// Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::range_geometry {
+
+/// Distance from the sonar to a point.
+inline double slant_range(double ground, double altitude, double height = 0) {
+    const double down = altitude - height;
+    return numeric::square_root(ground * ground + down * down);
+}
+
+/// Where the bottom is at a slant range; 0 in the water column.
+inline double ground_range(double slant, double altitude) {
+    return slant > altitude ? numeric::square_root(slant * slant - altitude * altitude) : 0;
+}
+
+/// Angle of the sound with the bottom, radians: pi / 2 below the sonar.
+inline double grazing_angle(double ground, double altitude) {
+    return numeric::atan2(altitude, ground);
+}
+
+/// Where the shadow of a point ends on the bottom.
+inline double shadow_tip(double ground, double altitude, double height) {
+    return height < altitude ? ground * altitude / (altitude - height) : std::numeric_limits<double>::infinity();
+}
+
+/// Length of a shadow on the bottom, from below the point that casts it.
+inline double shadow_length(double ground, double altitude, double height) {
+    return height < altitude ? height * ground / (altitude - height) : std::numeric_limits<double>::infinity();
+}
+
+/// Length of a shadow in a picture of slant ranges, from the echo of the point that casts it.
+inline double slant_shadow_length(double ground, double altitude, double height) {
+    if (!(height < altitude)) return std::numeric_limits<double>::infinity();
+    return slant_range(shadow_tip(ground, altitude, height), altitude) - slant_range(ground, altitude, height);
+}
+
+/// Where a raised point appears after `ground_range`: layover moves it towards the sonar, to 0 at most.
+inline double apparent_ground(double ground, double altitude, double height) {
+    return ground_range(slant_range(ground, altitude, height), altitude);
+}
+
+/// Height of what casts a shadow, from the slant ranges of its top and of the shadow's tip.
+inline double height_from_slant(double top, double tip, double altitude) {
+    return tip > 0 ? altitude * (tip - top) / tip : 0;
+}
+
+/// The same from distances on the bottom.
+inline double height_from_ground(double foot, double tip, double altitude) {
+    return tip > 0 ? altitude * (tip - foot) / tip : 0;
+}
+
+/// Metres of bottom in a bin of slant range; infinite straight below the sonar.
+inline double ground_resolution(double bin, double grazing) {
+    const double cosine = numeric::sin_cos(grazing).cosine;
+    return cosine > 0 ? bin / cosine : std::numeric_limits<double>::infinity();
+}
+
+/// Metres of track between the half-power points of a beam of so many radians, one way.
+inline double along_track_footprint(double slant, double beam_width) {
+    return slant * beam_width;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::range_geometry
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/slant_to_ground.hpp --------------------------------------------------------
+// Slant-range correction: a recording laid out on the bottom, as if that were level.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Lays a recording out on a level bottom at the datum: the water column goes, what is raised stays shifted towards the
+/// sonar by its layover. Intensities are interpolated linearly between the centres of bins and labels are those of the
+/// nearest bin; what the recording doesn't reach is 0, without labels.
+///
+/// @param slant      as `render` or `record` made it
+/// @param from       its rig
+/// @param to         which ground ranges the result's columns are: first_range, range and bins count
+/// @param altitudes  of the sonar above the bottom, one per row from the top, or none: then all are the rig's
+/// @throws invalid_input for a rig that can't be right, or a number of altitudes that is neither 0 nor that of rows
+template <class Labels>
+recording<Labels> to_ground_range(const recording<Labels>& slant, const side_scan& from, const ground_range& to,
+                                  std::span<const double> altitudes = {}) {
+    validate(from), validate(to);
+    const int rows = slant.image.height(), bins = slant.image.width();
+    detail::require(bins == from.bins, "from.bins", from.bins, "the recording's width");
+    detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
+                    altitudes.size(), "0 or one per row");
+    recording<Labels> out;
+    out.stats = slant.stats;
+    out.rows = slant.rows;
+    out.image = image<float>(to.bins, rows);
+    if constexpr (std::is_same_v<Labels, labels>) {
+        out.labels = labels(to.bins, rows);
+        out.labels.targets = slant.labels.targets;
+        out.labels.legend = slant.labels.legend;
+    }
+    for (int y = 0; y < rows; ++y) {
+        const double altitude =
+            altitudes.empty() ? static_cast<double>(from.altitude) : altitudes[static_cast<std::size_t>(y)];
+        for (int x = 0; x < to.bins; ++x) {
+            const double ground = static_cast<double>(to.first_range) + (x + 0.5) * to.bin();
+            const double range = range_geometry::slant_range(ground, altitude);
+            const double column = (range - static_cast<double>(from.first_range)) / from.bin();
+            if (!(column >= 0 && column < bins)) continue;
+            const int nearest = static_cast<int>(column);
+            const int left = column - nearest < 0.5 ? nearest - 1 : nearest;
+            const auto share = static_cast<float>(column - 0.5 - left);
+            const float before = slant.image((std::max)(left, 0), y);
+            const float after = slant.image((std::min)(left + 1, bins - 1), y);
+            out.image(x, y) = before + share * (after - before);
+            if constexpr (std::is_same_v<Labels, labels>) {
+                out.labels.instance(x, y) = slant.labels.instance(nearest, y);
+                out.labels.shadow(x, y) = slant.labels.shadow(nearest, y);
+                out.labels.seabed(x, y) = slant.labels.seabed(nearest, y);
+            }
+        }
+    }
+    if constexpr (std::is_same_v<Labels, labels>) detail::describe_again(out.labels);
+    return out;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/water_column.hpp -----------------------------------------------------------
+// What a receiver hears besides the bottom: its noise, which time-varied gain lifts with range, scatterers in the
+// water, and the sea surface.
+//
+// The surface answers from where it is straight above, at a slant range of the sonar's depth, as a bright line with a
+// tail; the volume answers from everywhere (R. J. Urick. Principles of Underwater Sound, 3rd edition, 1983, chapter 8).
+// Intensities are those of a recording after its gain: 1 is a level bottom of reflectivity one under `level_gain`.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+namespace detail {
+
+/// Of a water_column.
+template <class Water>
+class water_law {
+  public:
+    water_law(const Water& w, int bins)
+        : w_(w), key_(stream_key(w.seed, static_cast<std::uint32_t>(drift_stream::surface))) {
+        for (int x = 0; x < bins; ++x) {
+            const double over = range(x) / static_cast<double>(w.noise_range);
+            const double gain = numeric::pow(over, 0.1 * static_cast<double>(w.spreading)) *
+                                from_decibels(0.002 * static_cast<double>(w.absorption_per_km) *
+                                              (range(x) - static_cast<double>(w.noise_range)));
+            steady_.push_back(static_cast<float>(static_cast<double>(w.noise) * gain) + w.volume);
+        }
+    }
+
+    template <std::same_as<float> Pixel>
+    Pixel operator()(Pixel intensity, int x, int y) {
+        Pixel sum = intensity + steady_[static_cast<std::size_t>(x)];
+        if (w_.surface > 0) sum += surface_at(x, y);
+        return sum;
+    }
+
+  private:
+    double range(int x) const { return static_cast<double>(w_.first_range) + (x + 0.5) * static_cast<double>(w_.bin); }
+    float surface_at(int x, int y) {
+        if (y != row_) {
+            row_ = y;
+            begins_ = static_cast<double>(w_.surface_range) +
+                      static_cast<double>(w_.waves) * smooth_noise(y / static_cast<double>(w_.wave_length), key_);
+        }
+        const double tail = (range(x) - begins_) / static_cast<double>(w_.surface_tail);
+        // The rise takes a bin.
+        const double rise = (range(x) - begins_) / static_cast<double>(w_.bin) + 1;
+        if (rise <= 0 || tail > 80) return 0;
+        return w_.surface * static_cast<float>((rise < 1 ? rise : 1.0) * (tail > 0 ? numeric::exp(-tail) : 1.0));
+    }
+
+    Water w_;
+    philox_key key_;
+    std::vector<float> steady_;
+    int row_ = -1;
+    double begins_ = 0;
+};
+
+}  // namespace detail
+
+/// A filter that adds mean intensities by slant range; speckle on top makes them fluctuate. Rows are pings and columns
+/// bins of equal slant range.
+struct water_column {
+    float first_range = 0;  ///< metres, where the first bin begins
+    float bin = 0.02f;      ///< metres, above 0
+
+    float noise = 1e-3f;          ///< intensity of the receiver's noise at `noise_range`, >= 0
+    float noise_range = 40;       ///< metres, above 0
+    float spreading = 30;         ///< decibels per tenfold range by which gain lifts the noise, 0 to 60
+    float absorption_per_km = 0;  ///< the same for absorption, one way, 0 to 3000
+    float volume = 0;             ///< intensity of scatterers in the water, >= 0
+
+    float surface = 0;          ///< intensity of the surface return where it begins, >= 0; 0: none
+    float surface_range = 10;   ///< metres from the sonar up to the surface, above 0
+    float surface_tail = 0.3f;  ///< metres of range over which it decays to 1 / e, above 0
+    float waves = 0.1f;         ///< metres (rms) by which it wavers, >= 0
+    float wave_length = 15;     ///< pings between the nodes of that, at least 1
+    std::uint64_t seed = 1;
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a parameter out of its range
+    auto pass(image_view<const float> picture) const {
+        using detail::require;
+        const auto at_least_0 = [](const char* name, float v) {
+            require(v >= 0 && numeric::is_finite(v), name, v, "0 or more");
+        };
+        const auto above_0 = [](const char* name, float v) {
+            require(v > 0 && numeric::is_finite(v), name, v, "above 0");
+        };
+        at_least_0("water_column.first_range", first_range);
+        above_0("water_column.bin", bin);
+        at_least_0("water_column.noise", noise);
+        above_0("water_column.noise_range", noise_range);
+        require(spreading >= 0 && spreading <= 60, "water_column.spreading", spreading, "0 to 60 dB");
+        require(absorption_per_km >= 0 && absorption_per_km <= 3000, "water_column.absorption_per_km",
+                absorption_per_km, "0 to 3000 dB");
+        at_least_0("water_column.volume", volume);
+        at_least_0("water_column.surface", surface);
+        above_0("water_column.surface_range", surface_range);
+        above_0("water_column.surface_tail", surface_tail);
+        at_least_0("water_column.waves", waves);
+        require(wave_length >= 1 && wave_length <= 1e9f, "water_column.wave_length", wave_length, "1 to 1e9 pings");
+        return detail::water_law<water_column>(*this, picture.width());
+    }
+};
 
 }  // namespace insonify::inline INSONIFY_ABI
 

@@ -1,12 +1,14 @@
-# Headers, the CMake package and the pkg-config file.
+# Headers, the CMake package, the pkg-config file and the licence. The folders are GNU's, and can be set as usual
+# (CMAKE_INSTALL_INCLUDEDIR, CMAKE_INSTALL_DATADIR, ...).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/insonify)
 
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/insonify DESTINATION include)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/insonify DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS insonify EXPORT insonifyTargets)
 install(EXPORT insonifyTargets NAMESPACE insonify:: DESTINATION ${package_dir})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # Nothing in the package depends on the machine that built it. While the major version is 0, a minor one may break.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/insonifyConfigVersion.cmake COMPATIBILITY SameMinorVersion

@@ -29,9 +29,9 @@ inline bool keeps_to(const errors& found, const budget& tolerated) {
 /// What a picture is made of: plain values, to read and to change.
 template <shadow::policy Shadow = shadow::exact>
 struct settings {
-    Shadow shadow{};            ///< with its texels per pixel, if it has any
-    int cells = 0;              ///< of the seabed along the picture's longer side, as in render_options
-    int subpixel_bits = 8;      ///< as in render_options
+    Shadow shadow{};  ///< with its texels per pixel, if it has any
+    int cells = 0;    ///< of the seabed along the picture's longer side, as in render_options
+    int subpixel_bits = render_options<Shadow>{}.subpixel_bits;
     float edge_error = 0;       ///< as in render_options
     double side_error = 1;      ///< pixels by which facets of a curved target may displace its outline
     double shadow_error = 0.5;  ///< pixels by which they may displace the edge of its shadow
@@ -121,7 +121,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     const overhead_geometry view(rig);
     settings<Shadow> found{.rig = rig};
     // Rounding a vertex moves it by half a sub-pixel at most, along each axis.
-    found.subpixel_bits = tolerated.silhouette * 0.05 < 1.0 / 256 ? 16 : 8;
+    if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits)) found.subpixel_bits = 16;
     found.side_error = tolerated.silhouette;
     found.shadow_error = 0.5 * tolerated.shadow_edge;
     if (bottom.empty()) return found;

@@ -7,8 +7,7 @@
 #pragma once
 
 #include <insonify/core/int128.hpp>
-
-#include <bit>
+#include <insonify/core/portable.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -56,9 +55,9 @@ struct double_double {
 
     /// The nearest float. Rounding the upper half to odd first keeps the lower one's say in ties.
     float to_float() const {
-        auto bits = std::bit_cast<std::uint64_t>(high);
+        auto bits = numeric::bit_cast<std::uint64_t>(high);
         if (low != 0 && (bits & 1) == 0) bits += (low > 0) == (high > 0) ? 1u : ~std::uint64_t{0};
-        return static_cast<float>(std::bit_cast<double>(bits));
+        return static_cast<float>(numeric::bit_cast<double>(bits));
     }
 
   private:

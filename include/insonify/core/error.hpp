@@ -5,8 +5,8 @@
 #pragma once
 
 #include <insonify/config.hpp>
+#include <insonify/core/portable.hpp>
 
-#include <charconv>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -49,10 +49,8 @@ std::string to_text(Number value) {
     if constexpr (std::is_same_v<Number, bool>) {
         return value ? "true" : "false";
     } else {
-        char buffer[64];
-        const auto [end, status] = std::to_chars(buffer, buffer + sizeof buffer, value);
-        static_cast<void>(status);  // 64 characters hold any number
-        return {buffer, end};
+        char buffer[64];  // holds any number
+        return {buffer, format_number(buffer, buffer + sizeof buffer, value)};
     }
 }
 

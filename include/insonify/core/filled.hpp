@@ -4,10 +4,10 @@
 
 #include <insonify/core/executor.hpp>
 #include <insonify/core/image.hpp>
+#include <insonify/core/portable.hpp>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstring>
 
 namespace insonify::inline INSONIFY_ABI::detail {
@@ -21,8 +21,8 @@ image<T> filled(int width, int height, T value, E& ex) {
         T* const start = result.row(static_cast<int>(first)).data();
         const std::size_t count = (last - first) * static_cast<std::size_t>(width);
         // Most values are the same byte over and over, which the system writes fastest.
-        const auto bytes = std::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
-        if (std::ranges::count(bytes, bytes[0]) == std::ssize(bytes))
+        const auto bytes = numeric::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
+        if (std::count(bytes.begin(), bytes.end(), bytes[0]) == std::ssize(bytes))
             std::memset(start, bytes[0], count * sizeof(T));
         else
             std::fill_n(start, count, value);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <utility>
 
 namespace insonify::inline INSONIFY_ABI {
@@ -83,9 +84,11 @@ class image {
         return extent;
     }
     std::size_t area() const {
-        const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-        detail::require(pixels <= (std::size_t{1} << 40), "width x height", pixels, "at most 2^40 pixels");
-        return pixels;
+        const std::uint64_t pixels = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+        detail::require(pixels <= (std::uint64_t{1} << 40), "width x height", pixels, "at most 2^40 pixels");
+        constexpr std::uint64_t addressable = (std::numeric_limits<std::size_t>::max)() / sizeof(T);
+        detail::require(pixels <= addressable, "width x height", pixels, "as many as this machine can address");
+        return static_cast<std::size_t>(pixels);
     }
     std::size_t index(int x, int y) const {
         INSONIFY_ASSERT(0 <= x && (x < width_ || width_ == 0) && 0 <= y && y < height_);

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <insonify/core/error.hpp>
+#include <insonify/core/portable.hpp>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -39,10 +39,10 @@ constexpr double to_degrees(double radians) {
 
 /// Finite by its bits, which no compiler flag can argue away.
 constexpr bool is_finite(float value) {
-    return (std::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
+    return (numeric::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
 }
 constexpr bool is_finite(double value) {
-    return (std::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
+    return (numeric::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
 
 /// A number without its sign.
@@ -76,11 +76,11 @@ constexpr double log(double x) {
         x *= 0x1p54;
         k = -54;
     }
-    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const auto bits = numeric::bit_cast<std::uint64_t>(x);
     // Adding the distance from sqrt(1/2) to 1 moves the cut between exponents to sqrt(2).
     const std::uint64_t shifted = bits + (0x3FF0000000000000u - 0x3FE6A09E667F3BCDu);
     k += static_cast<int>(shifted >> 52) - 1023;
-    const auto m = std::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFu) + 0x3FE6A09E667F3BCDu);
+    const auto m = numeric::bit_cast<double>((shifted & 0x000FFFFFFFFFFFFFu) + 0x3FE6A09E667F3BCDu);
     // m - 1 is exact and carries the result; what is added to it is smaller, so that errors stay in the last bit.
     const double f = m - 1;
     const double s = f / (m + 1);
@@ -107,7 +107,9 @@ constexpr double exp(double x) {
     for (int n = 14; n >= 1; --n) sum = sum * r / n + 1.0;
     // 2^k in two steps, so that results below the normal range are reached without losing the factor.
     const std::int64_t half = k / 2;
-    const auto power = [](std::int64_t e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); };
+    const auto power = [](std::int64_t e) {
+        return numeric::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+    };
     return sum * power(half) * power(k - half);
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <insonify/core/error.hpp>
+#include <insonify/core/portable.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -82,7 +83,7 @@ struct memory_block {
         void* const mapped = ::mmap(nullptr, all, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
         if (mapped == MAP_FAILED) raise(std::bad_alloc());
         char* const start = static_cast<char*>(mapped);
-        const std::size_t past = std::bit_cast<std::uintptr_t>(start + margin) % page;
+        const std::size_t past = numeric::bit_cast<std::uintptr_t>(start + margin) % page;
         const std::size_t before = past == 0 ? 0 : page - past, after = page - before;
         if (before > 0) ::munmap(start, before);
         if (after > 0) ::munmap(start + all - after, after);

@@ -7,12 +7,12 @@
 
 #include <insonify/core/image.hpp>
 #include <insonify/core/numeric.hpp>
+#include <insonify/core/portable.hpp>
 #include <insonify/core/quantize.hpp>
 #include <insonify/filter/histogram.hpp>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -34,11 +34,11 @@ namespace detail {
 
 /// Bits that compare as unsigned integers the way floats compare, and back.
 constexpr std::uint32_t ordered_bits(float value) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const auto bits = numeric::bit_cast<std::uint32_t>(value);
     return bits ^ ((bits >> 31) != 0 ? 0xFFFFFFFFu : 0x80000000u);
 }
 constexpr float from_ordered_bits(std::uint32_t bits) {
-    return std::bit_cast<float>(bits ^ ((bits >> 31) != 0 ? 0x80000000u : 0xFFFFFFFFu));
+    return numeric::bit_cast<float>(bits ^ ((bits >> 31) != 0 ? 0x80000000u : 0xFFFFFFFFu));
 }
 
 /// Radix sort by three digits of 11 bits: five to six times as fast as std::sort on millions of values.

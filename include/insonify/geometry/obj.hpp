@@ -119,15 +119,11 @@ class obj_reader {
     float number() {
         const std::string_view digits = word();
         if (digits.empty()) fail("a vertex or normal has fewer than 3 numbers");
-        // from_chars takes no plus, so it is stepped over, but not before a minus.
-        const bool plus = digits[0] == '+' && digits.substr(1, 1) != "-";
-        const char* const first = digits.data() + (plus ? 1 : 0);
-        const char* const last = digits.data() + digits.size();
         double value = 0;
-        const auto [end, status] = std::from_chars(first, last, value);
-        if (status == std::errc::invalid_argument || end != last) fail(quoted(digits) + " is not a number");
+        const number_text found = parse_number(digits, value);
+        if (found == number_text::malformed) fail(quoted(digits) + " is not a number");
         constexpr auto limit = static_cast<double>((std::numeric_limits<float>::max)());
-        if (status != std::errc{} || !(value >= -limit && value <= limit)) {
+        if (found != number_text::fine || !(value >= -limit && value <= limit)) {
             fail(quoted(digits) + " is not a finite number that a float can hold");
         }
         return static_cast<float>(value);

@@ -11,9 +11,9 @@
 #pragma once
 
 #include <insonify/core/image.hpp>
+#include <insonify/core/portable.hpp>
 #include <insonify/io/file.hpp>
 
-#include <bit>
 #include <charconv>
 #include <concepts>
 #include <cstdint>
@@ -64,9 +64,8 @@ class netpbm_reader {
         height_ = integer("height", 1, 1 << 30);
         if (is_float()) {
             const std::string_view text = token("scale");
-            float scale = 0;
-            const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), scale);
-            if (status != std::errc() || end != text.data() + text.size() || !(scale < 0 || scale > 0)) {
+            double scale = 0;
+            if (parse_number(text, scale) != number_text::fine || !(scale < 0 || scale > 0)) {
                 fail("scale is " + quoted(text) + ", expected a number other than 0");
             }
             little_endian_ = scale < 0;
@@ -99,7 +98,7 @@ class netpbm_reader {
         for (std::size_t i = 0; i < 4; ++i)
             bits = bits << 8 | static_cast<std::uint32_t>(byte(little_endian_ ? 3 - i : i));
         rest_.remove_prefix(4);
-        return std::bit_cast<float>(bits);
+        return numeric::bit_cast<float>(bits);
     }
 
     [[noreturn]] void fail(const std::string& reason) const { raise_io(name_, reason); }
@@ -181,7 +180,7 @@ inline void append_sample(std::string& bytes, std::uint16_t sample) {
     bytes.push_back(static_cast<char>(sample & 0xFF));
 }
 inline void append_sample(std::string& bytes, float sample) {
-    const auto bits = std::bit_cast<std::uint32_t>(sample);
+    const auto bits = numeric::bit_cast<std::uint32_t>(sample);
     for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(bits >> shift & 0xFF));
 }
 template <class Sample>

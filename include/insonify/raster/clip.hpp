@@ -6,6 +6,7 @@
 #pragma once
 
 #include <insonify/core/lanes.hpp>
+#include <insonify/core/portable.hpp>
 #include <insonify/raster/setup.hpp>
 
 #include <algorithm>
@@ -132,8 +133,8 @@ class projection {
         std::uint64_t origin;  ///< of the picture, less what the magic number leaves
         axis(const pixel_grid& grid, int extent, double half)
             : units(half * static_cast<double>(grid.unit())),
-              origin(
-                  static_cast<std::uint64_t>(extent * grid.half() - std::bit_cast<std::int64_t>(pixel_grid::magic))) {}
+              origin(static_cast<std::uint64_t>(extent * grid.half() -
+                                                numeric::bit_cast<std::int64_t>(pixel_grid::magic))) {}
     };
     template <int N>
     INSONIFY_INLINE static void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& units,

@@ -14,10 +14,10 @@
 
 #include <insonify/core/int128.hpp>
 #include <insonify/core/numeric.hpp>
+#include <insonify/core/portable.hpp>
 #include <insonify/raster/framebuffer.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <limits>
 
@@ -83,7 +83,7 @@ struct pixel_grid {
     /// Rounds a distance in pixels from the centre of an axis, to nearest, ties to even; |pixels| < reach(51).
     std::int64_t snap(double pixels, int extent) const {
         const double scaled = pixels * static_cast<double>(unit());
-        const auto rounded = std::bit_cast<std::int64_t>(scaled + magic) - std::bit_cast<std::int64_t>(magic);
+        const auto rounded = numeric::bit_cast<std::int64_t>(scaled + magic) - numeric::bit_cast<std::int64_t>(magic);
         return rounded + extent * half();
     }
     bool is_compact(const screen_vertex& v) const {

@@ -5,10 +5,10 @@
 #pragma once
 
 #include <insonify/core/error.hpp>
+#include <insonify/core/portable.hpp>
 #include <insonify/raster/interpolatable.hpp>
 
 #include <array>
-#include <bit>
 #include <concepts>
 #include <cstdint>
 #include <type_traits>
@@ -98,15 +98,15 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
         return a;
     } else {
         using floats = std::array<float, sizeof(V) / sizeof(float)>;
-        const auto fa = std::bit_cast<floats>(a);
-        const auto fb = std::bit_cast<floats>(b);
-        const auto fc = std::bit_cast<floats>(c);
+        const auto fa = numeric::bit_cast<floats>(a);
+        const auto fb = numeric::bit_cast<floats>(b);
+        const auto fc = numeric::bit_cast<floats>(c);
         floats sum;
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] =
                 static_cast<float>(static_cast<double>(fa[i]) * weights.x + static_cast<double>(fb[i]) * weights.y +
                                    static_cast<double>(fc[i]) * weights.z);
-        return std::bit_cast<V>(sum);
+        return numeric::bit_cast<V>(sum);
     }
 }
 

@@ -24,8 +24,8 @@ class tile_buffer {
     explicit tile_buffer(int size)
         : stride_(size + slack),
           count_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
-          depth_(std::make_unique_for_overwrite<float[]>(count_)),
-          winner_(Winners ? std::make_unique_for_overwrite<std::uint32_t[]>(count_) : nullptr) {
+          depth_(new float[count_]),
+          winner_(Winners ? new std::uint32_t[count_] : nullptr) {
         for (int i = 0; i < block * block; ++i) block_[i] = static_cast<std::uint32_t>(i / block * stride_ + i % block);
     }
 

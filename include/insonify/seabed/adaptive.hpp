@@ -67,8 +67,7 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
     detail::require(allowed.slope >= 0, "leeway.slope", allowed.slope, "a slope, at least 0");
     detail::require(allowed.lean >= 0, "leeway.lean", allowed.lean, "square metres, at least 0");
     const image<float>& heights = field.heights;
-    detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
-                    "below 2^32");
+    detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(), "below 2^32");
     const detail::needed_vertices needed(field, allowed, ex);
 
     const int size = needed.size();

@@ -55,11 +55,8 @@ class survey_reader {
     double number(std::string_view digits, const char* what) const {
         if (digits.empty())
             fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
-        const bool plus = digits[0] == '+' && digits.substr(1, 1) != "-";
         double value = 0;
-        const auto [end, status] =
-            std::from_chars(digits.data() + (plus ? 1 : 0), digits.data() + digits.size(), value);
-        if (status != std::errc{} || end != digits.data() + digits.size())
+        if (insonify::detail::parse_number(digits, value) != insonify::detail::number_text::fine)
             fail(quoted(digits) + " is not a number, expected " + what);
         return value;
     }

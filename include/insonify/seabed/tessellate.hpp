@@ -39,7 +39,7 @@ void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 f
     validate(field);
     const image<float>& heights = field.heights;
     const auto width = static_cast<std::size_t>(heights.width()), height = static_cast<std::size_t>(heights.height());
-    insonify::detail::require(heights.size() < (std::size_t{1} << 32), "heightfield.heights.size()", heights.size(),
+    insonify::detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(),
                               "below 2^32");
 
     result.positions.resize(heights.size());

@@ -40,6 +40,24 @@ struct lambert_backscatter {
     }
 };
 
+/// Lambert's law plus the mirror-like echo of facets near normal incidence, which makes the bright band below the
+/// sonar: s^2 + facets exp(-tan^2(incidence) / (2 slope^2)) (P. Beckmann, A. Spizzichino. The Scattering of
+/// Electromagnetic Waves from Rough Surfaces, 1963, chapter 5; D. R. Jackson, M. D. Richardson. High-Frequency Seafloor
+/// Acoustics, 2007, chapter 13: Kirchhoff approximation).
+struct facet_backscatter {
+    float facets = 4;     ///< echo at normal incidence over that of Lambert's law, >= 0
+    float slope = 0.15f;  ///< rms slope of the facets, above 0: smooth mud 0.05, sand 0.1 to 0.2, gravel 0.3
+
+    float operator()(float s) const {
+        const double square = static_cast<double>(s) * static_cast<double>(s);
+        if (!(square > 1e-6)) return 0;
+        const double tangent_square = 1 / square - 1, spread = static_cast<double>(slope);
+        const double exponent = 0.5 * tangent_square / (spread * spread);
+        return static_cast<float>(square +
+                                  (exponent < 80 ? static_cast<double>(facets) * numeric::exp(-exponent) : 0.0));
+    }
+};
+
 }  // namespace insonify::inline INSONIFY_ABI
 
 INSONIFY_ARITHMETIC_END

@@ -1,28 +1,114 @@
 // From intensities to gray values: the last step, and the only one that isn't linear.
+//
+// What real pictures show differs more by their display than by their sonar: amplitude or power at a fixed white,
+// decibels over a range below a reference, or black and white wherever the picture's own extremes are (P. Blondel. The
+// Handbook of Sidescan Sonar, 2009, chapter 4: gain, contrast stretch and dynamic range of displays).
 #pragma once
 
+#include <insonify/core/image_view.hpp>
 #include <insonify/core/numeric.hpp>
 
+#include <algorithm>
 #include <concepts>
 #include <type_traits>
+#include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// A filter that makes gray values in [0, 1] of intensities: their square root, the amplitude, is what sonars show.
+/// A filter that makes gray values in [0, 1] of intensities by a power: (intensity / white)^exponent. The default is
+/// their square root, the amplitude, which is what most sonars show. NaN is black.
 struct display {
-    float white = 6;  ///< the intensity that is white, above 0; brighter ones are cut
+    float white = 6;        ///< the intensity that is white, above 0; brighter ones are cut
+    float exponent = 0.5f;  ///< 0.5: amplitude, 1: power; above 0, at most 4
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a `white` that isn't positive
+    /// @throws invalid_input for a `white` that isn't positive, or an exponent outside its range
     auto pass() const {
         detail::require(white > 0 && numeric::is_finite(white), "display.white", white, "above 0");
-        return [scale = 1 / white]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
+        detail::require(exponent > 0 && exponent <= 4, "display.exponent", exponent, "above 0, at most 4");
+        return [scale = 1 / white, to = exponent]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
             const float share = intensity * scale;
-            return share > 0 ? (share < 1 ? numeric::square_root(share) : 1.0f) : 0.0f;
+            if (!(share > 0)) return 0;
+            if (share >= 1) return 1;
+            if (to == 0.5f) return numeric::square_root(share);
+            if (to == 1) return share;
+            return static_cast<float>(numeric::pow(static_cast<double>(share), static_cast<double>(to)));
         };
+    }
+};
+
+/// Gray values by decibels: black at `range` below white, white at `white`, even steps between. NaN, 0 and below are
+/// black. Sonars record over 60 to 120 dB and show 20 to 50 of them.
+struct decibel_display {
+    float white = 6;   ///< the intensity that is white, above 0
+    float range = 40;  ///< decibels from black to white, above 0, at most 400
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a parameter out of its range
+    auto pass() const {
+        detail::require(white > 0 && numeric::is_finite(white), "decibel_display.white", white, "above 0");
+        detail::require(range > 0 && range <= 400, "decibel_display.range", range, "above 0, at most 400 dB");
+        // 10 log10(e) / range for each natural logarithm
+        return [white = static_cast<double>(white),
+                step = 4.3429448190325182 / static_cast<double>(range)]<std::same_as<float> Pixel>(Pixel intensity, int,
+                                                                                                   int) -> Pixel {
+            if (!(intensity > 0)) return 0;
+            if (!numeric::is_finite(intensity)) return 1;
+            const double gray = 1 + step * numeric::log(static_cast<double>(intensity) / white);
+            return gray > 0 ? (gray < 1 ? static_cast<float>(gray) : 1.0f) : 0.0f;
+        };
+    }
+};
+
+/// What automatic_display measures in.
+enum class display_scale { power, amplitude, decibels };
+
+/// Black and white by the picture's own percentiles, as the "auto" of survey software stretches a picture: the share
+/// `black` of the pixels is black, the share `white` of them white.
+struct automatic_display {
+    display_scale scale = display_scale::amplitude;
+    float black = 0.01f;  ///< share of the pixels, 0 to 0.49
+    float white = 0.01f;  ///< share of the pixels, 0 to 0.49
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a share out of its range
+    auto pass(image_view<const float> picture) const {
+        detail::require(black >= 0 && black <= 0.49f, "automatic_display.black", black, "0 to 0.49");
+        detail::require(white >= 0 && white <= 0.49f, "automatic_display.white", white, "0 to 0.49");
+        std::vector<float> values;
+        values.reserve(picture.size());
+        for (int y = 0; y < picture.height(); ++y)
+            for (const float v : picture.row(y))
+                if (numeric::is_finite(v)) values.push_back(v);
+        const auto quantile = [&](double share) {
+            const auto at =
+                values.begin() + numeric::floor_to_int(share * static_cast<double>(values.size() - 1) + 0.5);
+            std::nth_element(values.begin(), at, values.end());
+            return measure(static_cast<double>(*at), scale);
+        };
+        double low = 0, high = 1;
+        if (!values.empty())
+            low = quantile(static_cast<double>(black)), high = quantile(1 - static_cast<double>(white));
+        return [low, step = high > low ? 1 / (high - low) : 0.0, as = scale]<std::same_as<float> Pixel>(
+                   Pixel intensity, int, int) -> Pixel {
+            const double gray = (measure(static_cast<double>(intensity), as) - low) * step;
+            return gray > 0 ? (gray < 1 ? static_cast<float>(gray) : 1.0f) : 0.0f;
+        };
+    }
+
+  private:
+    /// -300 dB stands for no sound at all, 1e30 for an endless one.
+    static double measure(double intensity, display_scale as) {
+        if (!(intensity > 1e-30)) intensity = as == display_scale::decibels ? 1e-30 : 0.0;
+        if (intensity > 1e30) intensity = 1e30;
+        if (as == display_scale::power) return intensity;
+        if (as == display_scale::amplitude) return numeric::square_root(intensity);
+        return 4.3429448190325182 * numeric::log(intensity);
     }
 };
 

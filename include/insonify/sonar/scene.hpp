@@ -56,7 +56,11 @@ struct scene {
 inline void validate(const scene& s) {
     const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
         if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
-        detail::refuse(list + ("[" + detail::to_text(i)) + member, m.reflectivity, "0 or more, finite");
+        std::string name = list;  // appended to: at -O3, g++ 12 warns of "[" + to_text(i)
+        name += '[';
+        name += detail::to_text(i);
+        name += member;
+        detail::refuse(name, m.reflectivity, "0 or more, finite");
     };
     for (std::size_t i = 0; i < s.bottom.size(); ++i)
         if (s.bottom[i].reflectivity != by_seabed_model) check(s.bottom[i], "scene.bottom", i, "].reflectivity");

@@ -157,27 +157,6 @@ void measure_pictures(const options& o, report::contents& into) {
     report::mark_front(into.ways);
 }
 
-/// Measures some knob's positions in turn. `error(result)` says how far a position's result is off.
-template <class Make, class Error>
-void measure_knob(const options& o, report::contents& into, report::knob k, const std::vector<std::string>& settings,
-                  const Make& make, const Error& error) {
-    std::vector<cost::figures> costs(settings.size());
-    std::vector<std::string> errors(settings.size());
-    for (int run = 0; run < o.runs; ++run)
-        for (std::size_t i = 0; i < settings.size(); ++i) {
-            auto result = make(i);
-            costs[i].run([&] { result = make(i); });
-            if (run == 0) errors[i] = error(i, result);
-        }
-    for (std::size_t i = 0; i < settings.size(); ++i) {
-        k.setting = settings[i];
-        k.ms = costs[i].ms;
-        k.mebibytes = costs[i].mebibytes;
-        k.error = errors[i];
-        into.knobs.push_back(k);
-    }
-}
-
 /// A bottom without relief, with a lying cylinder and a ball.
 template <class Model>
 in::scene targets(const Model& modelled) {
@@ -216,16 +195,16 @@ void measure_targets(const options& o, report::contents& into) {
         for (const in::target& t : scenes.back().targets) triangles += t.shape->triangles.size();
         names.push_back("facets off by " + svg::number(error, 2) + " px: " + std::to_string(triangles) + " triangles");
     }
-    measure_knob(
-        o, into, {.name = "curved primitives", .oracle = "1024 segments"}, names,
+    cost::measure_knob(
+        o.runs, into, {.name = "curved primitives", .oracle = "1024 segments"}, names,
         [&](std::size_t i) { return in::render(scenes[i], rig, best); },
         [&](std::size_t, const in::frame<>& f) { return both(f); });
 
     const std::vector<int> bits{4, 6, 8, 12, 16};
     std::vector<std::string> bit_names;
     for (const int b : bits) bit_names.push_back("1/" + std::to_string(1 << b) + " pixel");
-    measure_knob(
-        o, into, {.name = "coverage: vertices rounded to", .oracle = "1/65536 pixel"}, bit_names,
+    cost::measure_knob(
+        o.runs, into, {.name = "coverage: vertices rounded to", .oracle = "1/65536 pixel"}, bit_names,
         [&](std::size_t i) {
             auto how = best;
             how.subpixel_bits = bits[i];
@@ -246,8 +225,8 @@ void measure_mesh(const options& o, report::contents& into) {
         for (const float e : errors)
             names.push_back(name + ", " +
                             (e == 0 ? "every cell" : "off by up to " + svg::number(static_cast<double>(e), 2) + " px"));
-        measure_knob(
-            o, into, {.name = "seabed mesh", .oracle = "every cell"}, names,
+        cost::measure_knob(
+            o.runs, into, {.name = "seabed mesh", .oracle = "every cell"}, names,
             [&](std::size_t i) {
                 auto how = every;
                 how.edge_error = errors[i];
@@ -261,14 +240,48 @@ void measure_mesh(const options& o, report::contents& into) {
     }
 }
 
+/// How far up the light the seabed is looked for what casts.
+void measure_reach(const options& o, report::contents& into) {
+    in::overhead rig = rig_of(o);
+    rig.grazing = 2_deg;
+    in::scene scene;
+    scene.seabed = seabeds[2].second;
+    in::render_options<> how{.reach = 32};
+    const auto truth = in::render(scene, rig, how);
+    const std::vector<float> reaches{0, 0.25f, 0.5f, 1, 2, 4, 8};
+    std::vector<std::string> names;
+    for (const float r : reaches) names.push_back("rock at 2 degrees, " + svg::number(static_cast<double>(r), 2));
+    cost::measure_knob(
+        o.runs, into, {.name = "reach, in lengths of the picture", .oracle = "32"}, names,
+        [&](std::size_t i) {
+            how.reach = reaches[i];
+            return in::render(scene, rig, how);
+        },
+        [&](std::size_t, const in::frame<>& f) {
+            return "shadow " + off_by(dark_of(f.labels), dark_of(truth.labels));
+        });
+}
+
+/// What drawing the seabed as a mesh of cells does to exact shadows: the rows of `exact` once more, as a knob.
+void list_cells(report::contents& into) {
+    for (const report::way& w : into.ways)
+        if (w.policy == "exact" && w.name.empty())
+            into.knobs.push_back({.name = "cells of the seabed per pixel",
+                                  .oracle = "rays marched over the seabed itself",
+                                  .setting = w.seabed + ", " + report::per_pixel(w.cells),
+                                  .error = "shadow " + svg::number(w.edge, 3) + " px",
+                                  .ms = w.ms,
+                                  .mebibytes = w.mebibytes});
+}
+
 void measure_geometry(const options& o, report::contents& into) {
     in::scene scene;
     scene.seabed = seabeds[0].second;
     const auto bins = o.pixels;
     const auto rig = rig_of(o);
     const float length = static_cast<float>(2 * in::overhead_geometry(rig).half_extent(0).x);
-    measure_knob(
-        o, into, {.name = "geometry", .oracle = "each is right for its kind of sonar picture"},
+    cost::measure_knob(
+        o.runs, into, {.name = "geometry", .oracle = "each is right for its kind of sonar picture"},
         {"parallel light, camera overhead", "ground range", "slant range, layover"},
         [&](std::size_t i) {
             if (i == 0) return in::render(scene, rig).image;
@@ -299,8 +312,8 @@ void measure_filters(const options& o, report::contents& into) {
     const in::image<std::uint8_t> sand(o.pixels, o.pixels, std::uint8_t{0});
     const auto law = in::seabed_speckle{}.bottom[0];
     const double looks = law.looks, shape = static_cast<double>(law.texture);
-    measure_knob(
-        o, into, {.name = "speckle", .oracle = "variance over squared mean, closed form"},
+    cost::measure_knob(
+        o.runs, into, {.name = "speckle", .oracle = "variance over squared mean, closed form"},
         {"white, of variance 0.1", "K-distributed, its texture correlated"},
         [&](std::size_t i) {
             if (i == 0) return level | in::speckle{.variance = 0.1f, .seed = 3};
@@ -318,8 +331,8 @@ void measure_filters(const options& o, report::contents& into) {
     scene.seabed = seabeds[2].second;
     const auto reference = in::render(scene, rig).image;
     const auto exact = picture | in::match_histogram(reference);
-    measure_knob(
-        o, into, {.name = "histogram match", .oracle = "exact ranks"}, {"64 bins", "1024 bins", "exact ranks"},
+    cost::measure_knob(
+        o.runs, into, {.name = "histogram match", .oracle = "exact ranks"}, {"64 bins", "1024 bins", "exact ranks"},
         [&](std::size_t i) {
             if (i == 2) return picture | in::match_histogram(reference);
             return picture | in::match_binned(reference, i == 0 ? 64 : 1024);
@@ -346,8 +359,8 @@ void measure_depth(const options& o, report::contents& into) {
         return depth;
     };
     const auto exact = draw(false);
-    measure_knob(
-        o, into, {.name = "interpolation of depth", .oracle = "correctly rounded (128-bit integers)"},
+    cost::measure_knob(
+        o.runs, into, {.name = "interpolation of depth", .oracle = "correctly rounded (128-bit integers)"},
         {"float", "correctly rounded"}, [&](std::size_t i) { return draw(i == 0); },
         [&](std::size_t, const in::image<float>& depth) {
             return svg::number(in::accuracy::compare_images(depth, exact).largest / 0x1p-24, 1) + " ulp at most";
@@ -360,8 +373,11 @@ int main(int argc, char** argv) try {
     const options o = parse(argc, argv);
     report::contents found{.pixels = o.pixels, .grazing_degrees = 6};
     measure_pictures(o, found);
+    list_cells(found);
+    measure_meshes(o.pixels, o.runs, found);
     measure_targets(o, found);
     measure_mesh(o, found);
+    measure_reach(o, found);
     measure_geometry(o, found);
     measure_filters(o, found);
     measure_depth(o, found);

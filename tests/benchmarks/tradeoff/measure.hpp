@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <ctime>
+#include <string>
 #include <vector>
+
+#include "report.hpp"
 
 namespace cost {
 
@@ -33,4 +36,28 @@ struct figures {
     }
 };
 
+/// Measures some knob's positions in turn, `runs` times. `error(i, result)` says how far a position's result is off.
+template <class Make, class Error>
+void measure_knob(int runs, report::contents& into, report::knob k, const std::vector<std::string>& settings,
+                  const Make& make, const Error& error) {
+    std::vector<figures> costs(settings.size());
+    std::vector<std::string> errors(settings.size());
+    for (int run = 0; run < runs; ++run)
+        for (std::size_t i = 0; i < settings.size(); ++i) {
+            auto result = make(i);
+            costs[i].run([&] { result = make(i); });
+            if (run == 0) errors[i] = error(i, result);
+        }
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        k.setting = settings[i];
+        k.ms = costs[i].ms;
+        k.mebibytes = costs[i].mebibytes;
+        k.error = errors[i];
+        into.knobs.push_back(k);
+    }
+}
+
 }  // namespace cost
+
+/// Shadows on meshes that the library didn't make, policy by policy, and what rounding their vertices costs.
+void measure_meshes(int pixels, int runs, report::contents& into);

@@ -10,6 +10,7 @@
 
 #include "../../catch.hpp"
 #include "../../marching.hpp"
+#include "../../shadow_meshes.hpp"
 
 namespace in = insonify;
 namespace sb = insonify::seabed;
@@ -178,8 +179,10 @@ TEST_CASE("Settings are values: they can be read, changed and handed to render")
     CHECK(in::render(scene, t.rig, options).stats.seabed_columns >= 37);
 
     // Without a seabed there is nothing to probe.
-    const auto bare = acc::settings_for({.shadow_edge = 0.5, .silhouette = 0.01}, sb::none{}, t.rig);
+    const auto bare = acc::settings_for({.shadow_edge = 0.5, .silhouette = 0.001}, sb::none{}, t.rig);
     CHECK(bare.subpixel_bits == 16);
+    CHECK(acc::settings_for({.silhouette = 0.5}, sb::none{}, t.rig).subpixel_bits ==
+          in::render_options<>{}.subpixel_bits);
     CHECK(bare.shadow_error == 0.25);
 }
 
@@ -221,6 +224,46 @@ TEST_CASE("From fast over balanced to exact errors never rise and work never fal
         compare(acc::fast(t.rig));
         compare(acc::balanced(t.rig));
         compare(acc::exact(t.rig));
+    }
+}
+
+TEST_CASE("Budgets and named settings hold where meshes of other makers stand on the seabed") {
+    in::thread_pool pool(2);
+    const in::mesh open = shadow_meshes::moebius_strip(), dense = shadow_meshes::statue(56, 40),
+                   soup = shadow_meshes::shuffled(shadow_meshes::cow());
+    for (const std::uint64_t seed : {2u, 201u, 204u}) {
+        const trial t = random_trial(seed, 128);
+        in::scene scene;
+        scene.seabed = t.bottom;
+        const double width = in::overhead_geometry(t.rig).ground_sampling() * 128;
+        const auto scale = static_cast<float>(0.15 * width);
+        const auto stand = [&](const in::mesh& m, double x, double y) {
+            const double right = x * width, forward = y * width;
+            scene.add(m,
+                      {.position = {static_cast<double>(t.rig.position.x) + right,
+                                    static_cast<double>(t.rig.position.y) + forward, 0.5 * static_cast<double>(scale)},
+                       .scale = scale},
+                      "mesh");
+        };
+        stand(open, -0.15, 0.1);
+        stand(dense, 0.2, 0.15);
+        stand(soup, 0, -0.2);
+        in::render_options<> finest{.cells = 4 * 128};
+        finest.subpixel_bits = 16;
+        const auto truth = in::render(scene, t.rig, finest, pool);
+        const auto off_by = [&](const auto& how) {
+            const auto drawn = in::render(scene, t.rig, how.options(), pool);
+            return acc::compare_masks(dark_of(drawn.labels), dark_of(truth.labels)).mean_boundary_displacement();
+        };
+        CAPTURE(seed);
+        const auto asked =
+            acc::settings_for({.shadow_edge = 1, .intensity = 1}, t.bottom, t.rig, {.chips = 2, .pixels = 80}, pool);
+        CHECK(off_by(asked) <= 1);
+        const double fast = off_by(acc::fast(t.rig)), balanced = off_by(acc::balanced(t.rig)),
+                     exact = off_by(acc::exact(t.rig));
+        CHECK(balanced <= fast);
+        CHECK(exact <= balanced);
+        CHECK(exact <= 0.1);
     }
 }
 

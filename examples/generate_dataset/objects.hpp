@@ -1,0 +1,168 @@
+// Objects of the sonar recipe: a kind, its length, its damage, and a number that decides the rest of its form.
+#pragma once
+
+#include <insonify/insonify.hpp>
+
+#include <string>
+
+namespace generator {
+
+namespace in = insonify;
+
+/// What one object is; damage is 0 for whole, 1 for the worst.
+struct object_form {
+    std::string kind;
+    double length = 10, damage = 0;
+    std::uint32_t seed = 1;
+};
+
+namespace detail {
+
+inline float between(in::random_sequence& draw, double low, double high) {
+    return static_cast<float>(draw.uniform(low, high));
+}
+
+/// Boats, trawlers, coasters, steamers and barges: proportions as geometry/objects/hull_form.hpp cites them.
+inline in::mesh ship_of(const object_form& f, in::random_sequence& draw) {
+    const auto length = static_cast<float>(f.length);
+    in::hull h{.length = length};
+    h.beam = length / between(draw, length > 60 ? 5.0 : 2.6, length > 60 ? 8.5 : 5.5);
+    h.depth = h.beam / between(draw, 1.6, 2.8);
+    h.bulwark = (std::min)(between(draw, 0.3, 1.2), 0.3f * h.depth);
+    h.sheer = between(draw, 0, 2);
+    h.stern = draw.uniform() < 0.5 ? in::stern_type::cruiser : in::stern_type::transom;
+    h.plating = (std::max)((std::min)(between(draw, 0.006, 0.02) * h.beam, h.beam / 17), length / 1900);
+    const double style = draw.uniform();
+    if (style < 0.25) {  // barge or open boat
+        h.house_length = 0, h.has_funnel = false, h.masts = 0, h.hatches = static_cast<int>(draw.below(7));
+        h.mast_height = 0.1f * length;
+    } else {
+        h.house_length = between(draw, 0.1, 0.35);
+        h.house_position = between(draw, -0.33, 0.28);
+        h.house_tiers = 1 + static_cast<int>(draw.below(length > 40 ? 4 : 2));
+        h.has_funnel = draw.uniform() < 0.6;
+        h.hatches = static_cast<int>(draw.below(6));
+        h.masts = static_cast<int>(draw.below(4));
+        h.mast_height = length * between(draw, 0.08, 0.3);
+    }
+    if (f.damage > 0.35 && f.damage <= 0.6) {
+        h.break_gap = length * between(draw, 0.01, 0.15);
+        h.break_position = between(draw, -0.35, 0.35);
+        h.break_yaw = between(draw, -0.7, 0.7);
+        h.break_roll = between(draw, -0.6, 0.6);
+    }
+    if (f.damage > 0.5) h.collapse = static_cast<float>((std::min)(2 * (f.damage - 0.5), 1.0));
+    h.segments = 48;
+    h.seed = f.seed;
+    return in::to_mesh(h);
+}
+
+/// Fighters, bombers with two and four engines, and jets.
+inline in::mesh plane_of(const object_form& f, in::random_sequence& draw) {
+    const auto length = static_cast<float>(f.length);
+    in::aeroplane a{.length = length};
+    a.span = length * between(draw, 0.9, 1.6);
+    a.fuselage_diameter = length * between(draw, 0.085, 0.15);
+    a.root_chord = length * between(draw, 0.16, 0.3);
+    a.tip_chord = a.root_chord * between(draw, 0.25, 0.75);
+    a.sweep = draw.uniform() < 0.8 ? between(draw, -0.02, 0.2) : between(draw, 0.3, 0.7);
+    a.dihedral = between(draw, 0, 0.12);
+    a.wing_position = between(draw, 0.05, 0.3);
+    a.tail_span = (std::max)(a.span * between(draw, 0.28, 0.42), 1.3f * a.fuselage_diameter);
+    a.fin_height = length * between(draw, 0.07, 0.16);
+    a.engines = length < 12 ? 1 + static_cast<int>(draw.below(2)) : static_cast<int>(2 * (1 + draw.below(2)));
+    a.propeller_diameter = draw.uniform() < 0.8 ? length * between(draw, 0.13, 0.25) : 0.0f;
+    a.is_inverted = draw.uniform() < 0.15;
+    if (f.damage > 0.4) {
+        a.port_wing = draw.uniform() < 0.5 ? 1.0f : between(draw, 0.1, 0.9);
+        a.starboard_wing = draw.uniform() < 0.5 ? 1.0f : between(draw, 0.1, 0.9);
+        a.torn_off = draw.uniform() < 0.5 ? 0.0f : between(draw, 0.3, 3);
+        if (f.damage > 0.7) a.tail_gap = between(draw, 0.1, 0.15 * f.length), a.tail_yaw = between(draw, -1, 1);
+    }
+    a.segments = 20;
+    a.seed = f.seed;
+    return in::to_mesh(a);
+}
+
+}  // namespace detail
+
+/// Kinds and the lengths that they have, metres; the middle is drawn most often where sizes differ by decades.
+struct object_kind {
+    const char* name;
+    double shortest, longest;
+};
+inline constexpr object_kind object_kinds[] = {{"ship", 7, 110},    {"plane", 7, 32},   {"truncated_cone", 0.6, 1.4},
+                                               {"wedge", 0.7, 1.3}, {"tyre", 0.5, 1.8}, {"pipe", 3, 30},
+                                               {"boulder", 0.5, 5}, {"crate", 0.6, 6},  {"lobster_pot", 0.6, 1.2},
+                                               {"cylinder", 1, 3},  {"cube", 0.4, 1.2}, {"cone", 0.5, 1.2},
+                                               {"sphere", 0.4, 1.2}};
+
+inline const object_kind* kind_named(const std::string& name) {
+    for (const object_kind& k : object_kinds)
+        if (name == k.name) return &k;
+    return nullptr;
+}
+
+/// @throws insonify::io_error for a kind that there is none of
+inline in::mesh mesh_of(const object_form& f) {
+    using detail::between;
+    in::random_sequence draw(f.seed, 0x6F626A00);
+    const auto l = static_cast<float>(f.length);
+    if (f.kind == "ship") return detail::ship_of(f, draw);
+    if (f.kind == "plane") return detail::plane_of(f, draw);
+    if (f.kind == "truncated_cone")
+        return to_mesh(in::truncated_cone{.diameter = l,
+                                          .top_diameter = 0.53f * l,
+                                          .height = 0.48f * l,
+                                          .shoulder = 0.04f * l,
+                                          .boss_diameter = 0.2f * l,
+                                          .boss_height = 0.04f * l});
+    if (f.kind == "wedge")
+        return to_mesh(in::wedge{.length = l,
+                                 .width = 0.78f * l,
+                                 .height = 0.38f * l,
+                                 .nose_height = 0.06f * l,
+                                 .nose_width = 0.45f * l,
+                                 .tail_height = 0.2f * l,
+                                 .ridge = 0.2f * l});
+    if (f.kind == "tyre")
+        return to_mesh(in::tyre{.diameter = l,
+                                .width = l * between(draw, 0.28, 0.38),
+                                .rim_diameter = 0.58f * l,
+                                .wall = 0.025f * l,
+                                .fill = draw.uniform() < 0.5 ? 0.0f : between(draw, 0.1, 0.9)});
+    if (f.kind == "pipe") {
+        const float diameter = (std::min)(between(draw, 0.3, 1.2), l / 4);
+        return to_mesh(in::open_pipe{.diameter = diameter,
+                                     .length = l,
+                                     .wall = 0.09f * diameter,
+                                     .broken = f.damage > 0.5 ? 0.1f * l : 0.0f,
+                                     .seed = f.seed});
+    }
+    if (f.kind == "boulder")
+        return to_mesh(in::boulder{.size = {l, l * between(draw, 0.6, 1), l * between(draw, 0.4, 0.9)},
+                                   .angularity = between(draw, 0.2, 0.9),
+                                   .segments = 8,
+                                   .seed = f.seed});
+    if (f.kind == "crate")
+        return to_mesh(in::crate{.size = {l, l * between(draw, 0.4, 0.9), l * between(draw, 0.35, 0.8)},
+                                 .board = 0.018f * l,
+                                 .is_open = draw.uniform() < 0.4,
+                                 .damage = static_cast<float>(f.damage),
+                                 .seed = f.seed});
+    if (f.kind == "lobster_pot")
+        return to_mesh(in::lobster_pot{.length = l,
+                                       .width = 0.62f * l,
+                                       .height = 0.45f * l,
+                                       .bar = 0.018f * l,
+                                       .mesh_size = 0,
+                                       .twine = 0.006f * l,
+                                       .crushed = static_cast<float>(0.8 * f.damage)});
+    if (f.kind == "cylinder") return to_mesh(in::cylinder{.radius = 0.5f * l / between(draw, 2.2, 4), .length = l});
+    if (f.kind == "cube") return to_mesh(in::cube{.size = {l, l * between(draw, 0.8, 1.25), l}});
+    if (f.kind == "cone") return to_mesh(in::cone{.radius = 0.5f * l, .height = l * between(draw, 0.7, 1.2)});
+    if (f.kind == "sphere") return to_mesh(in::sphere{.radius = 0.5f * l});
+    throw in::io_error("'" + f.kind + "' is no kind of object");
+}
+
+}  // namespace generator

@@ -1,0 +1,223 @@
+// From a plan of the sonar recipe to a picture with labels.
+#pragma once
+
+#include "sonar_recipe.hpp"
+
+namespace generator {
+
+struct sonar_picture {
+    in::labels labels;
+    in::image<std::uint8_t> gray;
+    facts known{};                  ///< of the first target, before the picture is turned
+    std::vector<in::pose> poses;    ///< of the targets
+    std::vector<double> footprint;  ///< of each target on the bottom, pixels
+    std::vector<bool> is_cut;       ///< by the chip's edge
+    glm::dvec2 rig{0, 0};
+    double metres_per_pixel = 0;
+};
+
+namespace detail {
+
+inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
+    namespace sb = in::seabed;
+    const auto of = [](double metres) { return static_cast<float>(metres); };
+    const auto feature = of(p.feature), fine = of(1.2 * pixel);
+    // Relief of a length scale is a share of that length: what decides slopes, and so how it looks.
+    const auto rough = [&](double longest, double share) {
+        return sb::roughness{
+            .rms = of(share * longest), .longest = of(longest), .shortest = (std::min)(fine, of(longest))};
+    };
+    const sb::flat sand{.surface = rough((std::max)(4 * p.feature, 8 * pixel), 0.25 * p.roughness),
+                        .seed = p.bottom_seed};
+    const sb::ripples ripples{.wavelength = feature,
+                              .steepness = of(p.steepness),
+                              .direction = of(p.direction),
+                              .spread = of(p.disorder),
+                              .bandwidth = of(0.8 * p.disorder),
+                              .surface = rough((std::max)(p.feature, 3 * pixel), 0.3 * p.roughness),
+                              .seed = p.bottom_seed};
+    if (p.bottom == "ripples") return ripples;
+    if (p.bottom == "mud")
+        return sb::mud{.surface = rough((std::max)(4 * p.feature, 8 * pixel), 0.06 * p.roughness),
+                       .density = of(0.004 / (p.feature * p.feature) * p.cover),
+                       .size = of(0.5 * p.feature),
+                       .mound_height = of(0.05 * p.feature),
+                       .pock_depth = of(0.08 * p.feature),
+                       .seed = p.bottom_seed};
+    if (p.bottom == "rock")
+        return sb::rock{.relief = of(0.35 * p.feature * (0.3 + p.cover)),
+                        .outcrop = of(4 * p.feature),
+                        .block = feature,
+                        .smallest = (std::max)(of(0.3 * p.feature), (std::min)(fine, feature)),
+                        .steepness = 1.2f,
+                        .surface = rough(p.feature, 0.3 * p.roughness),
+                        .seed = p.bottom_seed};
+    if (p.bottom == "mixed")
+        return sb::blend{.first = ripples,
+                         .second = sand,
+                         .coverage = of(p.cover),
+                         .patch = of(6 * p.feature),
+                         .border = of(0.7 * p.feature),
+                         .seed = p.bottom_seed};
+    return sand;
+}
+
+/// Picture or labels, turned by quarters; 4 and more are mirrored first.
+template <class T>
+in::image<T> turned(const in::image<T>& from, int turn) {
+    const int n = from.width();
+    in::image<T> to(n, n);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            int u = turn >= 4 ? n - 1 - x : x, v = y;
+            for (int i = 0; i < turn % 4; ++i) {
+                const int w = u;
+                u = v, v = n - 1 - w;
+            }
+            to(u, v) = from(x, y);
+        }
+    return to;
+}
+
+template <in::across_track Axis>
+sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vector<in::mesh>& shapes, auto& ex) {
+    const double pixel = p.chip / o.size;
+    sonar_picture out;
+    out.metres_per_pixel = pixel;
+    double first = p.first_range;
+    if (Axis == in::across_track::ground_range)
+        first = in::range_geometry::ground_range((std::max)(first, p.altitude), p.altitude);
+    in::side_scan_rig<Axis> rig{.position = {p.place_x, p.place_y},
+                                .altitude = static_cast<float>(p.altitude),
+                                .yaw = static_cast<float>(p.rig_yaw),
+                                .ping_spacing = static_cast<float>(pixel),
+                                .pings = o.size,
+                                .first_range = static_cast<float>(first),
+                                .range = static_cast<float>(first + p.chip),
+                                .bins = o.size,
+                                .side = p.port ? in::side::port : in::side::starboard};
+    out.rig = rig.position;
+    const in::ping_frame frame(in::ping_of(rig, 0), rig.side);
+    const auto ground_at = [&](double across) {
+        const double range = first + across * p.chip;
+        if (Axis == in::across_track::ground_range) return range;
+        return range > p.altitude ? in::range_geometry::ground_range(range, p.altitude) : 0.0;
+    };
+
+    const in::seabed::any bottom = bottom_of(p, pixel);
+    const auto sampled = in::seabed::prepare(bottom);
+    in::scene scene;
+    scene.seabed = bottom;
+    std::vector<in::seabed::edit> scours;
+    const in::seabed::any level = in::seabed::flat{.surface = {.rms = 0}};
+    const auto lay = [&](const in::mesh& shape, const placed_object& t, const std::string& name) {
+        const glm::dvec2 at = frame.world(ground_at(t.across), t.along * p.chip);
+        in::pose pose = in::rest_on(level, shape,
+                                    {.position = {at.x, at.y, 0},
+                                     .yaw = static_cast<float>(t.yaw),
+                                     .pitch = static_cast<float>(t.pitch),
+                                     .roll = static_cast<float>(t.roll)});
+        const double ground = static_cast<double>(in::seabed::at(sampled, at.x, at.y).height);
+        if (in::numeric::is_finite(ground)) pose.position.z += ground;
+        const in::bounding_box box = in::bounds(in::transformed(shape, in::to_world(pose)));
+        pose.burial = static_cast<float>(t.burial * box.size().z);
+        if (t.scour > 0) {
+            const double depth = t.scour * (std::min)(box.size().z, 0.3 * p.chip);
+            in::seabed::moat moat{.outline = in::footprint(shape, pose, static_cast<float>(0.4 * box.size().z)),
+                                  .depth = static_cast<float>(depth),
+                                  .width = static_cast<float>(4 * depth + pixel),
+                                  .current = static_cast<float>(p.direction),
+                                  .mound = static_cast<float>(0.6 * depth),
+                                  .tail = static_cast<float>(0.2 * p.chip)};
+            if (moat.outline.size() >= 3) scours.emplace_back(std::move(moat));
+        }
+        scene.add(shape, pose, name, {static_cast<float>(0.45 * t.reflectivity)});
+        return pose;
+    };
+    for (std::size_t i = 0; i < p.targets.size(); ++i) {
+        out.poses.push_back(lay(shapes[i], p.targets[i], p.targets[i].form.kind));
+        const auto outline = in::footprint(shapes[i], out.poses.back(), 1e9f);
+        double area = 0;
+        for (std::size_t a = 0, b = outline.size() - 1; a < outline.size(); b = a++)
+            area += 0.5 * (outline[b].x * outline[a].y - outline[a].x * outline[b].y);
+        out.footprint.push_back(area / (pixel * pixel));
+        bool cut = false;
+        for_each_vertex(scene.targets.back(), [&](const glm::dvec3& world) {
+            const glm::dvec3 q = frame(world);
+            const double range = Axis == in::across_track::ground_range
+                                     ? q.x
+                                     : in::range_geometry::slant_range(q.x, p.altitude, world.z);
+            cut = cut || range < first || range > first + p.chip || q.y < 0 || q.y > p.chip;
+        });
+        out.is_cut.push_back(cut);
+    }
+    in::random_sequence dice(p.clutter_seed, 0x636C7500);
+    for (int i = 0; i < p.clutter; ++i) {
+        const double kind = dice.uniform();
+        placed_object t{};
+        t.form = {kind < 0.75   ? "boulder"
+                  : kind < 0.85 ? "lobster_pot"
+                  : kind < 0.95 ? "crate"
+                                : "tyre",
+                  p.clutter_size * dice.uniform(0.5, 1.3), dice.uniform(), dice.word()};
+        t.yaw = dice.uniform(0, 2 * in::numeric::pi);
+        t.burial = dice.uniform(0, 0.5);
+        t.reflectivity = dice.uniform(0.8, 3);
+        t.across = dice.uniform(0.02, 0.98), t.along = dice.uniform(0.02, 0.98);
+        lay(mesh_of(t.form), t, clutter_class);
+    }
+    if (!scours.empty()) scene.seabed = in::seabed::sculpted{.ground = bottom, .edits = scours};
+
+    const in::facet_backscatter law{static_cast<float>(p.facets), static_cast<float>(p.facet_slope)};
+    const in::sonar_equation equation{in::pulse{static_cast<float>(p.pulse)},
+                                      in::horizontal_beam{static_cast<float>(p.beam)}, in::level_gain{}};
+    using all = in::record_options<in::labels, in::facet_backscatter, std::remove_const_t<decltype(equation)>>;
+    auto heard = in::render(scene, rig, all{.law = law, .equation = equation}, ex);
+    if (!scene.targets.empty() && !p.targets.empty())
+        out.known = facts_of(rig, scene.targets.front(), heard.labels.targets.front());
+
+    heard = in::with_tone(std::move(heard), rig, p.tone, ex);
+    in::water_column water = p.water;
+    water.first_range = static_cast<float>(first);
+    water.bin = static_cast<float>(rig.bin());
+    if (Axis == in::across_track::ground_range) water.surface = 0;
+    heard.image = in::apply(std::move(heard.image), p.gain | water, ex);
+    in::seabed_speckle speckle{.elsewhere = {.looks = p.looks},
+                               .along_track = static_cast<float>(p.grain_along),
+                               .across_track = static_cast<float>(p.grain_across),
+                               .seed = p.noise_seed};
+    for (in::speckle_law& l : speckle.bottom) l = {.looks = p.looks, .texture = static_cast<float>(p.texture)};
+    heard = in::with_speckle(std::move(heard), speckle, ex);
+    heard.image = in::apply(std::move(heard.image), p.banding, ex);
+    const auto show = [&](const auto& display) {
+        out.gray = in::apply(std::move(heard.image), display | in::to_uint8, ex);
+    };
+    const auto white = static_cast<float>(p.white);
+    if (p.display == "decibels")
+        show(in::decibel_display{.white = white, .range = static_cast<float>(p.dynamic_range)});
+    else if (p.display == "automatic")
+        show(in::automatic_display{
+            .scale = p.exponent < 0.4 ? in::display_scale::decibels : in::display_scale::amplitude,
+            .black = static_cast<float>(p.black_share),
+            .white = static_cast<float>(p.white_share)});
+    else
+        show(in::display{.white = white, .exponent = p.display == "power" ? 1.0f : static_cast<float>(p.exponent)});
+    out.labels = std::move(heard.labels);
+    if (p.turn != 0) {
+        out.gray = turned(out.gray, p.turn);
+        out.labels.instance = turned(out.labels.instance, p.turn);
+        out.labels.shadow = turned(out.labels.shadow, p.turn);
+        out.labels.seabed = turned(out.labels.seabed, p.turn);
+        in::describe_targets(out.labels, scene.targets);
+    }
+    return out;
+}
+
+}  // namespace detail
+
+inline sonar_picture draw(const options& o, const sonar_plan& p, const std::vector<in::mesh>& shapes, auto& ex) {
+    return p.ground_range ? detail::record_chip<in::across_track::ground_range>(o, p, shapes, ex)
+                          : detail::record_chip<in::across_track::slant_range>(o, p, shapes, ex);
+}
+
+}  // namespace generator

@@ -1,0 +1,110 @@
+// Draws the images of the sonar recipe; pictures.cpp those of the published one.
+#include "sonar_pictures.hpp"
+
+#include "../common/png_bytes.hpp"
+#include "record.hpp"
+#include "run_lengths.hpp"
+#include "sonar_draw.hpp"
+
+namespace generator {
+
+namespace {
+
+/// An image is drawn again if its target shows too little of itself.
+constexpr std::uint32_t most_attempts = 8;
+
+in::image<std::uint8_t> any_of(const in::image<std::uint8_t>& a, const in::image<std::uint8_t>& b) {
+    in::image<std::uint8_t> sum = a;
+    for (std::size_t i = 0; i < sum.size(); ++i) sum.pixels()[i] = std::max(a.pixels()[i], b.pixels()[i]);
+    return sum;
+}
+
+}  // namespace
+
+std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const std::string& class_name,
+                                 const plan_row* given) {
+    in::serial_executor alone;
+    std::uint32_t attempt = 0;
+    if (given != nullptr)
+        if (const auto found = given->find("attempt"); found != given->end() && !found->second.empty())
+            attempt = static_cast<std::uint32_t>(std::strtoul(found->second.c_str(), nullptr, 10));
+    sonar_plan p;
+    sonar_picture d;
+    json sampled;
+    double shown = 1;
+    for (const std::uint32_t first = attempt;; ++attempt) {
+        sampler s(o.seed, index, attempt, given);
+        std::vector<in::mesh> shapes;
+        p = sample_image(o, s, class_name, shapes);
+        d = draw(o, p, shapes, alone);
+        sampled = s.values();
+        shown = 1;
+        for (std::size_t i = 0; i < p.targets.size(); ++i)
+            shown = std::min(shown, static_cast<double>(d.labels.targets[i].area) / std::max(d.footprint[i], 1.0));
+        if (shown >= o.visible_share || given != nullptr || attempt + 1 >= first + most_attempts) break;
+    }
+    if (shown < o.visible_share)
+        std::fprintf(stderr, "image %llu: its target shows %.1f %% of its outline, less than --visible-share\n",
+                     static_cast<unsigned long long>(index), 100 * shown);
+
+    in::image<std::uint8_t> target(o.size, o.size), shadow(o.size, o.size);
+    const bool alone_in_picture = p.targets.size() == 1;
+    json annotations = json::array();
+    std::int64_t target_area = 0, shadow_area = 0;
+    for (std::size_t i = 0; i < d.labels.targets.size(); ++i) {
+        const in::target_label& label = d.labels.targets[i];
+        const bool labelled = i < p.targets.size();
+        const auto own = in::target_mask(d.labels, label.instance), dark = in::shadow_mask(d.labels, label.instance);
+        const auto add = [&](const std::string& category, const char* of, const in::label_box& box, std::int64_t area,
+                             const auto& mask) {
+            const double m = d.metres_per_pixel;
+            annotations.push_back({{"category", category},
+                                   {"mask", labelled && alone_in_picture ? of : ""},
+                                   {"bbox", {box.x, box.y, box.width, box.height}},
+                                   {"bbox_m", {box.x * m, box.y * m, box.width * m, box.height * m}},
+                                   {"area", area},
+                                   {"segmentation", {{"size", {o.size, o.size}}, {"counts", run_lengths(mask, box)}}}});
+        };
+        add(labelled ? label.class_name : clutter_class, "target_mask", label.box, label.area, own);
+        add("shadow", "shadow_mask", label.shadow_box, label.shadow_area, dark);
+        if (labelled) {
+            target = any_of(target, own), shadow = any_of(shadow, dark);
+            target_area += label.area, shadow_area += label.shadow_area;
+        }
+    }
+
+    std::vector<file> files{{image_path(p.class_name, index), examples::png_bytes(d.gray)},
+                            {mask_path("target", index), examples::png_bytes(target)},
+                            {mask_path("shadow", index), examples::png_bytes(shadow)},
+                            {mask_path("seabed", index), examples::png_bytes(d.labels.seabed)}};
+    json record{{"id", index}};
+    record["files"] = {entry_of("image", files[0]), entry_of("target_mask", files[1]),
+                       entry_of("shadow_mask", files[2]), entry_of("seabed_mask", files[3])};
+    record["size"] = o.size;
+    record["annotations"] = annotations;
+    json parameters{{"recipe", "sonar"}, {"seed", o.seed}, {"attempt", attempt}};
+    for (const auto& [name, value] : sampled.items()) parameters[name] = value;
+    const bool any = !p.targets.empty();
+    const auto known = [&](const json& value) { return any ? value : json(); };
+    parameters["metres_per_pixel"] = d.metres_per_pixel;
+    parameters["target_x_m"] = known(any ? d.poses[0].position.x : 0.0);
+    parameters["target_y_m"] = known(any ? d.poses[0].position.y : 0.0);
+    parameters["target_z_m"] = known(any ? d.poses[0].position.z : 0.0);
+    parameters["ground_range_m"] = known(d.known.ground_range);
+    parameters["slant_range_m"] = known(d.known.slant_range);
+    parameters["grazing_deg"] = known(in::numeric::to_degrees(d.known.grazing));
+    parameters["aspect_deg"] = known(in::numeric::to_degrees(d.known.aspect));
+    parameters["target_height_m"] = known(d.known.height);
+    parameters["shadow_m"] = known(d.known.shadow);
+    parameters["shadow_measured_m"] = known(d.known.shadow_measured);
+    parameters["shadow_is_cut"] = known(d.known.shadow_is_cut);
+    parameters["target_is_cut"] = known(any && d.is_cut[0]);
+    parameters["visible_share"] = known(shown);
+    parameters["target_area_px"] = target_area;
+    parameters["shadow_area_px"] = shadow_area;
+    record["parameters"] = parameters;
+    files.push_back({record_path(index), sealed(record)});
+    return files;
+}
+
+}  // namespace generator

@@ -1,0 +1,216 @@
+// The recipe `sonar`: what a side-scan sonar or a synthetic aperture shows of wrecks, aeroplanes, clutter and bare
+// bottoms, as chips cut from survey lines. Every value below is sampled by name and written to manifest.csv;
+// docs/recipe.md says what each is for.
+#pragma once
+
+#include "facts.hpp"
+#include "objects.hpp"
+#include "options.hpp"
+#include "sampler.hpp"
+
+namespace generator {
+
+/// The class of images without a target.
+inline constexpr const char* empty_class = "empty";
+/// The category of what lies about and is no target.
+inline constexpr const char* clutter_class = "clutter";
+
+inline constexpr int most_targets = 3;
+
+/// One object in the scene, and where it lies.
+struct placed_object {
+    object_form form;
+    double yaw, pitch, roll, burial, reflectivity;  ///< radians; share of the height; relative to the bottom's
+    double across, along;                           ///< of its middle, in chips from the nearest range and from below
+    double scour;                                   ///< depth over height
+};
+
+/// All that is sampled of one image.
+struct sonar_plan {
+    std::string class_name;
+    in::instrument sonar;
+    std::vector<placed_object> targets;
+    double chip, altitude, first_range, rig_yaw, place_x, place_y;  ///< metres, radians
+    bool port, ground_range;
+
+    std::string bottom;
+    std::uint32_t bottom_seed;
+    double feature, steepness, direction, disorder, roughness, cover;  ///< of the bottom; lengths in metres
+    int clutter;
+    double clutter_size;
+    std::uint32_t clutter_seed;
+
+    double facets, facet_slope, pulse, beam;  ///< -, -, metres, radians
+    in::bottom_tone tone;
+    in::range_gain_error gain;
+    in::ping_banding banding;
+    in::water_column water;
+    int looks;
+    double grain_across, grain_along;  ///< pixels
+    double texture;                    ///< shape of the K-distribution; 0: none
+    std::uint32_t noise_seed;
+    std::string display;
+    double white, exponent, dynamic_range, black_share, white_share;
+    int turn;  ///< quarter turns, and 4 more for a mirrored picture
+};
+
+namespace detail {
+
+/// Objects are at most so many pixels wide where nothing else decides the size of a chip.
+inline placed_object sample_object(sampler& s, const std::string& prefix, const std::string& kind, bool used) {
+    const auto name = [&](const char* what) { return prefix + what; };
+    const object_kind* const known = kind_named(kind);
+    if (known == nullptr)
+        throw in::io_error("--plan: column " + name("kind") + " has '" + kind + "', no kind of object");
+    placed_object o{};
+    o.form.kind = kind;
+    o.form.seed = s.word(name("form"));
+    o.form.length = s.logarithmic(name("length_m"), known->shortest, known->longest);
+    o.form.damage = s.uniform(name("damage"), 0, 1);
+    o.yaw = s.uniform(name("yaw_rad"), 0, 2 * in::numeric::pi);
+    o.pitch = s.uniform(name("pitch_rad"), -0.06, 0.06);
+    const bool on_side = s.chance(name("on_side"), kind == "ship" ? 0.15 : 0.0);
+    o.roll = s.derived(name("roll_rad"),
+                       on_side ? s.uniform(name("list_rad"), 0.9, 1.8) : s.uniform(name("list_rad"), -0.3, 0.3));
+    o.burial = s.uniform_or_0(name("burial"), 0.3, 0.02, 0.55);
+    o.reflectivity = s.logarithmic(name("reflectivity"), 0.6, 8);
+    o.across = s.uniform(name("across"), 0.22, 0.62);
+    o.along = s.uniform(name("along"), 0.3, 0.7);
+    o.scour = s.uniform_or_0(name("scour"), 0.5, 0.03, 0.25);
+    if (!used)
+        for (const char* const what : {"form", "length_m", "damage", "yaw_rad", "pitch_rad", "on_side", "list_rad",
+                                       "roll_rad", "burial", "reflectivity", "across", "along", "scour"})
+            s.drop(name(what));
+    return o;
+}
+
+/// The largest horizontal extent of a mesh, metres.
+inline double extent_of(const in::mesh& m) {
+    const in::bounding_box box = in::bounds(m);
+    return in::numeric::square_root(box.size().x * box.size().x + box.size().y * box.size().y);
+}
+
+inline void sample_bottom(sampler& s, sonar_plan& p, double pixel) {
+    p.bottom = s.choice("seabed", {{"sand", 0.45}, {"ripples", 0.25}, {"mud", 0.12}, {"rock", 0.06}, {"mixed", 0.12}});
+    p.bottom_seed = s.word("seabed_seed");
+    p.feature = s.derived("feature_m", pixel * s.logarithmic("feature_px", 3.5, 26));
+    p.steepness = s.logarithmic("steepness", 0.02, 0.1);
+    p.direction = s.uniform("ripple_direction_rad", 0, 2 * in::numeric::pi);
+    p.disorder = s.uniform("disorder", 0.05, 0.22);
+    p.roughness = s.logarithmic("roughness", 0.004, 0.05);
+    p.cover = s.uniform("cover", 0.15, 0.75);
+
+    p.tone.drift = static_cast<float>(s.uniform_or_0("tone_drift_db", 0.15, 0.3, 3.5));
+    p.tone.drift_length =
+        static_cast<float>(s.derived("tone_drift_length_m", pixel * s.logarithmic("drift_px", 15, 120)));
+    p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.6, 0.3, 1.6));
+    p.tone.streak_width = static_cast<float>(s.derived("streak_width_m", pixel * s.uniform("streak_px", 1.2, 5)));
+    p.tone.streak_length = static_cast<float>(
+        s.derived("streak_length_m", static_cast<double>(p.tone.streak_width) * s.uniform("streak_ratio", 8, 60)));
+    p.tone.direction = static_cast<float>(s.uniform("streak_direction_rad", 0, in::numeric::pi));
+    p.tone.patches = static_cast<float>(s.uniform_or_0("tone_patches_db", 0.7, -7, 7));
+    p.tone.patch_size = static_cast<float>(s.derived("patch_size_m", pixel * s.logarithmic("patch_px", 15, 70)));
+    p.tone.patch_share = static_cast<float>(s.uniform("patch_share", 0.1, 0.6));
+    p.tone.seed = s.word("tone_seed");
+
+    p.clutter = s.whole("clutter", 1, 9);
+    if (!s.chance("has_clutter", p.class_name == empty_class ? 0.12 : 0.3)) p.clutter = 0;
+    p.clutter_size = s.derived("clutter_size_m", pixel * s.uniform("clutter_px", 1.2, 4.5));
+    p.clutter_seed = s.word("clutter_seed");
+}
+
+inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
+    p.facets = s.uniform("facets", 0, 6);
+    p.facet_slope = s.uniform("facet_slope", 0.08, 0.3);
+    p.pulse = s.derived(
+        "pulse_m", (std::max)(static_cast<double>(p.sonar.range_resolution), pixel * s.uniform("pulse_px", 0.3, 1.6)));
+    const double beam = p.sonar.is_synthetic_aperture() ? static_cast<double>(p.sonar.along_track_resolution) / slant
+                                                        : static_cast<double>(p.sonar.beam);
+    p.beam = s.derived("beam_rad", (std::max)(beam * s.uniform("beam_factor", 0.7, 1.5), 0.3 * pixel / slant));
+
+    p.gain.rms = static_cast<float>(s.uniform("gain_error_db", 0, 2));
+    p.gain.length = static_cast<float>(s.uniform("gain_error_px", 25, 120));
+    p.gain.slope = static_cast<float>(s.uniform("gain_slope_db", -6, 6));
+    p.gain.seed = s.word("gain_seed");
+    p.banding.drift = static_cast<float>(s.uniform_or_0("banding_drift_db", 0.3, 0.1, 1.3));
+    p.banding.length = static_cast<float>(s.uniform("banding_px", 3, 30));
+    p.banding.jitter = static_cast<float>(s.uniform_or_0("banding_jitter_db", 0.4, 0.05, 0.9));
+    p.banding.seed = s.word("banding_seed");
+
+    p.water.noise = static_cast<float>(s.logarithmic("noise_floor", 5e-4, 0.1));
+    p.water.noise_range = static_cast<float>(slant);
+    p.water.absorption_per_km = p.sonar.absorption_per_km;
+    p.water.volume = static_cast<float>(s.logarithmic("volume", 1e-4, 1e-2));
+    p.water.surface = static_cast<float>(s.uniform_or_0("surface_return", 0.6, 0.01, 0.6));
+    p.water.surface_range = static_cast<float>(p.altitude * s.uniform("depth_over_altitude", 0.3, 3));
+    p.water.surface_tail = static_cast<float>(0.04 * p.altitude);
+    p.water.waves = static_cast<float>(0.01 * p.altitude);
+    p.water.seed = p.banding.seed;
+
+    p.looks = s.whole("looks", 1, 8);
+    p.grain_across = (std::min)((std::max)(p.sonar.grain_across() / pixel, s.uniform("grain_across_px", 0, 2.2)), 16.0);
+    p.grain_along =
+        (std::min)((std::max)(p.sonar.grain_along(slant) / pixel, s.uniform("grain_along_px", 0, 2.2)), 16.0);
+    p.grain_across = s.derived("correlation_across_px", p.grain_across);
+    p.grain_along = s.derived("correlation_along_px", p.grain_along);
+    p.texture = s.uniform_or_0("texture", 0.5, 2, 12);
+    p.noise_seed = s.word("noise_seed");
+
+    p.display = s.choice("display", {{"amplitude", 0.3}, {"decibels", 0.3}, {"power", 0.1}, {"automatic", 0.3}});
+    p.white = s.logarithmic("white", 1.5, 16);
+    p.exponent = s.uniform("exponent", 0.3, 0.7);
+    p.dynamic_range = s.uniform("display_range_factor", 0.55, 1.1) * static_cast<double>(p.sonar.dynamic_range);
+    p.dynamic_range = s.derived("display_range_db", p.dynamic_range);
+    p.black_share = s.uniform("black_share", 0, 0.02);
+    p.white_share = s.uniform("white_share", 0, 0.03);
+    p.turn = s.whole("turn", 0, 7);
+}
+
+}  // namespace detail
+
+/// What image `index` shows.
+/// @param shapes  becomes the targets' meshes, in their own frames
+inline sonar_plan sample_image(const options& o, sampler& s, const std::string& class_name,
+                               std::vector<in::mesh>& shapes) {
+    sonar_plan p{};
+    p.class_name = s.name_of("class", class_name);
+    const bool empty = p.class_name == empty_class;
+    const int more = s.choice("targets", {{"1", 0.9}, {"2", 0.07}, {"3", 0.03}})[0] - '0';
+    for (int i = 0; i < most_targets; ++i) {
+        const std::string prefix = "t" + std::to_string(i + 1) + "_";
+        const bool used = !empty && i < more;
+        const std::string kind = s.name_of(prefix + "kind", empty ? "boulder" : p.class_name);
+        placed_object t = detail::sample_object(s, prefix, kind, used);
+        if (!used) s.drop(prefix + "kind");
+        if (used) p.targets.push_back(t), shapes.push_back(mesh_of(t.form));
+    }
+
+    // The chip is cut around the first target, or as large as one of any size would be.
+    const double fill = s.uniform("fill", 0.28, 0.95), bare = s.logarithmic("bare_chip_m", 6, 160);
+    p.chip = s.derived("chip_m", empty ? bare : detail::extent_of(shapes.front()) / fill);
+    const double pixel = p.chip / o.size;
+
+    // Sonars that reach as far as the chip is wide; the finest ones are not used for the largest chips.
+    std::vector<weighted> fit;
+    for (const in::instrument& i : in::instruments::all)
+        if (static_cast<double>(i.range) > 1.15 * p.chip && static_cast<double>(i.range) < 60 * p.chip)
+            fit.push_back({std::string(i.name)});
+    if (fit.empty()) fit.push_back({p.chip > 20 ? "side_scan_450" : "side_scan_1800"});
+    p.sonar = in::instrument_named(s.choice("sonar", fit));
+    const double reach = (std::max)(static_cast<double>(p.sonar.range), 1.3 * p.chip);
+    const double lead = p.targets.empty() ? 0.5 : p.targets.front().across;
+    p.first_range = s.derived("first_range_m", s.uniform("range_share", 0, 1) * (reach - p.chip));
+    const double slant = p.first_range + lead * p.chip;
+    p.altitude = s.uniform("altitude_share", 0.06, 0.2) * reach;
+    p.altitude = s.derived("altitude_m", (std::max)((std::min)(p.altitude, 0.62 * slant), 0.05 * slant));
+    p.rig_yaw = s.uniform("rig_yaw_rad", 0, 2 * in::numeric::pi);
+    p.place_x = s.uniform("place_x_m", -500, 500);
+    p.place_y = s.uniform("place_y_m", -500, 500);
+    p.port = s.chance("port", 0.5);
+    p.ground_range = s.chance("ground_range", 0.3);
+    detail::sample_bottom(s, p, pixel);
+    detail::sample_look(s, p, pixel, slant);
+    return p;
+}
+
+}  // namespace generator

@@ -1,0 +1,150 @@
+// The bottom's brightness from place to place: drift of its backscatter, streaks, and patches of another sediment.
+//
+// A survey line over "one" bottom is not one gray: grain size, shell and cover change over metres to hundreds of metres
+// (T. K. Stanton. Sonar Estimates of Seafloor Microroughness. JASA 75, 1984; J. A. Goff and others. Correlation of
+// sidescan backscatter with grain size distribution of surficial seabed sediments. Marine Geology 205, 2004), and
+// currents sort it into streaks along the flow. Levels are a function of (seed, position), so a bottom that is seen
+// twice, from either side, has the same tone.
+#pragma once
+
+#include <insonify/sonar/smooth_noise.hpp>
+#include <insonify/sonar/speckle.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Levels in decibels that are added to a bottom's; all of them 0 is none.
+struct bottom_tone {
+    float drift = 0;            ///< rms of what drifts, 0 to 30
+    float drift_length = 20;    ///< metres between the nodes of its coarsest octave, above 0
+    int octaves = 3;            ///< each of half the length and half the level of the one before, 1 to 8
+    float streaks = 0;          ///< rms of streaks, 0 to 30
+    float streak_width = 1.5f;  ///< metres between nodes across them, above 0
+    float streak_length = 40;   ///< metres between nodes along them, above 0
+    float direction = 0;        ///< radians from +x: along the streaks
+    float patches = 0;          ///< by how much patches are brighter (or, negative, darker), -30 to 30
+    float patch_size = 15;      ///< metres between the nodes that make their outline, above 0
+    float patch_share = 0.3f;   ///< of the area, 0.01 to 0.99
+    std::uint64_t seed = 1;
+
+    bool is_none() const { return drift == 0 && streaks == 0 && patches == 0; }
+};
+
+namespace detail {
+
+inline void validate(const bottom_tone& t) {
+    const auto level = [](const char* name, float v) { require(v >= 0 && v <= 30, name, v, "0 to 30 dB"); };
+    const auto length = [](const char* name, float v) {
+        require(v >= 1e-4f && v <= 1e9f, name, v, "1e-4 to 1e9 metres");
+    };
+    level("bottom_tone.drift", t.drift);
+    level("bottom_tone.streaks", t.streaks);
+    length("bottom_tone.drift_length", t.drift_length);
+    length("bottom_tone.streak_width", t.streak_width);
+    length("bottom_tone.streak_length", t.streak_length);
+    length("bottom_tone.patch_size", t.patch_size);
+    require(t.octaves >= 1 && t.octaves <= 8, "bottom_tone.octaves", t.octaves, "1 to 8");
+    require(numeric::is_finite(t.direction), "bottom_tone.direction", t.direction, "a finite angle");
+    require(t.patches >= -30 && t.patches <= 30, "bottom_tone.patches", t.patches, "-30 to 30 dB");
+    require(t.patch_share >= 0.01f && t.patch_share <= 0.99f, "bottom_tone.patch_share", t.patch_share, "0.01 to 0.99");
+}
+
+/// Where the standard normal distribution reaches a share, to 5e-4 (C. Hastings. Approximations for Digital Computers,
+/// 1955, sheet 67).
+inline double normal_quantile(double share) {
+    const double tail = share < 0.5 ? share : 1 - share, t = numeric::square_root(-2 * numeric::log(tail));
+    const double z =
+        t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+    return share < 0.5 ? -z : z;
+}
+
+/// Evaluates a tone.
+class tone_sampler {
+  public:
+    /// @throws invalid_input for a parameter out of its range
+    explicit tone_sampler(const bottom_tone& t) : t_((validate(t), t)), along_(numeric::sin_cos(t.direction)) {
+        const auto key = [&](drift_stream stream) { return stream_key(t.seed, static_cast<std::uint32_t>(stream)); };
+        drift_ = key(drift_stream::tone), streaks_ = key(drift_stream::streaks), patches_ = key(drift_stream::patches);
+        double squares = 0, share = 1;
+        for (int i = 0; i < t.octaves; ++i, share *= 0.5) squares += share * share;
+        scale_ = static_cast<double>(t.drift) / numeric::square_root(squares);
+        threshold_ = normal_quantile(1 - static_cast<double>(t.patch_share));
+    }
+
+    /// @returns decibels
+    double operator()(const glm::dvec2& at) const {
+        double level = 0;
+        if (t_.drift > 0) {
+            double per_metre = 1 / static_cast<double>(t_.drift_length), share = scale_;
+            for (int i = 0; i < t_.octaves; ++i, per_metre *= 2, share *= 0.5)
+                level +=
+                    share * smooth_noise(at.x * per_metre, at.y * per_metre, static_cast<std::uint32_t>(i), drift_);
+        }
+        if (t_.streaks > 0) {
+            const double along = at.x * along_.cosine + at.y * along_.sine,
+                         across = at.y * along_.cosine - at.x * along_.sine;
+            level += static_cast<double>(t_.streaks) * smooth_noise(along / static_cast<double>(t_.streak_length),
+                                                                    across / static_cast<double>(t_.streak_width), 0,
+                                                                    streaks_);
+        }
+        if (t_.patches != 0) {
+            // Two octaves, so that outlines are ragged; a soft border.
+            const double size = static_cast<double>(t_.patch_size);
+            const double field = 0.89442719 * smooth_noise(at.x / size, at.y / size, 0, patches_) +
+                                 0.44721360 * smooth_noise(4 * at.x / size, 4 * at.y / size, 1, patches_);
+            const double inside = 0.5 + 4 * (field - threshold_);
+            level += static_cast<double>(t_.patches) * (inside > 0 ? (inside < 1 ? inside : 1.0) : 0.0);
+        }
+        return level;
+    }
+
+  private:
+    bottom_tone t_;
+    numeric::sine_cosine along_;
+    philox_key drift_{}, streaks_{}, patches_{};
+    double scale_ = 0, threshold_ = 0;
+};
+
+}  // namespace detail
+
+/// The level that a tone adds at a position, decibels.
+/// @throws invalid_input for a parameter out of its range
+inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
+    return detail::tone_sampler(tone)(position);
+}
+
+/// A recording whose bottom has a tone: intensities of pixels that the labels name a seabed for change by the level at
+/// their place on the datum; targets, shadows' noise and the water column stay.
+///
+/// @param r    as `render` made it of this rig: before noise and speckle
+/// @throws invalid_input for a parameter out of its range
+template <across_track Axis, executor_argument E = serial_executor>
+recording<labels> with_tone(recording<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
+    const detail::tone_sampler level(tone);
+    if (tone.is_none()) return r;
+    const ping_numbers numbers = r.rows;
+    const double altitude = static_cast<double>(rig.altitude), first = static_cast<double>(rig.first_range);
+    bulk_ranges(ex, static_cast<std::size_t>(r.image.height()), 16, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+            const int y = static_cast<int>(i);
+            const ping_frame frame(ping_of(rig, static_cast<int>(numbers.first) + numbers.step * y), rig.side);
+            const auto row = r.image.row(y);
+            const auto types = r.labels.seabed.row(y);
+            for (std::size_t x = 0; x < row.size(); ++x) {
+                if (types[x] == labels::no_seabed) continue;
+                const double range = first + (static_cast<double>(x) + 0.5) * rig.bin();
+                const double square = range * range - altitude * altitude;
+                const double ground = Axis == across_track::ground_range ? range
+                                      : square > 0                       ? numeric::square_root(square)
+                                                                         : 0.0;
+                row[x] *= static_cast<float>(from_decibels(level(frame.world(ground, 0))));
+            }
+        }
+    });
+    return r;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

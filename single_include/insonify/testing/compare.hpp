@@ -1,0 +1,148 @@
+// Compares two pictures inside a unit test: whether they agree within a tolerance, and if not, where and by how much.
+#pragma once
+
+#include <insonify/insonify.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// What a test lets pass. The default lets nothing pass but the same values.
+struct picture_tolerance {
+    double value = 0;  ///< by which a pixel may differ in any channel, in the unit of the pixels
+    double share = 0;  ///< of the pixels that may differ by more, 0 to 1
+};
+
+/// The result of a comparison. Converts to true if the pictures agree.
+struct picture_comparison {
+    std::size_t pixels = 0;  ///< compared
+    std::size_t wrong = 0;   ///< that differ by more than the tolerance
+    int x = 0, y = 0;        ///< the pixel that differs most
+    double largest = 0;      ///< difference, there
+    std::string message{};   ///< empty if the pictures agree
+
+    explicit operator bool() const { return message.empty(); }
+};
+
+namespace detail {
+
+/// A pixel's channels as doubles.
+template <class Pixel>
+struct channels_of {
+    static constexpr int count = 1;
+    static double at(const Pixel& p, int) { return static_cast<double>(p); }
+};
+template <class Sample>
+struct channels_of<rgb<Sample>> {
+    static constexpr int count = 3;
+    static double at(const rgb<Sample>& p, int channel) {
+        return static_cast<double>(channel == 0 ? p.r : channel == 1 ? p.g : p.b);
+    }
+};
+
+/// The largest absolute difference over the channels. NaN equals NaN, and is infinitely far from anything else.
+template <class Pixel>
+double pixel_distance(const Pixel& a, const Pixel& b) {
+    double most = 0;
+    for (int c = 0; c < channels_of<Pixel>::count; ++c) {
+        const double p = channels_of<Pixel>::at(a, c), q = channels_of<Pixel>::at(b, c);
+        if (p == q || (p != p && q != q)) continue;
+        const double off = p < q ? q - p : p - q;
+        most = off == off ? (std::max)(most, off) : std::numeric_limits<double>::infinity();
+    }
+    return most;
+}
+
+template <class Pixel>
+std::string pixel_text(const Pixel& p) {
+    std::string text;
+    for (int c = 0; c < channels_of<Pixel>::count; ++c)
+        text += (c == 0 ? "" : " ") + to_text(channels_of<Pixel>::at(p, c));
+    return channels_of<Pixel>::count == 1 ? text : "(" + text + ")";
+}
+
+inline std::string size_text(int width, int height) {
+    return to_text(width) + " x " + to_text(height) + " pixels";
+}
+
+}  // namespace detail
+
+/// Compares a picture with the expected one, pixel by pixel.
+/// @throws invalid_input for a tolerance below 0 or NaN, or a share above 1
+template <storable_pixel Pixel>
+picture_comparison compare_pictures(const image<Pixel>& found, const image<Pixel>& expected,
+                                    const picture_tolerance& tolerance = {}) {
+    detail::require(tolerance.value >= 0, "tolerance.value", tolerance.value, "at least 0");
+    detail::require(tolerance.share >= 0 && tolerance.share <= 1, "tolerance.share", tolerance.share, "0 to 1");
+    picture_comparison result;
+    if (found.width() != expected.width() || found.height() != expected.height()) {
+        result.message = "the picture has " + detail::size_text(found.width(), found.height()) + ", expected " +
+                         detail::size_text(expected.width(), expected.height());
+        return result;
+    }
+    result.pixels = found.size();
+    for (int y = 0; y < found.height(); ++y)
+        for (int x = 0; x < found.width(); ++x) {
+            const double off = detail::pixel_distance(found(x, y), expected(x, y));
+            if (off > tolerance.value) ++result.wrong;
+            if (off > result.largest) {
+                result.largest = off;
+                result.x = x;
+                result.y = y;
+            }
+        }
+    if (static_cast<double>(result.wrong) <= tolerance.share * static_cast<double>(result.pixels)) return result;
+    using detail::to_text;
+    result.message = to_text(result.wrong) + " of " + to_text(result.pixels) + " pixels differ by more than " +
+                     to_text(tolerance.value) + " (" + to_text(tolerance.share) +
+                     " of them may); the most at x = " + to_text(result.x) + ", y = " + to_text(result.y) + ": " +
+                     detail::pixel_text(found(result.x, result.y)) + ", expected " +
+                     detail::pixel_text(expected(result.x, result.y));
+    return result;
+}
+/// Where two pictures differ: the expected one in dim gray, on it red where the found one is brighter and blue where it
+/// is darker, full at the largest difference.
+/// @throws invalid_input if the sizes differ
+template <storable_pixel Pixel>
+image<rgb8> difference_picture(const image<Pixel>& found, const image<Pixel>& expected) {
+    detail::require(found.width() == expected.width() && found.height() == expected.height(), "size of the picture",
+                    found.size(), "that of the expected one");
+    const auto mean = [](const Pixel& p) {
+        double sum = 0;
+        for (int c = 0; c < detail::channels_of<Pixel>::count; ++c) sum += detail::channels_of<Pixel>::at(p, c);
+        return sum / detail::channels_of<Pixel>::count;
+    };
+    double brightest = 0, largest = 0;
+    const auto note = [](double& most, double value) {
+        if (numeric::is_finite(value) && value > most) most = value;
+    };
+    for (int y = 0; y < found.height(); ++y)
+        for (int x = 0; x < found.width(); ++x) {
+            note(brightest, mean(expected(x, y)));
+            note(largest, detail::pixel_distance(found(x, y), expected(x, y)));
+        }
+    const auto level = [](double value, double full) {
+        const double share = full > 0 ? value / full : 0;
+        return static_cast<std::uint8_t>(share >= 1 ? 255 : share > 0 ? 255 * share : 0);
+    };
+    image<rgb8> picture(found.width(), found.height());
+    for (int y = 0; y < found.height(); ++y)
+        for (int x = 0; x < found.width(); ++x) {
+            const double off = detail::pixel_distance(found(x, y), expected(x, y));
+            const auto dim = static_cast<std::uint8_t>(level(mean(expected(x, y)), brightest) / 3);
+            const auto mark = static_cast<std::uint8_t>(off > 0 ? 80 + 175 * level(off, largest) / 255 : 0);
+            const bool is_darker = mean(found(x, y)) < mean(expected(x, y));
+            picture(x, y) = off > 0 ? (is_darker ? rgb8{0, 0, mark} : rgb8{mark, 0, 0}) : rgb8{dim, dim, dim};
+        }
+    return picture;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""Opens the playground in headless Chromium, moves every control and checks what the page shows: check.py index.html
+
+Prints the time of a frame for each kind of picture. Exit 0: fine; 1: a fault; 77: no Chromium here.
+"""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+# Runs inside the page and returns what it found as JSON.
+DRIVER = """
+(async () => {
+  const found = {faults: [], frames: {}};
+  const root = document.documentElement, form = document.getElementById("controls");
+  const canvas = document.getElementById("picture");
+  const frames = () => Number(root.dataset.frames || 0);
+  const pause = () => new Promise(done => setTimeout(done, 5));
+  const until = async (what, condition) => {
+    for (let i = 0; i < 4000; ++i) { if (condition()) return; await pause(); }
+    found.faults.push("never: " + what);
+  };
+  const picture = () => canvas.toDataURL();
+  const set = async (name, value) => {
+    const before = frames();
+    form.elements[name].value = value;
+    form.dispatchEvent(new Event("input"));
+    await until(name + " = " + value + " is drawn", () => frames() > before);
+  };
+  await until("the first frame", () => frames() > 0);
+  for (const mode of [0, 1, 2]) {
+    await set("mode", mode);
+    const changes = {altitude: 6.5, yaw: 100, burial: 0.5, target: 3, bottom: 3, look: 1, overlay: 2, speckle: 0, seed: 20};
+    if (mode === 0) changes.grazing = 20;
+    for (const [name, value] of Object.entries(changes)) {
+      const before = picture(), old = form.elements[name].value;
+      await set(name, value);
+      if (picture() === before) found.faults.push("mode " + mode + ": " + name + " changes nothing");
+      await set(name, old);
+      if (picture() !== before) found.faults.push("mode " + mode + ": " + name + " does not come back");
+    }
+    const times = [];
+    for (let i = 0; i < 9; ++i) {
+      await set("yaw", 10 * i);
+      times.push(Number(root.dataset.ms));
+    }
+    found.frames[mode] = times.sort((a, b) => a - b)[4];
+    for (const bottom of [0, 1, 2, 3, 4]) await set("bottom", bottom);
+    for (const target of [0, 1, 2, 3, 4, 5, 6, 7]) await set("target", target);
+    for (const [name, value] of [["altitude", 1.5], ["altitude", 12], ["size", 1024], ["size", 128], ["size", 512]])
+      await set(name, value);
+    for (const name of ["bottom", "target", "altitude", "yaw"])
+      await set(name, {bottom: 1, target: 1, altitude: 4, yaw: 60}[name]);
+  }
+  if (!document.getElementById("code").textContent.includes("in::render(scene")) found.faults.push("no program shown");
+  if (document.getElementById("error").textContent) found.faults.push(document.getElementById("error").textContent);
+  return JSON.stringify(found);
+})()
+"""
+
+
+class Browser:
+    """Chromium without a window, spoken to by the DevTools protocol over two pipes."""
+
+    def __init__(self, program, folder):
+        to_child, self.write_end = os.pipe()
+        self.read_end, from_child = os.pipe()
+
+        def connect():  # the protocol's descriptors are 3 and 4
+            os.dup2(to_child, 13)
+            os.dup2(from_child, 14)
+            os.dup2(13, 3)
+            os.dup2(14, 4)
+
+        self.process = subprocess.Popen(
+            [program, "--headless=new", "--no-sandbox", "--disable-gpu", f"--user-data-dir={folder}",
+             "--remote-debugging-pipe", "about:blank"],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=connect, pass_fds=(3, 4))
+        self.buffer, self.count, self.events = b"", 0, []
+
+    def receive(self):
+        while b"\0" not in self.buffer:
+            part = os.read(self.read_end, 1 << 16)
+            if not part:
+                raise RuntimeError("Chromium has ended")
+            self.buffer += part
+        message, self.buffer = self.buffer.split(b"\0", 1)
+        return json.loads(message)
+
+    def call(self, method, session=None, **params):
+        self.count += 1
+        message = {"id": self.count, "method": method, "params": params}
+        if session:
+            message["sessionId"] = session
+        os.write(self.write_end, json.dumps(message).encode() + b"\0")
+        while True:
+            answer = self.receive()
+            if answer.get("id") == self.count:
+                return answer.get("result", answer)
+            self.events.append(answer)
+
+    def open(self, url):
+        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        for domain in ("Runtime", "Log", "Page", "Network"):
+            self.call(domain + ".enable", session)
+        self.call("Page.navigate", session, url=url)
+        while not any(e.get("method") == "Page.loadEventFired" for e in self.events):
+            self.events.append(self.receive())
+        return session
+
+    def complaints(self):
+        """Uncaught errors, messages on the console and requests to a network."""
+        for e in self.events:
+            method, params = e.get("method"), e.get("params", {})
+            if method == "Runtime.exceptionThrown":
+                yield "exception: " + params["exceptionDetails"].get("text", "")
+            if method == "Runtime.consoleAPICalled" or method == "Log.entryAdded":
+                yield "console: " + json.dumps(params)[:300]
+            if method == "Network.requestWillBeSent" and not re.match("file:|data:|about:", params["request"]["url"]):
+                yield "network: " + params["request"]["url"][:100]
+
+
+def main():
+    chromium = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    if chromium is None:
+        print("Without Chromium: the playground is not opened.")
+        sys.exit(77)
+    page = pathlib.Path(sys.argv[1]).resolve()
+    size = page.stat().st_size
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        browser = Browser(chromium, folder)
+        try:
+            session = browser.open(page.as_uri())
+            answer = browser.call("Runtime.evaluate", session, expression=DRIVER, awaitPromise=True)
+            found = json.loads(answer["result"]["value"])
+        finally:
+            browser.process.kill()
+            browser.process.wait()
+    faults = list(browser.complaints()) + found["faults"]
+    if size > 1.5e6:
+        faults.append(f"{size} bytes, at most 1.5 million")
+    print(f"{size / 1e6:.2f} MB; milliseconds a frame of 512 x 512:", found["frames"])
+    print("\n".join(faults) or "no fault")
+    sys.exit(1 if faults else 0)
+
+
+main()
