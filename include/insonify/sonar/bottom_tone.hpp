@@ -120,7 +120,7 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// @param r    as `render` made it of this rig: before noise and speckle
 /// @throws invalid_input for a parameter out of its range
 template <across_track Axis, executor_argument E = serial_executor>
-recording<labels> with_tone(recording<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
+frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     const detail::tone_sampler level(tone);
     if (tone.is_none()) return r;
     const ping_numbers numbers = r.rows;
