@@ -10,7 +10,7 @@
 #pragma once
 
 #include <insonify/shadow/detail/blocking.hpp>
-#include <insonify/shadow/detail/horizon_bounds.hpp>
+#include <insonify/shadow/detail/horizon_triangles.hpp>
 #include <insonify/shadow/detail/occlusion_kernel.hpp>
 
 #include <array>
@@ -78,19 +78,54 @@ class exact_occlusion {
                 own = at.face_light && mesh < horizons_.size() && horizons_[mesh].bounds ? &horizons_[mesh] : nullptr;
             }
             const glm::dvec3 p = at[i];
-            auto known = detail::horizon_bounds::answer::unknown;
-            if (own != nullptr) known = own->bounds->at(transform_point(own->to_mesh, p));
+            auto answer = known::nothing;
+            if (own != nullptr) answer = own->bounds->at(transform_point(own->to_mesh, p));
             if (near_light_) continue;
             const plane_state& state = planes_.front();
             const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(p))];
             if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
                 into.lit[i] = 1;
-            } else if (occupant == mesh && known != detail::horizon_bounds::answer::unknown) {
-                const bool is_dark = known == detail::horizon_bounds::answer::dark;
+            } else if (occupant == mesh && answer != known::nothing) {
+                const bool is_dark = answer == known::dark;
                 into.lit[i] = is_dark ? 0.0f : 1.0f;
                 if (is_dark) into.caster[i] = mesh;
             }
         }
+    }
+
+    /// What is known of whole triangles of a caster as a camera sees them: an answer for each, or none at all.
+    /// @param eye  the camera
+    template <executor E>
+    insonify::detail::unfilled_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye, E& ex) const {
+        insonify::detail::unfilled_vector<known> answers;
+        if (caster >= horizons_.size() || !horizons_[caster].bounds) return answers;
+        const shadow::caster& c = casters_[caster];
+        const horizon_state& state = horizons_[caster];
+        const detail::horizon_triangles triangles(c.mesh, *c.grid, *state.bounds, state.travel,
+                                                  transform_point(state.to_mesh, eye));
+        answers.resize(c.mesh.triangles.size());
+        bulk_ranges(ex, static_cast<std::size_t>(state.bounds->grid().columns - 1), 32,
+                    [&](std::size_t first, std::size_t last) {
+                        triangles.find(static_cast<int>(first), static_cast<int>(last), answers.data());
+                    });
+        // Where others may cast, too, points decide.
+        const plane_state& plane = planes_.front();
+        const ray_feet feet(plane.plane, c.placement, state.bounds->grid());
+        for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
+            if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
+            const glm::dvec2 size = plane.tiles.tile();
+            const auto columns = static_cast<std::size_t>(plane.tiles.columns);
+            const glm::dvec2 corner = plane.tiles.lower + size * glm::dvec2(static_cast<double>(tile % columns),
+                                                                            static_cast<double>(tile / columns));
+            glm::dvec2 lower = feet(corner), upper = lower;
+            for (const glm::dvec2 other : {glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size}) {
+                const glm::dvec2 at = feet(corner + other);
+                lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
+                upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
+            }
+            triangles.forget(lower, upper, answers.data());
+        }
+        return answers;
     }
 
     /// See occlusion.
@@ -156,7 +191,31 @@ class exact_occlusion {
     };
     struct horizon_state {
         affine to_mesh;
+        glm::dvec3 travel{0};  ///< of the light, in the mesh's frame
         std::optional<detail::horizon_bounds> bounds;
+    };
+    /// Where the ray at a point of a light's plane meets the plane z = 0 of a mesh, in the steps of its grid.
+    class ray_feet {
+      public:
+        ray_feet(const detail::light_plane& plane, const affine& placement, const detail::lit_grid& grid) {
+            const auto seen = [&](double x, double y) {
+                return glm::dvec2(plane(transform_point(placement, {x, y, 0})));
+            };
+            origin_ = seen(0, 0);
+            const glm::dvec2 x = seen(1, 0) - origin_, y = seen(0, 1) - origin_;
+            const double area = x.x * y.y - x.y * y.x;
+            x_of_ = glm::dvec2(y.y, -y.x) / area;
+            y_of_ = glm::dvec2(-x.y, x.x) / area;
+            grid_ = &grid;
+        }
+        glm::dvec2 operator()(const glm::dvec2& at) const {
+            const glm::dvec2 off = at - origin_;
+            return grid_->steps({x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y});
+        }
+
+      private:
+        glm::dvec2 origin_{0}, x_of_{0}, y_of_{0};
+        const detail::lit_grid* grid_ = nullptr;
     };
     using receivers_of = insonify::detail::unfilled_vector<detail::receiver>;
     /// Points of a run of batches by tile.
@@ -193,8 +252,8 @@ class exact_occlusion {
         horizon_state& state = horizons_.emplace_back();
         if (c.grid == nullptr || c.may_skip != skip::facing_its_own) return;
         state.to_mesh = inverse(c.placement);
-        state.bounds.emplace(c.mesh, *c.grid, transform_direction(state.to_mesh, -frame.to_light()),
-                             shared_mesh_grid_error, ex);
+        state.travel = transform_direction(state.to_mesh, -frame.to_light());
+        state.bounds.emplace(c.mesh, *c.grid, state.travel, shared_mesh_grid_error, ex);
     }
     /// The part of a near light's plane that a box is over.
     static std::pair<glm::dvec2, glm::dvec2> seen_part(const detail::light_plane& plane, const bounding_box& box) {
