@@ -6711,6 +6711,69 @@ class horizon_bounds {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/shadow/detail/light_planes.hpp ---------------------------------------------------
+// The planes over which a light's rays stand upright, and casters and points as seen there.
+//
+// Parallel light has one plane, the datum in the light's sheared frame (light.hpp). Light from a point has six, the
+// sides of a cube around it, each seen in perspective. On a plane every ray is one point (u, v), triangles stay
+// triangles, and of two points of a ray the one with the larger height is nearer to the light.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// One plane of a light.
+class light_plane {
+  public:
+    light_plane() = default;
+    explicit light_plane(const light_frame& frame)
+        : rows_{{frame.travel().x, frame.travel().y, frame.cot_elevation()},
+                {-frame.travel().y, frame.travel().x, 0},
+                {0, 0, 1}} {}
+    /// @param side  0 to 5: along +x, -x, +y, -y, +z, -z of the light
+    light_plane(const point_light& light, int side) : origin_(light.position), is_near_(true) {
+        const int axis = side / 2;
+        rows_[0][(axis + 1) % 3] = rows_[1][(axis + 2) % 3] = 1;
+        rows_[2][axis] = side % 2 == 0 ? 1 : -1;
+    }
+
+    bool is_near() const { return is_near_; }
+    /// Whether what is counter-clockwise from the light is clockwise here.
+    bool is_mirrored() const { return is_near_ == (numeric::dot(rows_[0], numeric::cross(rows_[1], rows_[2])) > 0); }
+
+    /// (u, v, height) of a point; of a near light before the division, (u d, v d, d) with the depth d.
+    glm::dvec3 operator()(const glm::dvec3& p) const { return direction(p - origin_); }
+    /// The same of a difference of points.
+    glm::dvec3 direction(const glm::dvec3& d) const {
+        return {numeric::dot(rows_[0], d), numeric::dot(rows_[1], d), numeric::dot(rows_[2], d)};
+    }
+    /// After the division. Heights are 1 / depth.
+    static glm::dvec3 seen(const glm::dvec3& before) {
+        return {before.x / before.z, before.y / before.z, 1 / before.z};
+    }
+
+    /// Number of the plane of a point light over which a point lies.
+    static int side_of(const point_light& light, const glm::dvec3& p) {
+        const glm::dvec3 d = p - light.position;
+        const glm::dvec3 size{numeric::magnitude(d.x), numeric::magnitude(d.y), numeric::magnitude(d.z)};
+        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+        return 2 * axis + (d[axis] < 0 ? 1 : 0);
+    }
+
+  private:
+    glm::dvec3 rows_[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    glm::dvec3 origin_{0};
+    bool is_near_ = false;
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/shadow/detail/horizon_triangles.hpp ----------------------------------------------
 // Whole triangles of a regular grid that are in the light or in the dark, by the bounds of their horizon.
 //
@@ -6724,6 +6787,39 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail {
+
+/// Where the ray at a point of a light's plane meets the plane z = 0 of a mesh, in the steps of its grid.
+class ray_feet {
+  public:
+    ray_feet(const light_plane& plane, const affine& placement, const lit_grid& grid) {
+        const auto seen = [&](double x, double y) { return glm::dvec2(plane(transform_point(placement, {x, y, 0}))); };
+        origin_ = seen(0, 0);
+        const glm::dvec2 x = seen(1, 0) - origin_, y = seen(0, 1) - origin_;
+        const double area = x.x * y.y - x.y * y.x;
+        x_of_ = glm::dvec2(y.y, -y.x) / area;
+        y_of_ = glm::dvec2(-x.y, x.x) / area;
+        grid_ = &grid;
+    }
+    glm::dvec2 operator()(const glm::dvec2& at) const {
+        const glm::dvec2 off = at - origin_;
+        return grid_->steps({x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y});
+    }
+
+    /// Bounds of those of a rectangle's points.
+    std::pair<glm::dvec2, glm::dvec2> of(const glm::dvec2& corner, const glm::dvec2& size) const {
+        glm::dvec2 lower = (*this)(corner), upper = lower;
+        for (const glm::dvec2& other : {glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size}) {
+            const glm::dvec2 at = (*this)(corner + other);
+            lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
+            upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
+        }
+        return {lower, upper};
+    }
+
+  private:
+    glm::dvec2 origin_{0}, x_of_{0}, y_of_{0};
+    const lit_grid* grid_ = nullptr;
+};
 
 /// Answers for all triangles of one grid, seen by one camera.
 class horizon_triangles {
@@ -6838,69 +6934,6 @@ class horizon_triangles {
     double eye_u_ = 0;
     double rise_ = 0;  ///< of u along the light, a column, above which a triangle faces it
     bool lower_is_first_ = true;
-};
-
-}  // namespace shadow::detail
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/shadow/detail/light_planes.hpp ---------------------------------------------------
-// The planes over which a light's rays stand upright, and casters and points as seen there.
-//
-// Parallel light has one plane, the datum in the light's sheared frame (light.hpp). Light from a point has six, the
-// sides of a cube around it, each seen in perspective. On a plane every ray is one point (u, v), triangles stay
-// triangles, and of two points of a ray the one with the larger height is nearer to the light.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace shadow::detail {
-
-/// One plane of a light.
-class light_plane {
-  public:
-    light_plane() = default;
-    explicit light_plane(const light_frame& frame)
-        : rows_{{frame.travel().x, frame.travel().y, frame.cot_elevation()},
-                {-frame.travel().y, frame.travel().x, 0},
-                {0, 0, 1}} {}
-    /// @param side  0 to 5: along +x, -x, +y, -y, +z, -z of the light
-    light_plane(const point_light& light, int side) : origin_(light.position), is_near_(true) {
-        const int axis = side / 2;
-        rows_[0][(axis + 1) % 3] = rows_[1][(axis + 2) % 3] = 1;
-        rows_[2][axis] = side % 2 == 0 ? 1 : -1;
-    }
-
-    bool is_near() const { return is_near_; }
-    /// Whether what is counter-clockwise from the light is clockwise here.
-    bool is_mirrored() const { return is_near_ == (numeric::dot(rows_[0], numeric::cross(rows_[1], rows_[2])) > 0); }
-
-    /// (u, v, height) of a point; of a near light before the division, (u d, v d, d) with the depth d.
-    glm::dvec3 operator()(const glm::dvec3& p) const { return direction(p - origin_); }
-    /// The same of a difference of points.
-    glm::dvec3 direction(const glm::dvec3& d) const {
-        return {numeric::dot(rows_[0], d), numeric::dot(rows_[1], d), numeric::dot(rows_[2], d)};
-    }
-    /// After the division. Heights are 1 / depth.
-    static glm::dvec3 seen(const glm::dvec3& before) {
-        return {before.x / before.z, before.y / before.z, 1 / before.z};
-    }
-
-    /// Number of the plane of a point light over which a point lies.
-    static int side_of(const point_light& light, const glm::dvec3& p) {
-        const glm::dvec3 d = p - light.position;
-        const glm::dvec3 size{numeric::magnitude(d.x), numeric::magnitude(d.y), numeric::magnitude(d.z)};
-        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
-        return 2 * axis + (d[axis] < 0 ? 1 : 0);
-    }
-
-  private:
-    glm::dvec3 rows_[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-    glm::dvec3 origin_{0};
-    bool is_near_ = false;
 };
 
 }  // namespace shadow::detail
@@ -7558,19 +7591,13 @@ class exact_occlusion {
                     });
         // Where others may cast, too, points decide.
         const plane_state& plane = planes_.front();
-        const ray_feet feet(plane.plane, c.placement, state.bounds->grid());
+        const detail::ray_feet feet(plane.plane, c.placement, state.bounds->grid());
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
             if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
             const glm::dvec2 size = plane.tiles.tile();
             const auto columns = static_cast<std::size_t>(plane.tiles.columns);
-            const glm::dvec2 corner = plane.tiles.lower + size * glm::dvec2(static_cast<double>(tile % columns),
-                                                                            static_cast<double>(tile / columns));
-            glm::dvec2 lower = feet(corner), upper = lower;
-            for (const glm::dvec2 other : {glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size}) {
-                const glm::dvec2 at = feet(corner + other);
-                lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
-                upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
-            }
+            const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
+            const auto [lower, upper] = feet.of(plane.tiles.lower + size * place, size);
             triangles.forget(lower, upper, answers.data());
         }
         return answers;
@@ -7641,29 +7668,6 @@ class exact_occlusion {
         affine to_mesh;
         glm::dvec3 travel{0};  ///< of the light, in the mesh's frame
         std::optional<detail::horizon_bounds> bounds;
-    };
-    /// Where the ray at a point of a light's plane meets the plane z = 0 of a mesh, in the steps of its grid.
-    class ray_feet {
-      public:
-        ray_feet(const detail::light_plane& plane, const affine& placement, const detail::lit_grid& grid) {
-            const auto seen = [&](double x, double y) {
-                return glm::dvec2(plane(transform_point(placement, {x, y, 0})));
-            };
-            origin_ = seen(0, 0);
-            const glm::dvec2 x = seen(1, 0) - origin_, y = seen(0, 1) - origin_;
-            const double area = x.x * y.y - x.y * y.x;
-            x_of_ = glm::dvec2(y.y, -y.x) / area;
-            y_of_ = glm::dvec2(-x.y, x.x) / area;
-            grid_ = &grid;
-        }
-        glm::dvec2 operator()(const glm::dvec2& at) const {
-            const glm::dvec2 off = at - origin_;
-            return grid_->steps({x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y});
-        }
-
-      private:
-        glm::dvec2 origin_{0}, x_of_{0}, y_of_{0};
-        const detail::lit_grid* grid_ = nullptr;
     };
     using receivers_of = insonify::detail::unfilled_vector<detail::receiver>;
     /// Points of a run of batches by tile.

@@ -110,19 +110,13 @@ class exact_occlusion {
                     });
         // Where others may cast, too, points decide.
         const plane_state& plane = planes_.front();
-        const ray_feet feet(plane.plane, c.placement, state.bounds->grid());
+        const detail::ray_feet feet(plane.plane, c.placement, state.bounds->grid());
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
             if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
             const glm::dvec2 size = plane.tiles.tile();
             const auto columns = static_cast<std::size_t>(plane.tiles.columns);
-            const glm::dvec2 corner = plane.tiles.lower + size * glm::dvec2(static_cast<double>(tile % columns),
-                                                                            static_cast<double>(tile / columns));
-            glm::dvec2 lower = feet(corner), upper = lower;
-            for (const glm::dvec2 other : {glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size}) {
-                const glm::dvec2 at = feet(corner + other);
-                lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
-                upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
-            }
+            const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
+            const auto [lower, upper] = feet.of(plane.tiles.lower + size * place, size);
             triangles.forget(lower, upper, answers.data());
         }
         return answers;
@@ -193,29 +187,6 @@ class exact_occlusion {
         affine to_mesh;
         glm::dvec3 travel{0};  ///< of the light, in the mesh's frame
         std::optional<detail::horizon_bounds> bounds;
-    };
-    /// Where the ray at a point of a light's plane meets the plane z = 0 of a mesh, in the steps of its grid.
-    class ray_feet {
-      public:
-        ray_feet(const detail::light_plane& plane, const affine& placement, const detail::lit_grid& grid) {
-            const auto seen = [&](double x, double y) {
-                return glm::dvec2(plane(transform_point(placement, {x, y, 0})));
-            };
-            origin_ = seen(0, 0);
-            const glm::dvec2 x = seen(1, 0) - origin_, y = seen(0, 1) - origin_;
-            const double area = x.x * y.y - x.y * y.x;
-            x_of_ = glm::dvec2(y.y, -y.x) / area;
-            y_of_ = glm::dvec2(-x.y, x.x) / area;
-            grid_ = &grid;
-        }
-        glm::dvec2 operator()(const glm::dvec2& at) const {
-            const glm::dvec2 off = at - origin_;
-            return grid_->steps({x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y});
-        }
-
-      private:
-        glm::dvec2 origin_{0}, x_of_{0}, y_of_{0};
-        const detail::lit_grid* grid_ = nullptr;
     };
     using receivers_of = insonify::detail::unfilled_vector<detail::receiver>;
     /// Points of a run of batches by tile.

@@ -12,8 +12,7 @@ namespace in = insonify;
 namespace {
 
 /// Columns x rows vertices in the order of the lattice, with steps (right, up) in x and y.
-in::mesh lattice(int columns, int rows, bool is_rising, glm::dvec2 right = {0.37, 0.02},
-                 glm::dvec2 up = {-0.05, 0.41}) {
+in::mesh lattice(int columns, int rows, bool is_rising, glm::dvec2 right = {0.375, 0}, glm::dvec2 up = {0, 0.5}) {
     in::mesh m;
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i) {

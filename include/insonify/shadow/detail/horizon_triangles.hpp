@@ -7,12 +7,48 @@
 #pragma once
 
 #include <insonify/shadow/detail/horizon_bounds.hpp>
+#include <insonify/shadow/detail/light_planes.hpp>
+
+#include <utility>
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail {
+
+/// Where the ray at a point of a light's plane meets the plane z = 0 of a mesh, in the steps of its grid.
+class ray_feet {
+  public:
+    ray_feet(const light_plane& plane, const affine& placement, const lit_grid& grid) {
+        const auto seen = [&](double x, double y) { return glm::dvec2(plane(transform_point(placement, {x, y, 0}))); };
+        origin_ = seen(0, 0);
+        const glm::dvec2 x = seen(1, 0) - origin_, y = seen(0, 1) - origin_;
+        const double area = x.x * y.y - x.y * y.x;
+        x_of_ = glm::dvec2(y.y, -y.x) / area;
+        y_of_ = glm::dvec2(-x.y, x.x) / area;
+        grid_ = &grid;
+    }
+    glm::dvec2 operator()(const glm::dvec2& at) const {
+        const glm::dvec2 off = at - origin_;
+        return grid_->steps({x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y});
+    }
+
+    /// Bounds of those of a rectangle's points.
+    std::pair<glm::dvec2, glm::dvec2> of(const glm::dvec2& corner, const glm::dvec2& size) const {
+        glm::dvec2 lower = (*this)(corner), upper = lower;
+        for (const glm::dvec2& other : {glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size}) {
+            const glm::dvec2 at = (*this)(corner + other);
+            lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
+            upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
+        }
+        return {lower, upper};
+    }
+
+  private:
+    glm::dvec2 origin_{0}, x_of_{0}, y_of_{0};
+    const lit_grid* grid_ = nullptr;
+};
 
 /// Answers for all triangles of one grid, seen by one camera.
 class horizon_triangles {
