@@ -166,13 +166,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
         t.across = dice.uniform(0.02, 0.98), t.along = dice.uniform(0.02, 0.98);
         lay(mesh_of(t.form), t, clutter_class);
     }
-    if (!scours.empty())
-        std::visit(
-            [&](const auto& ground) {
-                if constexpr (requires { in::seabed::sculpted{.ground = ground, .edits = scours}; })
-                    scene.seabed = in::seabed::sculpted{.ground = ground, .edits = scours};
-            },
-            bottom);
+    if (!scours.empty()) scene.seabed = in::seabed::sculpted{.ground = bottom, .edits = scours};
 
     const in::facet_backscatter law{static_cast<float>(p.facets), static_cast<float>(p.facet_slope)};
     const in::sonar_equation equation{in::pulse{static_cast<float>(p.pulse)},
@@ -193,7 +187,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
                                .across_track = static_cast<float>(p.grain_across),
                                .seed = p.noise_seed};
     for (in::speckle_law& l : speckle.bottom) l = {.looks = p.looks, .texture = static_cast<float>(p.texture)};
-    heard = in::with_speckle(std::move(heard), rig, speckle, ex);
+    heard = in::with_speckle(std::move(heard), speckle, ex);
     heard.image = in::apply(std::move(heard.image), p.banding, ex);
     const auto show = [&](const auto& display) {
         out.gray = in::apply(std::move(heard.image), display | in::to_uint8, ex);

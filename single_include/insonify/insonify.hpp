@@ -1749,7 +1749,7 @@ enum class keep_depth {
 /// What depth a draw finds in the target.
 enum class depth_load {
     keep,   ///< what is there: earlier draws occlude this one
-    clear,  ///< nothing: the target's depth is overwritten, without being read
+    clear,  ///< nothing: the target's depth is overwritten, without being read; see framebuffer for its color
 };
 
 /// The depth of an empty pixel.
@@ -1774,6 +1774,8 @@ template <class Pixel>
 struct framebuffer {
     image_view<Pixel> color;
     image_view<float> depth;
+    bool clears_color = false;  ///< whether draws that clear depths write `background` where they show nothing
+    Pixel background{};
 };
 template <>
 struct framebuffer<void> {
@@ -2581,6 +2583,82 @@ class screen_polygon {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/raster/interpolatable.hpp --------------------------------------------------------
+// Whether a type consists of floats alone: what can be interpolated between the vertices of a triangle.
+//
+// An aggregate is looked into: it is initialized from values that convert to float, to vectors of float and to
+// aggregates of those, and from values that convert to any other scalar or class, too. If as many of the first kind fit
+// as of the second, all members are made of floats.
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// For classes that are no aggregates: specialize it as true for your own vector of floats.
+template <class V>
+inline constexpr bool is_vector_of_floats = requires {
+    requires std::is_same_v<typename V::value_type, float>;
+};
+template <>
+inline constexpr bool is_vector_of_floats<float> = true;
+
+namespace detail {
+
+template <class V>
+constexpr bool consists_of_floats();
+
+struct converts_to_floats {
+    template <class T>
+        requires(consists_of_floats<T>())
+    operator T() const;
+};
+struct converts_to_members {
+    template <class T>
+        requires(consists_of_floats<T>() || !std::is_aggregate_v<T>)
+    operator T() const;
+};
+
+template <class Value, std::size_t>
+using repeated = Value;
+template <class V, class Value, std::size_t... I>
+constexpr bool takes(std::index_sequence<I...>) {
+    return requires {
+        V{repeated<Value, I>{}...};
+    };
+}
+/// The largest number of values that initialize an aggregate.
+template <class V, class Value, std::size_t Count>
+constexpr std::size_t most_members() {
+    if constexpr (Count == 0)
+        return 0;
+    else if constexpr (takes<V, Value>(std::make_index_sequence<Count>{}))
+        return Count;
+    else
+        return most_members<V, Value, Count - 1>();
+}
+
+template <class V>
+constexpr bool consists_of_floats() {
+    if constexpr (!std::is_class_v<V> || is_vector_of_floats<V>) {
+        return is_vector_of_floats<V>;
+    } else if constexpr (std::is_empty_v<V>) {
+        return true;
+    } else if constexpr (!std::is_aggregate_v<V> || sizeof(V) % sizeof(float) != 0) {
+        return false;
+    } else {
+        constexpr std::size_t floats = sizeof(V) / sizeof(float);
+        return most_members<V, converts_to_floats, floats>() == most_members<V, converts_to_members, floats>();
+    }
+}
+
+}  // namespace detail
+
+/// Made of floats alone: float, glm::vec2..4, arrays and aggregates of those.
+template <class V>
+concept interpolatable = std::is_trivially_copyable_v<V> && detail::consists_of_floats<V>();
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
 // ------------ insonify/raster/shader.hpp ----------------------------------------------------------------
 // What people bring to a draw: a callable that places vertices, and one that is asked for each visible pixel.
 //
@@ -2605,11 +2683,6 @@ struct placed_vertex {
     glm::vec4 clip;
     Varyings varyings;
 };
-
-/// Anything made of floats alone can be interpolated: float, glm::vec2..4, aggregates of those.
-template <class V>
-concept interpolatable = std::is_trivially_copyable_v<V> && alignof(V) == alignof(float) &&
-                         sizeof(V) % sizeof(float) == 0 && !std::is_integral_v<V> && !std::is_enum_v<V>;
 
 /// `shader(vertex)` gives a clip position, alone (glm::vec4) or with varyings (placed_vertex).
 template <class S>
@@ -4428,6 +4501,10 @@ draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentSha
                         "the depth image's");
     }
     const auto shade = [&](const auto& triangles, auto& tile, float sign) {
+        if constexpr (requires { target.background; })
+            if (target.clears_color && options.load == depth_load::clear)
+                for (int y = triangles.box.y0; y <= triangles.box.y1; ++y)
+                    std::fill_n(&target.color(triangles.box.x0, y), triangles.box.width(), target.background);
         return detail::shade(m, place, shader, target, triangles, tile, sign);
     };
     return detail::draw_tiles<true, double>(m, place, target.depth, options, ex, detail::no_records, detail::every_tile,
@@ -17348,6 +17425,76 @@ filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask,
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/geometry/camera.hpp --------------------------------------------------------------
+// A camera for `draw`: where it stands, what it looks at, and the perspective of its picture.
+//
+// Its clip space is the library's: visible is -w <= x <= w, -w <= y <= w with y up, and 0 <= z <= w. Depth is reversed,
+// z / w = z_near / distance, so that precision does not fall off far away (draw with keep_depth::larger).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// A pinhole camera.
+struct camera {
+    glm::dvec3 eye{0, -5, 2};                                   ///< metres in the world
+    glm::dvec3 target{0, 0, 0};                                 ///< appears in the middle of the picture
+    glm::dvec3 up{0, 0, 1};                                     ///< appears upwards; not along the line of sight
+    float field_of_view = static_cast<float>(numeric::pi / 3);  ///< from the picture's bottom to its top, radians
+    float aspect = 1;                                           ///< width of the picture / its height
+    float z_near = 0.01f;                                       ///< metres; what is nearer is clipped
+};
+
+/// From the world to the camera's frame: x right, y up, z towards the viewer.
+/// @throws invalid_input for an eye at the target, or `up` along the line of sight
+inline affine look_at(const camera& c) {
+    const glm::dvec3 back = detail::unit(c.eye - c.target), right = detail::unit(numeric::cross(c.up, back));
+    const double turned = numeric::dot(right, right);
+    detail::require(turned > 0.5 && numeric::is_finite(turned), "length of up x line of sight", turned, "above 0");
+    const glm::dvec3 up = numeric::cross(back, right);
+    const glm::dmat3 linear(glm::dvec3(right.x, up.x, back.x), glm::dvec3(right.y, up.y, back.y),
+                            glm::dvec3(right.z, up.z, back.z));
+    return {linear, -numeric::product(linear, c.eye)};
+}
+
+/// Projects points of an object to clip space: `clip = view(point)`.
+class camera_view {
+  public:
+    /// @param object_to_world  where the object stands
+    /// @throws invalid_input as look_at, and for a field of view or a z_near that can't be
+    explicit camera_view(const camera& c, const affine& object_to_world = {})
+        : to_camera_(compose(look_at(c), object_to_world)), z_near_(c.z_near) {
+        detail::require(c.field_of_view > 0 && static_cast<double>(c.field_of_view) < numeric::pi,
+                        "camera.field_of_view", c.field_of_view, "above 0 and below pi");
+        detail::require(c.aspect > 0 && numeric::is_finite(c.aspect), "camera.aspect", c.aspect, "above 0");
+        detail::require(c.z_near > 0 && numeric::is_finite(c.z_near), "camera.z_near", c.z_near, "metres above 0");
+        const double scale = 1 / numeric::tan(0.5 * static_cast<double>(c.field_of_view));
+        scale_ = {static_cast<float>(scale / static_cast<double>(c.aspect)), static_cast<float>(scale)};
+    }
+
+    glm::vec4 operator()(const glm::vec3& point) const {
+        const glm::vec3 p(transform_point(to_camera_, glm::dvec3(point)));
+        return {p.x * scale_.x, p.y * scale_.y, z_near_, -p.z};
+    }
+
+  private:
+    affine to_camera_;
+    glm::vec2 scale_{1};
+    float z_near_;
+};
+
+/// A position in OpenGL's clip space, where -w <= z <= w, in the library's: without it all that lies between the near
+/// plane and twice its distance would be clipped.
+constexpr glm::vec4 from_gl_clip(const glm::vec4& p) {
+    return {p.x, p.y, 0.5f * (p.z + p.w), p.w};
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/cube.hpp ----------------------------------------------------------------
 // Boxes.
 
@@ -23040,6 +23187,24 @@ recording<Labels> record(const scene& s, std::span<const ping> track, const side
     return out;
 }
 
+/// Records into memory of the caller's, for pings that come a few at a time: row i of `into` becomes ping i.
+/// @param into     rig.bins columns, a row per ping; it may be a part of a larger image
+/// The other parameters and errors are those of `record`; it also throws invalid_input for a view of another size,
+/// which is then untouched.
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+record_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
+                         const side_scan_rig<Axis>& rig, const record_options<Labels, Law, Equation>& options = {},
+                         E&& ex = {}) {
+    detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
+    detail::require(static_cast<std::size_t>(into.height()) == track.size(), "into.height()", into.height(),
+                    "that of the pings");
+    const auto heard = record(s, track, rig, options.without_labels(), ex);
+    for (int y = 0; y < into.height(); ++y)
+        std::copy(heard.image.row(y).begin(), heard.image.row(y).end(), into.row(y).begin());
+    return heard.stats;
+}
+
 /// Draws a scene as a side-scan sonar on a straight track hears it, or as a map of what it hears: see side_scan_rig.
 /// Row i is ping i. The other parameters are those of `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
@@ -23541,7 +23706,7 @@ template <across_track Axis, executor_argument E = serial_executor>
 recording<labels> with_tone(recording<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     const detail::tone_sampler level(tone);
     if (tone.is_none()) return r;
-    const ping_numbers numbers = numbers_of(rig);
+    const ping_numbers numbers = r.rows;
     const double altitude = static_cast<double>(rig.altitude), first = static_cast<double>(rig.first_range);
     bulk_ranges(ex, static_cast<std::size_t>(r.image.height()), 16, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {
