@@ -94,16 +94,16 @@ inline double extent_of(const in::mesh& m) {
 inline void sample_bottom(sampler& s, sonar_plan& p, double pixel) {
     p.bottom = s.choice("seabed", {{"sand", 0.45}, {"ripples", 0.25}, {"mud", 0.12}, {"rock", 0.04}, {"mixed", 0.12}});
     p.bottom_seed = s.word("seabed_seed");
-    p.feature = s.derived("feature_m", pixel * s.logarithmic("feature_px", 2.5, 24));
+    p.feature = s.derived("feature_m", pixel * s.logarithmic("feature_px", 2.2, 20));
     p.steepness = s.logarithmic("steepness", 0.015, 0.09);
     p.direction = s.uniform("ripple_direction_rad", 0, 2 * in::numeric::pi);
     p.disorder = s.uniform("disorder", 0.05, 0.22);
-    p.roughness = s.logarithmic("roughness", 0.001, 0.022);
+    p.roughness = s.logarithmic("roughness", 3e-4, 0.018);
     p.cover = s.uniform("cover", 0.15, 0.75);
     p.swell = s.uniform_or_0("swell", 0.75, 0.01, 0.05);
     p.trawls = s.uniform_or_0("trawls", 0.75, 0.3, 2);
 
-    p.tone.drift = static_cast<float>(s.uniform_or_0("tone_drift_db", 0.5, 0.1, 1.6));
+    p.tone.drift = static_cast<float>(s.uniform_or_0("tone_drift_db", 0.4, 0.1, 1.2));
     p.tone.drift_length =
         static_cast<float>(s.derived("tone_drift_length_m", pixel * s.logarithmic("drift_px", 15, 120)));
     p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.7, 0.2, 1.3));
@@ -117,7 +117,7 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel) {
     p.tone.seed = s.word("tone_seed");
 
     p.clutter = s.whole("clutter", 1, 9);
-    if (!s.chance("has_clutter", p.class_name == empty_class ? 0.12 : 0.3)) p.clutter = 0;
+    if (!s.chance("has_clutter", p.class_name == empty_class ? 0.1 : 0.3)) p.clutter = 0;
     p.clutter_size = s.derived("clutter_size_m", pixel * s.uniform("clutter_px", 1.2, 4.5));
     p.clutter_seed = s.word("clutter_seed");
 }
@@ -131,9 +131,9 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
                                                         : static_cast<double>(p.sonar.beam);
     p.beam = s.derived("beam_rad", (std::max)(beam * s.uniform("beam_factor", 0.7, 1.5), 0.3 * pixel / slant));
 
-    p.gain.rms = static_cast<float>(s.uniform_or_0("gain_error_db", 0.45, 0.1, 1.2));
+    p.gain.rms = static_cast<float>(s.uniform_or_0("gain_error_db", 0.45, 0.1, 0.9));
     p.gain.length = static_cast<float>(s.uniform("gain_error_px", 25, 120));
-    p.gain.slope = static_cast<float>(s.uniform("gain_slope_db", -2.5, 2.5));
+    p.gain.slope = static_cast<float>(s.uniform("gain_slope_db", -1.5, 1.5));
     p.gain.seed = s.word("gain_seed");
     p.banding.drift = static_cast<float>(s.uniform_or_0("banding_drift_db", 0.3, 0.1, 1.3));
     p.banding.length = static_cast<float>(s.uniform("banding_px", 3, 30));
@@ -150,14 +150,14 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.water.waves = static_cast<float>(0.01 * p.altitude);
     p.water.seed = p.banding.seed;
 
-    p.looks = static_cast<int>(s.derived("looks", std::floor(s.logarithmic("looks_drawn", 1, 22))));
+    p.looks = static_cast<int>(s.derived("looks", std::floor(s.logarithmic("looks_drawn", 1.2, 12))));
     p.grain_across =
-        (std::min)((std::max)(p.sonar.grain_across() / pixel, s.uniform_or_0("grain_across_px", 0.65, 0.3, 1.5)), 16.0);
-    p.grain_along = (std::min)(
-        (std::max)(p.sonar.grain_along(slant) / pixel, s.uniform_or_0("grain_along_px", 0.65, 0.3, 1.5)), 16.0);
+        (std::min)((std::max)(p.sonar.grain_across() / pixel, s.uniform_or_0("grain_across_px", 0.7, 0.3, 1.3)), 16.0);
+    p.grain_along =
+        (std::min)((std::max)(p.sonar.grain_along(slant) / pixel, s.uniform_or_0("grain_along_px", 0.4, 0.3, 2)), 16.0);
     p.grain_across = s.derived("correlation_across_px", p.grain_across);
     p.grain_along = s.derived("correlation_along_px", p.grain_along);
-    p.texture = s.uniform_or_0("texture", 0.65, 3, 15);
+    p.texture = s.uniform_or_0("texture", 0.75, 4, 15);
     p.noise_seed = s.word("noise_seed");
 
     p.display = s.choice("display", {{"amplitude", 0.3}, {"decibels", 0.3}, {"power", 0.05}, {"automatic", 0.3}});
@@ -167,7 +167,9 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.dynamic_range = s.derived("display_range_db", p.dynamic_range);
     p.black_share = s.uniform("black_share", 0, 0.02);
     p.white_share = s.uniform("white_share", 0, 0.03);
-    p.turn = s.whole("turn", 0, 7);
+    // Waterfalls run up or down the screen, charts any way.
+    const int turned = s.whole("quarter_turns", 0, 7);
+    p.turn = static_cast<int>(s.derived("turn", s.chance("is_chart", 0.6) ? turned : turned / 2 * 2));
 }
 
 }  // namespace detail
