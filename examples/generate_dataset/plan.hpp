@@ -34,16 +34,6 @@ inline std::vector<std::string> class_names(const options& o) {
     return names;
 }
 
-/// What COCO's categories are, but for shadows.
-inline std::vector<std::string> category_names(const options& o) {
-    if (!o.is_sonar()) return class_names(o);
-    std::vector<std::string> names;
-    for (const std::string& name : o.targets)
-        if (name != "empty") names.push_back(name);
-    names.push_back("clutter");
-    return names;
-}
-
 /// Classes and seabeds take turns, so that every run of targets x seabeds images is balanced; the rest is random.
 /// The demonstration shows the same scenes twice: as they are, and with the look of a reference.
 inline plan plan_image(const options& o, std::uint64_t index, std::size_t references) {
