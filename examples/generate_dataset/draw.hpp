@@ -34,6 +34,7 @@ inline constexpr double sound_speed = 1500, frequency = 450e3;
 /// A finished image with the numbers that the labels want.
 struct drawn {
     in::labels labels;
+    in::image<float> values;  ///< what is shown, before 8 bits and colour
     in::image<in::rgb8> color;
     in::image<std::uint8_t> gray;  ///< used where the colour map is gray
     in::pose placement;
@@ -153,6 +154,7 @@ inline drawn draw(const options& o, const plan& p, const stock& shared, auto& ex
         result.color = in::apply(look, in::colormap::copper, ex);
     else
         result.gray = in::apply(look, in::to_uint8, ex);
+    result.values = std::move(look);
     return result;
 }
 
