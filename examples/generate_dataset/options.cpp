@@ -180,6 +180,11 @@ options parsed(int argc, const char* const* argv,
         ->check(CLI::ExistingPath)
         ->group(look);
     app.add_option(
+           "--match", o.match,
+           "masked: shadows take the reference's darkest part, the rest the rest; whole: all pixels as one (masked)")
+        ->check(CLI::IsMember({"masked", "whole"}))
+        ->group(look);
+    app.add_option(
            "--noise", o.noise,
            "none, or a chain: speckle:0.1,gaussian:0.01,poisson:255,rayleigh; seabed, of a sonar's modes alone,\n"
            "is speckle that depends on the type of bottom (speckle:0.1; a sonar's: seabed)")
