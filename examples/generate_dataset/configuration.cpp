@@ -53,6 +53,8 @@ json configuration_of(const options& o, const std::vector<input>& inputs) {
             {"version", version()},
             {"recipe", o.recipe},
             {"visible_share", o.visible_share},
+            {"empty", o.empty},
+            {"per_class", o.per_class},
             {"seed", o.seed},
             {"size", o.size},
             {"targets", o.targets},

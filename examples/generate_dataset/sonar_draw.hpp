@@ -34,8 +34,17 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
                               .direction = of(p.direction),
                               .spread = of(p.disorder),
                               .bandwidth = of(0.8 * p.disorder),
+                              .second = {.wavelength = of(7 * p.feature),
+                                         .steepness = of(p.swell),
+                                         .direction = of(p.direction + 0.5),
+                                         .spread = 0.2f,
+                                         .bandwidth = 0.2f},
                               .surface = rough((std::max)(p.feature, 3 * pixel), 0.3 * p.roughness),
                               .seed = p.bottom_seed};
+    const sb::trawl_marks trawls{.density = of(4 * p.trawls / p.chip),
+                                 .depth = of(0.25 * pixel),
+                                 .width = of(2.5 * pixel),
+                                 .length = of(2 * p.chip)};
     if (p.bottom == "ripples") return ripples;
     if (p.bottom == "mud")
         return sb::mud{.surface = rough((std::max)(4 * p.feature, 8 * pixel), 0.06 * p.roughness),
@@ -43,6 +52,7 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
                        .size = of(0.5 * p.feature),
                        .mound_height = of(0.05 * p.feature),
                        .pock_depth = of(0.08 * p.feature),
+                       .trawls = trawls,
                        .seed = p.bottom_seed};
     if (p.bottom == "rock")
         return sb::rock{.relief = of(0.35 * p.feature * (0.3 + p.cover)),
@@ -166,13 +176,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
         t.across = dice.uniform(0.02, 0.98), t.along = dice.uniform(0.02, 0.98);
         lay(mesh_of(t.form), t, clutter_class);
     }
-    if (!scours.empty())
-        std::visit(
-            [&](const auto& ground) {
-                if constexpr (requires { in::seabed::sculpted{.ground = ground, .edits = scours}; })
-                    scene.seabed = in::seabed::sculpted{.ground = ground, .edits = scours};
-            },
-            bottom);
+    if (!scours.empty()) scene.seabed = in::seabed::sculpted{.ground = bottom, .edits = scours};
 
     const in::facet_backscatter law{static_cast<float>(p.facets), static_cast<float>(p.facet_slope)};
     const in::sonar_equation equation{in::pulse{static_cast<float>(p.pulse)},
@@ -193,7 +197,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
                                .across_track = static_cast<float>(p.grain_across),
                                .seed = p.noise_seed};
     for (in::speckle_law& l : speckle.bottom) l = {.looks = p.looks, .texture = static_cast<float>(p.texture)};
-    heard = in::with_speckle(std::move(heard), rig, speckle, ex);
+    heard = in::with_speckle(std::move(heard), speckle, ex);
     heard.image = in::apply(std::move(heard.image), p.banding, ex);
     const auto show = [&](const auto& display) {
         out.gray = in::apply(std::move(heard.image), display | in::to_uint8, ex);

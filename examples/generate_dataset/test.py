@@ -12,6 +12,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import shutil
 import struct
 import signal
@@ -535,6 +536,18 @@ class Shards(unittest.TestCase):
         run("--out", out, *SMALL, "--shard", "1/3")  # submitted again
         run(out, program=MERGE)
         self.assertEqual(self.whole, digest(out))
+
+    @unittest.skipUnless(shutil.which("parallel"), "needs GNU parallel")
+    def test_the_line_for_gnu_parallel_in_the_documentation(self):
+        page = pathlib.Path(__file__).parents[2] / "docs" / "dataset.md"
+        line = re.search(r"^parallel .*\n.*merge_dataset set$", page.read_text(), re.MULTILINE)[0]
+        line = line.replace("--count 1000000", " ".join(SMALL)).replace("/64", "/4").replace("seq 0 63", "seq 0 3")
+        for name, program in ("generate_dataset", GENERATOR), ("merge_dataset", MERGE):
+            (self.folder / name).symlink_to(pathlib.Path(program).resolve())
+        result = subprocess.run(["bash", "-c", line], cwd=self.folder, capture_output=True, text=True, timeout=300,
+                                env=os.environ | {"PATH": f"{self.folder}:{os.environ['PATH']}"})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.whole, digest(self.folder / "set"))
 
     def test_shards_in_folders_of_their_own_are_joined(self):
         for k in range(8):

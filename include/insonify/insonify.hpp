@@ -32,6 +32,7 @@
 #include <insonify/filter/rejection.hpp>
 #include <insonify/filter/sweep.hpp>
 #include <insonify/filter/where.hpp>
+#include <insonify/geometry/camera.hpp>
 #include <insonify/geometry/cone.hpp>
 #include <insonify/geometry/cube.hpp>
 #include <insonify/geometry/cylinder.hpp>
@@ -117,6 +118,7 @@
 #include <insonify/raster/fold.hpp>
 #include <insonify/raster/fragment_lanes.hpp>
 #include <insonify/raster/framebuffer.hpp>
+#include <insonify/raster/interpolatable.hpp>
 #include <insonify/raster/placement.hpp>
 #include <insonify/raster/setup.hpp>
 #include <insonify/raster/shader.hpp>
@@ -134,9 +136,9 @@
 #include <insonify/seabed/detailed.hpp>
 #include <insonify/seabed/edit.hpp>
 #include <insonify/seabed/lattice.hpp>
+#include <insonify/seabed/mixed.hpp>
 #include <insonify/seabed/moat.hpp>
 #include <insonify/seabed/models.hpp>
-#include <insonify/seabed/mixed.hpp>
 #include <insonify/seabed/needed_vertices.hpp>
 #include <insonify/seabed/noise.hpp>
 #include <insonify/seabed/normals.hpp>

@@ -4,6 +4,7 @@
 #include <insonify/config.hpp>
 #if INSONIFY_BODIES
 #include <insonify/geometry/detail/coherent_order.hpp>
+#include <insonify/geometry/detail/lattice_order.hpp>
 #include <insonify/geometry/normals.hpp>
 #endif
 #include <insonify/geometry/bounds.hpp>
@@ -18,7 +19,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// An immutable mesh: copies refer to the same triangles. A mesh whose triangles follow one another without order, as
-/// those of a shuffled one, is renumbered, triangles and vertices: otherwise it keeps its numbers. Triangles that are
+/// those of a shuffled one, is renumbered, triangles and vertices, and so is a regular grid that comes in another order
+/// than its rows'; otherwise a mesh keeps its numbers. Triangles that are
 /// wound against all of their normals are turned over. What renderers need of it is found once, when it is made: its
 /// bounds, smooth normals if it brings none, whether it is closed or a heightfield, and the regular grid that a
 /// heightfield's vertices lie on, if they do.
@@ -60,13 +62,17 @@ INSONIFY_FUNCTION std::shared_ptr<const shared_mesh::state> shared_mesh::made_of
     s.shape = std::move(m);
     validate(s.shape);
     s.box = bounds(s.shape);
-    if (detail::is_incoherent(s.shape)) detail::order_along_curve(s.shape, s.box);
+    s.grid = regular_grid_of(s.shape, serial_executor{}, grid_error);
+    if (!s.grid && detail::order_by_lattice(s.shape))
+        s.grid = regular_grid_of(s.shape, serial_executor{}, grid_error);
+    else if (!s.grid && detail::is_incoherent(s.shape))
+        detail::order_along_curve(s.shape, s.box);
     if (s.shape.normals.empty())
         s.shape.normals = smooth_normals(s.shape);
     else
         wind_by_normals(s.shape);
     s.kind = kind_of(s.shape);
-    if (s.kind == surface_kind::heightfield) s.grid = regular_grid_of(s.shape, serial_executor{}, grid_error);
+    if (s.kind != surface_kind::heightfield) s.grid.reset();
     return made;
 }
 #endif
