@@ -229,7 +229,7 @@ class Generator(unittest.TestCase):
                 self.assertEqual(len(list((self.folder / f"{mode}1" / "masks").rglob(f"*_{kind}.png"))), 6)
 
     def read_manifest(self, folder):
-        return list(csv.DictReader((folder / "manifest.csv").read_text(newline="").splitlines()))
+        return list(csv.DictReader((folder / "manifest.csv").read_text().splitlines()))
 
     def test_the_sonar_recipe_makes_empty_images_and_labels_what_is_there(self):
         out = self.folder / "a"
