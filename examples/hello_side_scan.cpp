@@ -14,7 +14,7 @@ int main() {
     in::side_scan rig{.altitude = 4, .ping_spacing = 0.05f, .pings = 400, .range = 20, .bins = 700};
     const auto hear = [&](in::side side) {  // frame.image holds intensities, frame.labels who is where
         rig.side = side;
-        return in::with_speckle(in::render(scene, rig), rig, {.seed = 7});
+        return in::with_speckle(in::render(scene, rig), {.seed = 7});
     };
     const auto swath = in::both_sides(hear(in::side::port), hear(in::side::starboard));
     in::write_png("swath.png", swath.image | in::display{} | in::colormap::copper);

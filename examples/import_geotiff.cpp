@@ -70,7 +70,7 @@ int main(int argc, char** argv) try {
                                .bins = 1000};
     in::thread_pool pool;
     const auto recorded = in::render(scene, rig, in::record_options<in::labels, in::lambert_backscatter>{}, pool);
-    in::write_png(argv[2], in::with_speckle(recorded, rig, {}, pool).image | in::display{.white = 1});
+    in::write_png(argv[2], in::with_speckle(recorded, {}, pool).image | in::display{.white = 1});
 } catch (const std::exception& error) {
     std::fprintf(stderr, "import_geotiff: %s\n", error.what());
     return 1;

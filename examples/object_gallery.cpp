@@ -63,7 +63,7 @@ in::image<float> tile_of(const entry& e, in::thread_pool& pool) {
     in::seabed_speckle look{.seed = 5};
     for (in::speckle_law& law : look.bottom) law = {.looks = 4};
     look.elsewhere = {.looks = 3};
-    return in::with_speckle(recorded, rig, look, pool).image;
+    return in::with_speckle(recorded, look, pool).image;
 }
 
 /// Gray values in decibels over 36 dB, with the bottom's median at a third. 32 levels keep the file short.

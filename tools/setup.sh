@@ -19,6 +19,11 @@ gtest         header:gmock/gmock.h                    libgmock-dev          gmoc
 cli11         header:CLI/CLI.hpp                      libcli11-dev          cli11-devel         cli11
 json          header:nlohmann/json.hpp                nlohmann-json3-dev    json-devel          nlohmann-json
 openssl       header:openssl/evp.h                    libssl-dev            openssl-devel       openssl
+archive       header:archive.h                        libarchive-dev        libarchive-devel    libarchive
+png           header:png.h                            libpng-dev            libpng-devel        libpng
+slurm         command:slurmctld                       slurm-wlm             slurm               -
+munge         command:munged                          munge                 munge               -
+parallel      command:parallel                        parallel              parallel            parallel
 deflate       header:libdeflate.h                     libdeflate-dev        libdeflate-devel    libdeflate
 opencv        header:opencv4/opencv2/ml.hpp|opencv2/ml.hpp  libopencv-dev   opencv-devel        opencv
 chromium      command:chromium|chromium-browser|google-chrome  chromium     chromium            --cask chromium

@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Of the folder and of what is drawn into it: raised with each change of either.
-constexpr int format = 2;
+constexpr int format = 3;
 
 std::string version() {
     const auto text = [](int number) { return std::to_string(number); };
@@ -79,8 +79,19 @@ json configuration_of(const options& o, const std::vector<input>& inputs) {
             {"match", o.match},
             {"noise", o.noise},
             {"colormap", o.colormap},
+            {"formats", o.formats},
             {"demo", o.demo},
             {"inputs", files}};
+}
+
+std::vector<std::string> category_names(const json& config) {
+    auto names = config.at("targets").get<std::vector<std::string>>();
+    if (config.value("recipe", "published") == "sonar") {
+        std::erase(names, "empty");
+        names.push_back("clutter");
+    }
+    for (const json& name : config.at("meshes")) names.push_back(name.get<std::string>());
+    return names;
 }
 
 json shards_of(const options& o) {

@@ -35,6 +35,7 @@ inline constexpr double sound_speed = 1500, frequency = 450e3;
 /// A finished image with the numbers that the labels want.
 struct drawn {
     in::labels labels;
+    in::image<float> values;  ///< what is shown, before 8 bits and colour
     in::image<in::rgb8> color;
     in::image<std::uint8_t> gray;  ///< used where the colour map is gray
     in::pose placement;
@@ -124,7 +125,7 @@ in::image<float> recording_of(const options& o, const plan& p, const stock& shar
             // The speckle of neighbouring pings is alike as long as the beam makes it so.
             const double slant = in::range_geometry::slant_range(ground_range, p.altitude);
             const double pings = beam.speckle_length(slant, sound_speed / frequency) / pixel;
-            heard = in::with_speckle(std::move(heard), rig,
+            heard = in::with_speckle(std::move(heard),
                                      {.along_track = static_cast<float>((std::min)(pings, 16.0)), .seed = p.noise_seed},
                                      ex);
         }
@@ -157,6 +158,7 @@ inline drawn draw(const options& o, const plan& p, const stock& shared, auto& ex
         result.color = in::apply(look, in::colormap::copper, ex);
     else
         result.gray = in::apply(look, in::to_uint8, ex);
+    result.values = std::move(look);
     return result;
 }
 

@@ -1,8 +1,10 @@
 #include "options.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "config_text.hpp"
+#include "formats.hpp"
 #include "layout.hpp"
 #include "plan.hpp"
 #include "values.hpp"
@@ -42,9 +44,8 @@ void check_geometry(const options& o) {
                                                      " m, end beyond 100000 m; take less of one of them");
 }
 
-}  // namespace
-
-options parse(int argc, char** argv) {
+options parsed(int argc, const char* const* argv,
+               const std::function<void(const CLI::App&, const CLI::ParseError&)>& refuse) {
     options o;
     CLI::App app{
         "Makes labelled side-scan sonar images: for every image a target on a seabed, camera and light posed,\n"
@@ -99,6 +100,13 @@ options parse(int argc, char** argv) {
     app.add_option("--input-limit", input_limit, "Largest file taken as an input, MiB (1024)")
         ->check(whole_number(1, 1 << 20))
         ->group(what);
+    app.add_option("--format", o.formats,
+                   "Beside PNG of 8 bits: png16, npy, pfm (what an image shows, 16 bits or float), and webdataset\n"
+                   "(tar files of a thousand samples each)")
+        ->delimiter(',')
+        ->check(CLI::IsMember(std::vector<std::string>(std::begin(format_names), std::end(format_names))))
+        ->group(what);
+    app.add_flag("--preview", o.preview, "Write preview.html, a page to look through the set")->group(what);
     app.add_flag("--demo", o.demo, "All targets on all seabeds, plain and with a reference")->group(what);
 
     app.add_option("--recipe", o.recipe,
@@ -234,6 +242,12 @@ options parse(int argc, char** argv) {
                 throw CLI::ValidationError("--noise", "'seabed' is for the sonar's modes: --mode slant_range");
         check_classes(o);
         check_counts(o);
+        std::vector<std::string> formats;
+        for (const char* const name : format_names)
+            if (std::find(o.formats.begin(), o.formats.end(), name) != o.formats.end()) formats.push_back(name);
+        o.formats = formats;
+        if (o.preview && !shard.empty())
+            throw CLI::ValidationError("--preview", "a shard is no whole set; merge it with tools/merge --preview");
         const bool needs_map = std::find(o.seabeds.begin(), o.seabeds.end(), "heightmap") != o.seabeds.end();
         if (needs_map && o.heightmap.empty())
             throw CLI::ValidationError("--seabeds", "heightmap needs --heightmap FILE");
@@ -258,10 +272,26 @@ options parse(int argc, char** argv) {
         o.input_limit = input_limit << 20;
         check_geometry(o);
     } catch (const CLI::ParseError& error) {
-        std::exit(app.exit(error) == 0 ? 0 : 2);
+        refuse(app, error);
+        throw;
     }
     if (o.demo && app.get_option("--noise")->empty() && o.is_overhead()) o.noise = {"speckle:0.05"};
     return o;
+}
+
+}  // namespace
+
+options parse(int argc, const char* const* argv) {
+    return parsed(argc, argv,
+                  [](const CLI::App& app, const CLI::ParseError& error) { std::exit(app.exit(error) == 0 ? 0 : 2); });
+}
+
+options parse_quietly(int argc, const char* const* argv) {
+    try {
+        return parsed(argc, argv, [](const CLI::App&, const CLI::ParseError&) {});
+    } catch (const CLI::ParseError& error) {
+        throw insonify::invalid_input(error.what());
+    }
 }
 
 }  // namespace generator

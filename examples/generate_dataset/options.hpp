@@ -20,7 +20,7 @@ struct options {
     std::string out;
     std::uint64_t first = 0, count = 24;
     generator::shard shard;
-    bool verify = false;
+    bool verify = false, preview = false;
     int threads = 0;
     std::uint64_t input_limit = examples::usual_input_limit;  ///< bytes
 
@@ -47,6 +47,7 @@ struct options {
     std::string match = "masked";
     std::vector<std::string> noise{"speckle:0.1"};
     std::string colormap = "gray";
+    std::vector<std::string> formats;  ///< beside PNG of 8 bits, in the order of `format_names`
     bool demo = false;
 
     bool is_overhead() const { return mode == "overhead"; }
@@ -63,6 +64,10 @@ struct noise_step {
 std::vector<noise_step> noise_steps(const options& o);
 
 /// Reads the command line. Prints help or an error and exits where there is nothing to generate.
-options parse(int argc, char** argv);
+options parse(int argc, const char* const* argv);
+
+/// The same without printing or exiting.
+/// @throws invalid_input for anything that is no valid command line, --help too
+options parse_quietly(int argc, const char* const* argv);
 
 }  // namespace generator

@@ -7,6 +7,7 @@ namespace generator {
 
 struct sonar_picture {
     in::labels labels;
+    in::image<float> values;  ///< what is shown, before 8 bits
     in::image<std::uint8_t> gray;
     facts known{};                  ///< of the first target, before the picture is turned
     std::vector<in::pose> poses;    ///< of the targets
@@ -197,11 +198,9 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
                                .across_track = static_cast<float>(p.grain_across),
                                .seed = p.noise_seed};
     for (in::speckle_law& l : speckle.bottom) l = {.looks = p.looks, .texture = static_cast<float>(p.texture)};
-    heard = in::with_speckle(std::move(heard), rig, speckle, ex);
+    heard = in::with_speckle(std::move(heard), speckle, ex);
     heard.image = in::apply(std::move(heard.image), p.banding, ex);
-    const auto show = [&](const auto& display) {
-        out.gray = in::apply(std::move(heard.image), display | in::to_uint8, ex);
-    };
+    const auto show = [&](const auto& display) { out.values = in::apply(std::move(heard.image), display, ex); };
     const auto white = static_cast<float>(p.white);
     if (p.display == "decibels")
         show(in::decibel_display{.white = white, .range = static_cast<float>(p.dynamic_range)});
@@ -214,12 +213,13 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
         show(in::display{.white = white, .exponent = p.display == "power" ? 1.0f : static_cast<float>(p.exponent)});
     out.labels = std::move(heard.labels);
     if (p.turn != 0) {
-        out.gray = turned(out.gray, p.turn);
+        out.values = turned(out.values, p.turn);
         out.labels.instance = turned(out.labels.instance, p.turn);
         out.labels.shadow = turned(out.labels.shadow, p.turn);
         out.labels.seabed = turned(out.labels.seabed, p.turn);
         in::describe_targets(out.labels, scene.targets);
     }
+    out.gray = in::apply(out.values, in::to_uint8, ex);
     return out;
 }
 

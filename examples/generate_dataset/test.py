@@ -4,6 +4,7 @@
 INSONIFY_KILLS: how many runs are killed in the middle (8).
 """
 
+import ast
 import csv
 import errno
 import hashlib
@@ -12,11 +13,13 @@ import math
 import os
 import pathlib
 import random
+import re
 import shutil
 import struct
 import signal
 import subprocess
 import sys
+import tarfile
 import tempfile
 import time
 import unittest
@@ -86,6 +89,39 @@ def pgm(path, maxval=255, name="P5"):
     return path
 
 
+def read_png(data):
+    """Gray values of a PNG without filters, of 8 or 16 bits; each chunk's checksum is checked."""
+    assert data.startswith(b"\x89PNG\r\n\x1a\n")
+    at, packed, kinds = 8, b"", []
+    while at < len(data):
+        size, = struct.unpack(">I", data[at:at + 4])
+        kind, body = data[at + 4:at + 8], data[at + 8:at + 8 + size]
+        assert struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0] == zlib.crc32(kind + body)
+        kinds.append(kind)
+        if kind == b"IHDR":
+            width, height, depth, color = struct.unpack(">IIBB", body[:10])
+        if kind == b"IDAT":
+            packed += body
+        at += 12 + size
+    assert kinds[0] == b"IHDR" and kinds[-1] == b"IEND" and color == 0
+    raw, stride = zlib.decompress(packed), 1 + width * depth // 8
+    assert len(raw) == stride * height and not any(raw[::stride])
+    rows = b"".join(raw[y * stride + 1:(y + 1) * stride] for y in range(height))
+    return list(rows) if depth == 8 else list(struct.unpack(f">{width * height}H", rows))
+
+
+def read_npy(data):
+    """Values of an array of float32 as NumPy's format 1.0 has it."""
+    assert data[:8] == b"\x93NUMPY\x01\x00"
+    size, = struct.unpack("<H", data[8:10])
+    header = ast.literal_eval(data[10:10 + size].decode("latin1"))
+    assert (10 + size) % 64 == 0 and data[9 + size:10 + size] == b"\n"
+    assert header["descr"] == "<f4" and header["fortran_order"] is False
+    height, width = header["shape"]
+    assert len(data) == 10 + size + 4 * width * height
+    return list(struct.unpack(f"<{width * height}f", data[10 + size:]))
+
+
 class Generator(unittest.TestCase):
     def setUp(self):
         self.scratch = tempfile.TemporaryDirectory()
@@ -103,6 +139,79 @@ class Generator(unittest.TestCase):
         for first, count in (5, 3), (0, 2), (2, 3):
             run("--out", self.folder / "parts", *SMALL, "--first", first, "--count", count)
         self.assertEqual(digest(self.folder / "whole"), digest(self.folder / "parts"))
+
+    def test_every_format_holds_the_same_picture(self):
+        out, formats = self.folder / "a", "webdataset,npy,png16,pfm"
+        run("--out", out, *SMALL, "--format", formats, "--threads", 2)
+        run("--out", self.folder / "b", *SMALL, "--format", formats, "--threads", 1)
+        self.assertEqual(digest(out), digest(self.folder / "b"))
+        self.assertIn("0 faults", run("--out", out, *SMALL, "--format", formats, "--verify"))
+        for row in csv.DictReader((out / "manifest.csv").read_text().splitlines()):
+            values = read_npy((out / row["npy"]).read_bytes())
+            picture = read_png((out / row["file"]).read_bytes())
+            deep = read_png((out / row["png16"]).read_bytes())
+            level = (out / row["pfm"]).read_bytes()
+            self.assertTrue(level.startswith(b"Pf\n96 96\n-1"))
+            rows = struct.unpack(f"<{96 * 96}f", level[-4 * 96 * 96:])
+            self.assertEqual(values, [v for y in reversed(range(96)) for v in rows[96 * y:96 * y + 96]])
+            for value, eight, sixteen in zip(values, picture, deep, strict=True):
+                value = min(max(value, 0.0), 1.0)
+                self.assertLessEqual(abs(value * 255 - eight), 0.5001)
+                self.assertLessEqual(abs(value * 65535 - sixteen), 0.51)
+
+    def test_a_tar_is_a_webdataset(self):
+        out = self.folder / "a"
+        options = ["--out", out, "--size", 16, "--count", 30, "--first", 985, "--format", "webdataset,npy"]
+        run(*options)
+        categories = {c["id"]: c["name"] for c in json.loads((out / "annotations.json").read_text())["categories"]}
+        extensions = [".png", ".cls", ".target_mask.png", ".shadow_mask.png", ".seabed_mask.png", ".npy", ".json"]
+        self.assertEqual(sorted(path.name for path in (out / "webdataset").iterdir()), ["000000.tar", "000001.tar"])
+        index = 985
+        for path in sorted((out / "webdataset").iterdir()):
+            with tarfile.open(path, "r:") as tar:
+                members = tar.getmembers()
+                # A sample's members follow one another, as a reader of a stream needs it.
+                self.assertEqual(len(members) % len(extensions), 0)
+                for at in range(0, len(members), len(extensions)):
+                    sample = members[at:at + len(extensions)]
+                    self.assertEqual([m.name for m in sample], [f"{index:09}{e}" for e in extensions])
+                    bytes_of = {m.name[9:]: tar.extractfile(m).read() for m in sample}
+                    record = json.loads(bytes_of[".json"])
+                    self.assertEqual(record["id"], index)
+                    self.assertEqual(categories[int(bytes_of[".cls"])], record["parameters"]["class"])
+                    for entry, extension in zip(record["files"], [e for e in extensions if e not in (".cls", ".json")],
+                                                strict=True):
+                        self.assertEqual(hashlib.sha256(bytes_of[extension]).hexdigest(), entry["sha256"])
+                    self.assertTrue(all(m.isreg() and m.mtime == 0 and m.uid == 0 for m in sample))
+                    index += 1
+            self.assertEqual(path.stat().st_size % 512, 0)
+        self.assertEqual(index, 985 + 30)
+        subprocess.run(["sha256sum", "--quiet", "-c", "SHA256SUMS"], cwd=out, check=True)
+        tar = out / "webdataset" / "000001.tar"
+        tar.write_bytes(tar.read_bytes()[:-1024])
+        self.assertIn("webdataset/000001.tar: SHA-256 is", run(*options, "--verify", expect=1))
+        run(*options)
+        self.assertIn(" 0 faults", run(*options, "--verify"))
+
+    def test_a_set_comes_with_a_card(self):
+        out = self.folder / "a"
+        run("--out", out, *SMALL, "--reference", pgm(self.folder / "r|f.pgm"))
+        card = (out / "README.md").read_text()
+        for text in ("8 images of 96 x 96 pixels", "seed 5", "insonify ", "| class | cone 2, cube 2, cylinder 2, sphere 2 |",
+                     "| noise | [\"speckle:0.1\",\"poisson:200\"] |".replace("[", "\\["), "r\\|f.pgm", "| altitude_m | 8 |"):
+            self.assertIn(text, card)
+        for image in re.findall(r"!\[[^]]*\]\(([^)]*)\)", card):
+            self.assertTrue((out / image).exists(), image)
+        self.assertIn("README.md", (out / "SHA256SUMS").read_text())
+
+    def test_the_sonar_recipe_is_joined_from_shards(self):
+        options = ["--recipe", "sonar", "--count", 6, "--size", 64]
+        run("--out", self.folder / "whole", *options)
+        for k in range(2):
+            run("--out", self.folder / "a", *options, "--shard", f"{k}/2")
+        run(self.folder / "a", "--preview", program=MERGE)
+        (self.folder / "a" / "preview.html").unlink()
+        self.assertEqual(digest(self.folder / "whole"), digest(self.folder / "a"))
 
     def test_a_killed_run_goes_on_to_the_same_bytes(self):
         run("--out", self.folder / "whole", *SMALL)
@@ -629,6 +738,18 @@ class Shards(unittest.TestCase):
         run("--out", out, *SMALL, "--shard", "1/3")  # submitted again
         run(out, program=MERGE)
         self.assertEqual(self.whole, digest(out))
+
+    @unittest.skipUnless(shutil.which("parallel"), "needs GNU parallel")
+    def test_the_line_for_gnu_parallel_in_the_documentation(self):
+        page = pathlib.Path(__file__).parents[2] / "docs" / "dataset.md"
+        line = re.search(r"^parallel .*\n.*merge_dataset set$", page.read_text(), re.MULTILINE)[0]
+        line = line.replace("--count 1000000", " ".join(SMALL)).replace("/64", "/4").replace("seq 0 63", "seq 0 3")
+        for name, program in ("generate_dataset", GENERATOR), ("merge_dataset", MERGE):
+            (self.folder / name).symlink_to(pathlib.Path(program).resolve())
+        result = subprocess.run(["bash", "-c", line], cwd=self.folder, capture_output=True, text=True, timeout=300,
+                                env=os.environ | {"PATH": f"{self.folder}:{os.environ['PATH']}"})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.whole, digest(self.folder / "set"))
 
     def test_shards_in_folders_of_their_own_are_joined(self):
         for k in range(8):

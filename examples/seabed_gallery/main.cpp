@@ -73,7 +73,7 @@ in::image<float> tile_of(const sb::any& seabed, double cell, int degrees, in::th
                                .range = static_cast<float>(distance + half),
                                .bins = tile_width};
     const auto recorded = in::render(scene, rig, in::record_options<in::labels, in::lambert_backscatter>{}, pool);
-    return in::with_speckle(recorded, rig, {.seed = 11}, pool).image;
+    return in::with_speckle(recorded, {.seed = 11}, pool).image;
 }
 
 /// Gray values, the mean intensity where sonar operators set it.

@@ -68,15 +68,17 @@
 #define INSONIFY_ARITHMETIC_END
 #endif
 
-// Run-time dispatch to wider instruction sets: x86-64 with GNU attributes only. Other targets compile one path.
-#if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__)
+// Run-time dispatch to wider instruction sets: x86-64 with GNU attributes, and only where kernels are optimized. Other
+// builds compile one path, to the same bytes.
+#if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__) && defined(__OPTIMIZE__)
 #define INSONIFY_DISPATCH 1
 #else
 #define INSONIFY_DISPATCH 0
 #endif
 
-// Whether a kernel is one function, whatever it calls. With 0 programs compile in half of the time and run several
-// times as long, to the same bytes. The sanitizers choose 0, because what they add would compile for minutes.
+// Whether a kernel is one function, whatever it calls. With 0 programs compile a little faster and run several times as
+// long, to the same bytes. Builds without optimization choose 0, as do the sanitizers, because what they add would
+// compile for minutes.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define INSONIFY_SANITIZED 1
 #elif defined(__has_feature)
@@ -85,7 +87,7 @@
 #endif
 #endif
 #if !defined(INSONIFY_WHOLE_KERNELS)
-#if defined(__GNUC__) && !defined(INSONIFY_SANITIZED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(INSONIFY_SANITIZED)
 #define INSONIFY_WHOLE_KERNELS 1
 #else
 #define INSONIFY_WHOLE_KERNELS 0
@@ -135,6 +137,8 @@
 
 #if !INSONIFY_SIMD
 #define INSONIFY_TAG_SIMD _scalar
+#elif !INSONIFY_DISPATCH
+#define INSONIFY_TAG_SIMD _plain
 #elif defined(__AVX512F__)
 #define INSONIFY_TAG_SIMD _avx512
 #elif defined(__AVX2__)

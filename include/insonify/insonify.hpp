@@ -45,6 +45,7 @@
 #include <insonify/filter/sweep.hpp>
 #include <insonify/filter/where.hpp>
 #include <insonify/geometry/bounds.hpp>
+#include <insonify/geometry/camera.hpp>
 #include <insonify/geometry/cone.hpp>
 #include <insonify/geometry/cube.hpp>
 #include <insonify/geometry/cylinder.hpp>
@@ -89,6 +90,7 @@
 #include <insonify/raster/fold.hpp>
 #include <insonify/raster/fragment_lanes.hpp>
 #include <insonify/raster/framebuffer.hpp>
+#include <insonify/raster/interpolatable.hpp>
 #include <insonify/raster/placement.hpp>
 #include <insonify/raster/setup.hpp>
 #include <insonify/raster/shader.hpp>
@@ -110,9 +112,9 @@
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/seabed/lattice.hpp>
 #include <insonify/seabed/mixed.hpp>
+#include <insonify/seabed/moat.hpp>
 #include <insonify/seabed/model.hpp>
 #include <insonify/seabed/models.hpp>
-#include <insonify/seabed/moat.hpp>
 #include <insonify/seabed/mud.hpp>
 #include <insonify/seabed/needed_vertices.hpp>
 #include <insonify/seabed/noise.hpp>
@@ -140,9 +142,11 @@
 #include <insonify/sonar/bottom_tiles.hpp>
 #include <insonify/sonar/bottom_tone.hpp>
 #include <insonify/sonar/display.hpp>
+#include <insonify/sonar/frame.hpp>
 #include <insonify/sonar/instruments.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/light_pass.hpp>
+#include <insonify/sonar/name_tally.hpp>
 #include <insonify/sonar/occlusion.hpp>
 #include <insonify/sonar/ping_echo.hpp>
 #include <insonify/sonar/ping_fan.hpp>
@@ -164,6 +168,7 @@
 #include <insonify/sonar/sonar_equation.hpp>
 #include <insonify/sonar/speckle.hpp>
 #include <insonify/sonar/swath.hpp>
+#include <insonify/sonar/target_hits.hpp>
 #include <insonify/sonar/target_slices.hpp>
 #include <insonify/sonar/water_column.hpp>
 #include <insonify/version.hpp>

@@ -99,15 +99,17 @@
 #define INSONIFY_ARITHMETIC_END
 #endif
 
-// Run-time dispatch to wider instruction sets: x86-64 with GNU attributes only. Other targets compile one path.
-#if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__)
+// Run-time dispatch to wider instruction sets: x86-64 with GNU attributes, and only where kernels are optimized. Other
+// builds compile one path, to the same bytes.
+#if INSONIFY_SIMD && defined(__x86_64__) && defined(__GNUC__) && defined(__OPTIMIZE__)
 #define INSONIFY_DISPATCH 1
 #else
 #define INSONIFY_DISPATCH 0
 #endif
 
-// Whether a kernel is one function, whatever it calls. With 0 programs compile in half of the time and run several
-// times as long, to the same bytes. The sanitizers choose 0, because what they add would compile for minutes.
+// Whether a kernel is one function, whatever it calls. With 0 programs compile a little faster and run several times as
+// long, to the same bytes. Builds without optimization choose 0, as do the sanitizers, because what they add would
+// compile for minutes.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define INSONIFY_SANITIZED 1
 #elif defined(__has_feature)
@@ -116,7 +118,7 @@
 #endif
 #endif
 #if !defined(INSONIFY_WHOLE_KERNELS)
-#if defined(__GNUC__) && !defined(INSONIFY_SANITIZED)
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(INSONIFY_SANITIZED)
 #define INSONIFY_WHOLE_KERNELS 1
 #else
 #define INSONIFY_WHOLE_KERNELS 0
@@ -166,6 +168,8 @@
 
 #if !INSONIFY_SIMD
 #define INSONIFY_TAG_SIMD _scalar
+#elif !INSONIFY_DISPATCH
+#define INSONIFY_TAG_SIMD _plain
 #elif defined(__AVX512F__)
 #define INSONIFY_TAG_SIMD _avx512
 #elif defined(__AVX2__)
@@ -729,9 +733,9 @@ INSONIFY_ARITHMETIC_END
 //
 // A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
 // values go through it at a time. Its arithmetic is the same in every lane at every N, and products are never fused
-// with sums, so all levels give the same bytes; N = 1 is plain scalar code. Kernels that gain by AVX-512 say how many
-// values at a time are best there, `static constexpr int widest = 16` (or 8, for its registers alone); others stay at
-// AVX2.
+// with sums, so all levels give the same bytes; N = 1 is plain scalar code, compiled where INSONIFY_SIMD is 0. Kernels
+// that gain by AVX-512 say how many values at a time are best there, `static constexpr int widest = 16`; others stay at
+// AVX2. That is for kernels that gain more than a tenth: each copy costs compile time.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -739,7 +743,7 @@ namespace insonify::inline INSONIFY_ABI {
 
 /// Instruction sets that kernels are compiled for, slowest first.
 enum class isa {
-    scalar,    ///< one value at a time
+    scalar,    ///< one value at a time: builds with INSONIFY_SIMD=0; others take it for `baseline`
     baseline,  ///< the 128-bit vectors that every processor of the target has (SSE2, NEON)
     avx2,      ///< 256-bit integer and float vectors
     avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
@@ -788,9 +792,10 @@ void dispatch(const Kernel& kernel, isa level) {
     if (level >= isa::avx2) return run_avx2(kernel);
 #endif
 #if INSONIFY_SIMD
-    if (level == isa::baseline) return kernel.template run<4>();
-#endif
+    kernel.template run<4>();
+#else
     kernel.template run<1>();
+#endif
 }
 
 }  // namespace detail
@@ -1400,7 +1405,7 @@ using unfilled_vector = std::vector<T, unfilled_allocator<T>>;
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
 // ------------ insonify/geometry/mesh.hpp ----------------------------------------------------------------
-// Triangles as plain data: what builders and importers make, and what everything downstream draws.
+// Indexed triangle meshes as plain data, and views of them.
 
 #include <glm/vec3.hpp>
 
@@ -1408,12 +1413,12 @@ namespace insonify::inline INSONIFY_ABI {
 
 /// An indexed triangle mesh. Counter-clockwise triangles face the viewer; positions are metres in the mesh's own frame.
 struct mesh {
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;  ///< unit, one per position, or none at all
-    std::vector<glm::uvec3> triangles;
+    std::vector<glm::vec3> positions{};
+    std::vector<glm::vec3> normals{};  ///< unit, one per position, or none at all
+    std::vector<glm::uvec3> triangles{};
 };
 
-/// A mesh to look at: somebody else's buffers, who has to keep them meanwhile.
+/// A view of a mesh in memory of the caller's, which has to outlive it.
 struct mesh_view {
     std::span<const glm::vec3> positions;
     std::span<const glm::vec3> normals;  ///< see mesh
@@ -1427,7 +1432,7 @@ struct mesh_view {
 
 namespace detail {
 
-/// A mesh that is made in every picture.
+/// A mesh with uninitialized storage, for meshes that are rebuilt in every picture.
 struct unfilled_mesh {
     unfilled_vector<glm::vec3> positions, normals;
     unfilled_vector<glm::uvec3> triangles;
@@ -1744,7 +1749,7 @@ enum class keep_depth {
 /// What depth a draw finds in the target.
 enum class depth_load {
     keep,   ///< what is there: earlier draws occlude this one
-    clear,  ///< nothing: the target's depth is overwritten, without being read
+    clear,  ///< nothing: the target's depth is overwritten, without being read; see framebuffer for its color
 };
 
 /// The depth of an empty pixel.
@@ -1769,6 +1774,8 @@ template <class Pixel>
 struct framebuffer {
     image_view<Pixel> color;
     image_view<float> depth;
+    bool clears_color = false;  ///< whether draws that clear depths write `background` where they show nothing
+    Pixel background{};
 };
 template <>
 struct framebuffer<void> {
@@ -2576,6 +2583,82 @@ class screen_polygon {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/raster/interpolatable.hpp --------------------------------------------------------
+// Whether a type consists of floats alone: what can be interpolated between the vertices of a triangle.
+//
+// An aggregate is looked into: it is initialized from values that convert to float, to vectors of float and to
+// aggregates of those, and from values that convert to any other scalar or class, too. If as many of the first kind fit
+// as of the second, all members are made of floats.
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// For classes that are no aggregates: specialize it as true for your own vector of floats.
+template <class V>
+inline constexpr bool is_vector_of_floats = requires {
+    requires std::is_same_v<typename V::value_type, float>;
+};
+template <>
+inline constexpr bool is_vector_of_floats<float> = true;
+
+namespace detail {
+
+template <class V>
+constexpr bool consists_of_floats();
+
+struct converts_to_floats {
+    template <class T>
+        requires(consists_of_floats<T>())
+    operator T() const;
+};
+struct converts_to_members {
+    template <class T>
+        requires(consists_of_floats<T>() || !std::is_aggregate_v<T>)
+    operator T() const;
+};
+
+template <class Value, std::size_t>
+using repeated = Value;
+template <class V, class Value, std::size_t... I>
+constexpr bool takes(std::index_sequence<I...>) {
+    return requires {
+        V{repeated<Value, I>{}...};
+    };
+}
+/// The largest number of values that initialize an aggregate.
+template <class V, class Value, std::size_t Count>
+constexpr std::size_t most_members() {
+    if constexpr (Count == 0)
+        return 0;
+    else if constexpr (takes<V, Value>(std::make_index_sequence<Count>{}))
+        return Count;
+    else
+        return most_members<V, Value, Count - 1>();
+}
+
+template <class V>
+constexpr bool consists_of_floats() {
+    if constexpr (!std::is_class_v<V> || is_vector_of_floats<V>) {
+        return is_vector_of_floats<V>;
+    } else if constexpr (std::is_empty_v<V>) {
+        return true;
+    } else if constexpr (!std::is_aggregate_v<V> || sizeof(V) % sizeof(float) != 0) {
+        return false;
+    } else {
+        constexpr std::size_t floats = sizeof(V) / sizeof(float);
+        return most_members<V, converts_to_floats, floats>() == most_members<V, converts_to_members, floats>();
+    }
+}
+
+}  // namespace detail
+
+/// Made of floats alone: float, glm::vec2..4, arrays and aggregates of those.
+template <class V>
+concept interpolatable = std::is_trivially_copyable_v<V> && detail::consists_of_floats<V>();
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
 // ------------ insonify/raster/shader.hpp ----------------------------------------------------------------
 // What people bring to a draw: a callable that places vertices, and one that is asked for each visible pixel.
 //
@@ -2600,11 +2683,6 @@ struct placed_vertex {
     glm::vec4 clip;
     Varyings varyings;
 };
-
-/// Anything made of floats alone can be interpolated: float, glm::vec2..4, aggregates of those.
-template <class V>
-concept interpolatable = std::is_trivially_copyable_v<V> && alignof(V) == alignof(float) &&
-                         sizeof(V) % sizeof(float) == 0 && !std::is_integral_v<V> && !std::is_enum_v<V>;
 
 /// `shader(vertex)` gives a clip position, alone (glm::vec4) or with varyings (placed_vertex).
 template <class S>
@@ -2710,8 +2788,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/raster/small.hpp -----------------------------------------------------------------
 // Small triangles, of which a fine mesh is made: several go through the set-up at a time, one per lane, in 32 bits.
 //
-// A triangle is small if it extends less than 2^14 sub-pixels; then differences of its corners have 15 bits and edge
-// functions 30. What is decided here is what setup.hpp decides for triangles of any size, in the same integers.
+// A triangle is small if it extends less than 2^15 sub-pixels, 8 pixels at 12 sub-pixel bits: then edge functions are sums
+// of two products of less than 2^30 each, and fit 32 bits. What is decided here is what setup.hpp decides for triangles of any size, in the same integers.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2773,7 +2851,7 @@ struct corner_lanes {
     INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_place::no_x)); }
     /// Whether all of them are small; of those on the grid.
     INSONIFY_INLINE bool are_small() const {
-        constexpr std::int32_t most = 1 << 14;
+        constexpr std::int32_t most = (1 << 15) - 1;
         return !any(ints(((east - west) | (south - north)) >= most));
     }
     /// Twice the area, positive for clockwise on the screen; of small ones.
@@ -4145,7 +4223,6 @@ class fragment_lanes {
 /// part of a row before any of it is shaded: either is one long chain, and so neighbours' chains run side by side.
 template <class Screen, class Varyings, class Shader>
 struct shading_kernel {
-    static constexpr int widest = 8;  // of AVX-512 its registers help, wider vectors don't
     const Screen& screen;
     const vertex_record<Varyings>* records;
     tile_buffer<true>& tile;
@@ -4424,6 +4501,10 @@ draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentSha
                         "the depth image's");
     }
     const auto shade = [&](const auto& triangles, auto& tile, float sign) {
+        if constexpr (requires { target.background; })
+            if (target.clears_color && options.load == depth_load::clear)
+                for (int y = triangles.box.y0; y <= triangles.box.y1; ++y)
+                    std::fill_n(&target.color(triangles.box.x0, y), triangles.box.width(), target.background);
         return detail::shade(m, place, shader, target, triangles, tile, sign);
     };
     return detail::draw_tiles<true, double>(m, place, target.depth, options, ex, detail::no_records, detail::every_tile,
@@ -4548,7 +4629,7 @@ auto map_pixels(const image<T>& source, Fn&& fn) {
 }  // namespace insonify::inline INSONIFY_ABI
 
 // ------------ insonify/seabed/type.hpp ------------------------------------------------------------------
-// Labels of the sea floor, and what belongs to a label: its name, its brightness and its speckle.
+// Labels of the sea floor and their properties: name, brightness and speckle.
 //
 // A label is one byte. The library's own are the rows of registry.hpp; those from `own_type(0)` on are free for users'
 // seabeds, which bring the properties of their labels along (see model.hpp).
@@ -4608,7 +4689,7 @@ constexpr std::size_t index_of(type t) {
     return static_cast<std::size_t>(t);
 }
 
-/// What belongs to a label.
+/// The properties of a label.
 struct type_properties {
     type label = type::sand;
     std::string_view name;       ///< for manifests and messages; a string literal, or text that outlives its users
@@ -4734,7 +4815,7 @@ static_assert(
     }(),
     "the label of a row is its index");
 
-/// What belongs to a label of the library; those of sand for any other, but for the name, which is empty.
+/// The properties of a label of the library; of any other label those of sand, without a name.
 constexpr type_properties properties_of(type t) {
     if (index_of(t) < type_count) return built_in_types[index_of(t)];
     return {t, "", built_in_types[0].reflectivity, built_in_types[0].speckle};
@@ -5029,14 +5110,14 @@ class heightfield_sampler;
 ///
 /// Between vertices the surface is the one that is drawn: each cell is cut from vertex (i, j) to (i + 1, j + 1) into
 /// two plane triangles. Outside, it goes on as at the nearest edge. A vertex that is NaN or infinite is no data:
-/// queries on its triangles answer NaN, and they are left out of the drawn mesh.
+/// queries on its triangles return NaN, and they are left out of the drawn mesh.
 struct heightfield {
     image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
     image<type> types{};          ///< one per vertex, or none: then everything is `fallback`
     glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
     double spacing = 1;           ///< metres between vertices, > 0
     type fallback = type::sand;
-    /// What belongs to labels of users' own; the library's are in its registry.
+    /// Properties of users' own labels; those of the library's are in its registry.
     std::vector<type_properties> own_types{};
 
     /// Height of the drawn surface at a world position, metres; it and the next two expect a valid heightfield.
@@ -5058,7 +5139,7 @@ struct heightfield {
 
     float operator()(double x, double y) const { return height_at(x, y); }
 
-    /// The heightfield as a recipe, by reference: it has to outlive the sampler.
+    /// The sampler refers to the heightfield, which has to outlive it.
     /// @throws invalid_input as `validate`
     heightfield_sampler prepare() const;
     std::optional<type> only_type() const { return types.empty() ? std::optional(fallback) : std::nullopt; }
@@ -5677,7 +5758,7 @@ class needed_vertices {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/adaptive.hpp --------------------------------------------------------------
-// The surface of a heightfield by as few triangles as somebody can tell from all of them.
+// Adaptive tessellation: the surface of a heightfield by few triangles, within a tolerance of all of them.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -5748,7 +5829,7 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
 
     const int size = needed.size();
     const auto rows = static_cast<std::size_t>(heights.height()), columns = static_cast<std::size_t>(heights.width());
-    // The hierarchy's own corners, which are nobody's middle.
+    // The corners of the hierarchy's root, which are no triangle's middle vertex.
     const auto is_corner = [=](std::size_t x, std::size_t y) {
         const auto end = static_cast<std::size_t>(size);
         return (x == 0 || x == end) && (y == 0 || y == end);
@@ -5825,8 +5906,7 @@ struct grid {
     glm::dvec2 origin{0.0, 0.0};
     double spacing = 0.02;
     int width = 2, height = 2;  ///< vertices, at least 2
-    bool band_limited =
-        false;  ///< relief that the spacing can't carry fades out, instead of turning up as other relief
+    bool band_limited = false;  ///< relief that the spacing can't carry fades out instead of aliasing
     glm::ivec2 first{0, 0};
 };
 
@@ -5886,8 +5966,8 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/regular_grid.hpp --------------------------------------------------------
-// Meshes that are a heightfield over a regular grid, as seabeds mostly are: found out by looking, so that whoever gives
-// one need not say so, and nobody gets another result for saying so wrongly.
+// Detects meshes that are a heightfield over a regular grid, as seabeds mostly are. The mesh itself is inspected, so
+// that callers need no flag and a wrong flag cannot change a result.
 
 #include <atomic>
 
@@ -6333,6 +6413,17 @@ concept collective_occlusion = occlusion<S> &&
 };
 inline constexpr float unknown = -1;  ///< in shares::lit, between screening and testing
 
+/// What may be known of a triangle or a point beforehand.
+enum class known : std::uint8_t { lit, dark, nothing };
+
+/// Collective occlusion that knows whole triangles: `structure.known_triangles(caster, eye, executor)` has an answer
+/// for each triangle of a caster as the camera sees it, or none at all.
+template <class S>
+concept triangle_occlusion = collective_occlusion<S> &&
+    requires(const S& structure, std::uint32_t caster, const glm::dvec3& eye, serial_executor& ex) {
+    { structure.known_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::unfilled_vector<known>>;
+};
+
 }  // namespace shadow
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -6487,6 +6578,11 @@ struct lit_grid {
         x_of = glm::dvec2(y.y, -y.x) / cross(x, y);
         y_of = glm::dvec2(-x.y, x.x) / cross(x, y);
     }
+    /// (X, Y) of a place in the mesh's frame.
+    INSONIFY_INLINE glm::dvec2 steps(const glm::dvec2& p) const {
+        const double dx = p.x - origin.x, dy = p.y - origin.y;
+        return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
+    }
 };
 
 /// u of a grid's vertices, column by column, with nothing around them.
@@ -6631,47 +6727,55 @@ struct horizon_kernel {
 /// Which of a heightfield's own points are lit, dark, or left to an exact test.
 class horizon_bounds {
   public:
-    enum class answer { lit, dark, unknown };
-
     /// @param m       the mesh, a regular grid whose vertices lie within `off` steps of the lattice
     /// @param travel  where the light goes, in the mesh's frame: down
     template <executor E>
     horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, double off, E& ex)
-        : grid_(lattice, travel) {
-        const grid_heights heights(m, grid_, ex);
-        const double relief = grid_.drop * (static_cast<double>(heights.greatest) - static_cast<double>(heights.least));
+        : grid_(lattice, travel), heights_(m, grid_, ex) {
+        const auto greatest = static_cast<double>(heights_.greatest), least = static_cast<double>(heights_.least);
+        const double relief = grid_.drop * (greatest - least);
         const double size =
-            grid_.columns + grid_.drop * (std::max)(numeric::magnitude(static_cast<double>(heights.greatest)),
-                                                    numeric::magnitude(static_cast<double>(heights.least)));
+            grid_.columns + grid_.drop * (std::max)(numeric::magnitude(greatest), numeric::magnitude(least));
         margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
         bounds_.resize(static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_));
         bulk_ranges(ex, static_cast<std::size_t>(strips_), 128, [&](std::size_t from, std::size_t to) {
             insonify::detail::dispatch(
-                horizon_kernel{grid_, heights, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
+                horizon_kernel{grid_, heights_, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
                                static_cast<float>(margin_), bounds_.data()},
                 best_isa());
         });
     }
 
     /// @param p  on the mesh, on a side that faces the light, in the mesh's frame
-    INSONIFY_INLINE answer at(const glm::dvec3& p) const {
-        const double dx = p.x - grid_.origin.x, dy = p.y - grid_.origin.y;
-        const double x = grid_.x_of.x * dx + grid_.x_of.y * dy, y = grid_.y_of.x * dx + grid_.y_of.y * dy;
-        if (!(x >= 0 && x <= grid_.columns - 1)) return answer::unknown;
+    INSONIFY_INLINE known at(const glm::dvec3& p) const {
+        const glm::dvec2 at = grid_.steps(glm::dvec2(p));
+        const double x = at.x, y = at.y;
+        if (!(x >= 0 && x <= grid_.columns - 1)) return known::nothing;
         const auto column = static_cast<int>(x);
         const int strip = static_cast<int>(y - grid_.slope * x - first_strip_);
-        if (strip < 0 || strip >= strips_) return answer::unknown;
-        const horizon_bound& b = bounds_[static_cast<std::size_t>(column) * static_cast<std::size_t>(strips_) +
-                                         static_cast<std::size_t>(strip)];
+        if (strip < 0 || strip >= strips_) return known::nothing;
+        const horizon_bound& b = bound(column, strip);
         const double u = x + grid_.drop * p.z;
-        if (u < static_cast<double>(b.met) - margin_) return answer::dark;
-        return u > static_cast<double>(b.may_meet) + margin_ ? answer::lit : answer::unknown;
+        if (u < static_cast<double>(b.met) - margin_) return known::dark;
+        return u > static_cast<double>(b.may_meet) + margin_ ? known::lit : known::nothing;
+    }
+
+    const lit_grid& grid() const { return grid_; }
+    const grid_heights& heights() const { return heights_; }
+    /// By which u may be off, in columns.
+    double margin() const { return margin_; }
+    /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
+    int first_strip() const { return first_strip_; }
+    const horizon_bound& bound(int column, int strip) const {
+        return bounds_[static_cast<std::size_t>(column) * static_cast<std::size_t>(strips_) +
+                       static_cast<std::size_t>(strip)];
     }
 
   private:
     lit_grid grid_;
+    grid_heights heights_;
     double margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::unfilled_vector<horizon_bound> bounds_;
@@ -6738,6 +6842,174 @@ class light_plane {
     glm::dvec3 rows_[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     glm::dvec3 origin_{0};
     bool is_near_ = false;
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/horizon_triangles.hpp ----------------------------------------------
+// Whole triangles of a regular grid that are in the light or in the dark, by the bounds of their horizon.
+//
+// Within a cell, u (horizon_bounds.hpp) lies between its values at the corners, and so a triangle whose largest u is
+// below what every ray of its strips has met is dark in all its points; one whose least u is above what any may have
+// met is lit. Pixels that show such a triangle need no point. That holds for its upper side; it is the one that the
+// camera sees if the camera lies above the triangle's plane.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// Where the ray at a point of a light's plane meets the plane z = 0 of a mesh, in the steps of its grid.
+class ray_feet {
+  public:
+    ray_feet(const light_plane& plane, const affine& placement, const lit_grid& grid) {
+        const auto seen = [&](double x, double y) { return glm::dvec2(plane(transform_point(placement, {x, y, 0}))); };
+        origin_ = seen(0, 0);
+        const glm::dvec2 x = seen(1, 0) - origin_, y = seen(0, 1) - origin_;
+        const double area = x.x * y.y - x.y * y.x;
+        x_of_ = glm::dvec2(y.y, -y.x) / area;
+        y_of_ = glm::dvec2(-x.y, x.x) / area;
+        grid_ = &grid;
+    }
+    glm::dvec2 operator()(const glm::dvec2& at) const {
+        const glm::dvec2 off = at - origin_;
+        return grid_->steps({x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y});
+    }
+
+    /// Bounds of those of a rectangle's points.
+    std::pair<glm::dvec2, glm::dvec2> of(const glm::dvec2& corner, const glm::dvec2& size) const {
+        glm::dvec2 lower = (*this)(corner), upper = lower;
+        for (const glm::dvec2& other : {glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size}) {
+            const glm::dvec2 at = (*this)(corner + other);
+            lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
+            upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
+        }
+        return {lower, upper};
+    }
+
+  private:
+    glm::dvec2 origin_{0}, x_of_{0}, y_of_{0};
+    const lit_grid* grid_ = nullptr;
+};
+
+/// Answers for all triangles of one grid, seen by one camera.
+class horizon_triangles {
+  public:
+    /// @param m    the mesh, of which `horizon` is
+    /// @param eye  the camera, in the mesh's frame
+    horizon_triangles(const mesh_view& m, const regular_grid& lattice, const horizon_bounds& horizon,
+                      const glm::dvec3& travel, const glm::dvec3& eye)
+        : horizon_(horizon), grid_(horizon.grid()), columns_(lattice.columns) {
+        eye_ = grid_.steps(glm::dvec2(eye));
+        eye_u_ = eye_.x + grid_.drop * eye.z;
+        // The sine is u's slope along the light, times the light's own sine, over the length of the facet's normal.
+        const double relief =
+            static_cast<double>(horizon.heights().greatest) - static_cast<double>(horizon.heights().least);
+        const auto square_of = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
+        const double steps_a_metre = numeric::square_root((std::max)(square_of(grid_.x_of), square_of(grid_.y_of)));
+        const double steepest = 1 + 2 * relief * steps_a_metre;
+        const double sine = -travel.z / numeric::square_root(numeric::dot(travel, travel));
+        constexpr double grazed = 0x1p-20;  // a triangle closer to the light's direction is left to points
+        rise_ = horizon.margin() + grazed * steepest / sine;
+        // The first triangle of each cell leaves one corner out; of the two here, `lower` is opposite another.
+        const std::ptrdiff_t corner = corner_of(0, 0);
+        const std::ptrdiff_t apex = grid_.first + (grid_.is_rising ? grid_.along : 0) - corner;
+        const glm::uvec3& t = m.triangles[0];
+        const std::ptrdiff_t opposite = columns_ + 1 - apex;
+        lower_is_first_ = static_cast<std::ptrdiff_t>(t.x) != opposite &&
+                          static_cast<std::ptrdiff_t>(t.y) != opposite && static_cast<std::ptrdiff_t>(t.z) != opposite;
+    }
+
+    /// Writes the answers of some columns of cells, by triangle.
+    void find(int first_column, int last_column, known* into) const {
+        for (int low = 0; low < grid_.rows - 1; low += square)
+            for (int x = first_column; x < last_column; ++x)
+                for (int y = low; y < (std::min)(low + square, grid_.rows - 1); ++y) decide(x, y, into);
+    }
+
+    /// Takes the answers back of cells over which others may cast: where rays through some u and w pass within the
+    /// relief.
+    /// @param lower, upper  where such rays meet the plane z = 0, in the grid's own steps
+    void forget(const glm::dvec2& lower, const glm::dvec2& upper, known* into) const {
+        const auto least = static_cast<double>(horizon_.heights().least),
+                   greatest = static_cast<double>(horizon_.heights().greatest);
+        const auto held = [](double at, int count) {
+            return static_cast<int>((std::min)((std::max)(at, 0.0), static_cast<double>(count)));
+        };
+        const int left = held(lower.x - grid_.drop * greatest - 2, grid_.columns - 1),
+                  right = held(upper.x - grid_.drop * least + 2, grid_.columns - 1);
+        const double up = grid_.slope * grid_.drop;
+        const int bottom = held(lower.y - up * greatest - 2, grid_.rows - 1),
+                  top = held(upper.y - up * least + 2, grid_.rows - 1);
+        for (int x = left; x < right; ++x)
+            for (int y = bottom; y < top; ++y) into[triangle_of(x, y)] = into[triangle_of(x, y) + 1] = known::nothing;
+    }
+
+  private:
+    static constexpr int square = 32;  ///< cells, so that what is read and what is written stays in the cache
+
+    /// The vertex of a cell with the lowest number.
+    std::ptrdiff_t corner_of(int x, int y) const {
+        return grid_.first + (x + (grid_.along < 0 ? 1 : 0)) * grid_.along +
+               (y + (grid_.across < 0 ? 1 : 0)) * grid_.across;
+    }
+    /// The first triangle of a cell.
+    std::size_t triangle_of(int x, int y) const {
+        const std::ptrdiff_t corner = corner_of(x, y);
+        return static_cast<std::size_t>(2 * (corner - corner / columns_));
+    }
+
+    void decide(int x, int y, known* into) const {
+        const float *const here = horizon_.heights().column(x) + y, *const ahead = horizon_.heights().column(x + 1) + y;
+        const float a = here[0], c = here[1], b = ahead[0], d = ahead[1];
+        // The strips that the cell lies in.
+        constexpr double beside = 0x1p-8;
+        const double from = y - horizon_.first_strip() - grid_.slope * x;
+        float met = std::numeric_limits<float>::infinity(), may_meet = -met;
+        const int last = static_cast<int>(from + 1 + beside);
+        for (int strip = static_cast<int>(from - grid_.slope - beside); strip <= last; ++strip) {
+            const horizon_bound& bound = horizon_.bound(x, strip);
+            met = bound.met < met ? bound.met : met;
+            may_meet = bound.may_meet > may_meet ? bound.may_meet : may_meet;
+        }
+        const auto margin = static_cast<float>(horizon_.margin());
+        const auto of = [&](float p, float q, float r, float along_x, float along_y, float base) {
+            const float highest = (std::max)((std::max)(p, q), r), lowest = (std::min)((std::min)(p, q), r);
+            const float rise = along_x + static_cast<float>(grid_.slope) * along_y;
+            const auto dx = static_cast<float>(eye_.x - x), dy = static_cast<float>(eye_.y - y);
+            const float error = 4 * margin * (2 + numeric::magnitude(dx) + numeric::magnitude(dy));
+            const bool is_above = base + along_x * dx + along_y * dy < static_cast<float>(eye_u_) - error;
+            const auto enough = static_cast<float>(rise_);
+            const bool is_facing = rise > enough, is_averted = rise < -enough;
+            if (is_above && is_averted) return known::dark;
+            if ((is_above || is_facing) && highest < met - margin) return known::dark;
+            return is_above && is_facing && lowest > may_meet + margin ? known::lit : known::nothing;
+        };
+        known lower, upper;
+        if (grid_.is_rising) {
+            lower = of(a, b, d, b - a, d - b, a);
+            upper = of(a, d, c, d - c, c - a, a);
+        } else {
+            lower = of(a, b, c, b - a, c - a, a);
+            upper = of(b, d, c, d - c, d - b, b + c - d);
+        }
+        known* const cell = into + triangle_of(x, y);
+        cell[0] = lower_is_first_ ? lower : upper;
+        cell[1] = lower_is_first_ ? upper : lower;
+    }
+
+    const horizon_bounds& horizon_;
+    const lit_grid& grid_;
+    int columns_;
+    glm::dvec2 eye_{0};  ///< in the grid's steps
+    double eye_u_ = 0;
+    double rise_ = 0;  ///< of u along the light, a column, above which a triangle faces it
+    bool lower_is_first_ = true;
 };
 
 }  // namespace shadow::detail
@@ -7363,19 +7635,48 @@ class exact_occlusion {
                 own = at.face_light && mesh < horizons_.size() && horizons_[mesh].bounds ? &horizons_[mesh] : nullptr;
             }
             const glm::dvec3 p = at[i];
-            auto known = detail::horizon_bounds::answer::unknown;
-            if (own != nullptr) known = own->bounds->at(transform_point(own->to_mesh, p));
+            auto answer = known::nothing;
+            if (own != nullptr) answer = own->bounds->at(transform_point(own->to_mesh, p));
             if (near_light_) continue;
             const plane_state& state = planes_.front();
             const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(p))];
             if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
                 into.lit[i] = 1;
-            } else if (occupant == mesh && known != detail::horizon_bounds::answer::unknown) {
-                const bool is_dark = known == detail::horizon_bounds::answer::dark;
+            } else if (occupant == mesh && answer != known::nothing) {
+                const bool is_dark = answer == known::dark;
                 into.lit[i] = is_dark ? 0.0f : 1.0f;
                 if (is_dark) into.caster[i] = mesh;
             }
         }
+    }
+
+    /// What is known of whole triangles of a caster as a camera sees them: an answer for each, or none at all.
+    /// @param eye  the camera
+    template <executor E>
+    insonify::detail::unfilled_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye, E& ex) const {
+        insonify::detail::unfilled_vector<known> answers;
+        if (caster >= horizons_.size() || !horizons_[caster].bounds) return answers;
+        const shadow::caster& c = casters_[caster];
+        const horizon_state& state = horizons_[caster];
+        const detail::horizon_triangles triangles(c.mesh, *c.grid, *state.bounds, state.travel,
+                                                  transform_point(state.to_mesh, eye));
+        answers.resize(c.mesh.triangles.size());
+        bulk_ranges(ex, static_cast<std::size_t>(state.bounds->grid().columns - 1), 32,
+                    [&](std::size_t first, std::size_t last) {
+                        triangles.find(static_cast<int>(first), static_cast<int>(last), answers.data());
+                    });
+        // Where others may cast, too, points decide.
+        const plane_state& plane = planes_.front();
+        const detail::ray_feet feet(plane.plane, c.placement, state.bounds->grid());
+        for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
+            if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
+            const glm::dvec2 size = plane.tiles.tile();
+            const auto columns = static_cast<std::size_t>(plane.tiles.columns);
+            const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
+            const auto [lower, upper] = feet.of(plane.tiles.lower + size * place, size);
+            triangles.forget(lower, upper, answers.data());
+        }
+        return answers;
     }
 
     /// See occlusion.
@@ -7441,6 +7742,7 @@ class exact_occlusion {
     };
     struct horizon_state {
         affine to_mesh;
+        glm::dvec3 travel{0};  ///< of the light, in the mesh's frame
         std::optional<detail::horizon_bounds> bounds;
     };
     using receivers_of = insonify::detail::unfilled_vector<detail::receiver>;
@@ -7478,8 +7780,8 @@ class exact_occlusion {
         horizon_state& state = horizons_.emplace_back();
         if (c.grid == nullptr || c.may_skip != skip::facing_its_own) return;
         state.to_mesh = inverse(c.placement);
-        state.bounds.emplace(c.mesh, *c.grid, transform_direction(state.to_mesh, -frame.to_light()),
-                             shared_mesh_grid_error, ex);
+        state.travel = transform_direction(state.to_mesh, -frame.to_light());
+        state.bounds.emplace(c.mesh, *c.grid, state.travel, shared_mesh_grid_error, ex);
     }
     /// The part of a near light's plane that a box is over.
     static std::pair<glm::dvec2, glm::dvec2> seen_part(const detail::light_plane& plane, const bounding_box& box) {
@@ -7658,7 +7960,7 @@ struct material {
 };
 
 /// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. One that
-/// has `in_lanes` too is asked for several pixels at a time, by reference.
+/// has `in_lanes` too computes several pixels at a time, by reference.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
@@ -7702,217 +8004,6 @@ struct facet_backscatter {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/rig.hpp --------------------------------------------------------------------
-// The paper's rig: a camera that looks straight down, and a parallel light low over the sea floor that turns with it.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// Camera and light over a point of the sea floor. Image up is forward, image right is starboard; the light comes from
-/// the left, so ranges and shadows grow to the right, as on a starboard channel.
-///
-/// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky x share of the
-/// sky that the surface looks at + ambient), cut at 1.
-struct overhead {
-    glm::dvec2 position{0, 0};                                      ///< of the camera over the datum, metres
-    float altitude = 10;                                            ///< above the datum, metres
-    float yaw = 0;                                                  ///< of camera and light together, radians
-    float field_of_view = static_cast<float>(2 * numeric::pi / 3);  ///< across the picture, radians
-    glm::ivec2 size{2048, 2048};                           ///< pixels: width (across track), height (along track)
-    float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
-    float light_azimuth = 0;  ///< where the light travels, from image right towards image up, radians
-    /// Of the light from the datum below the camera, to which grazing and azimuth belong, metres. Infinitely far, its
-    /// rays are parallel; from nearby they spread, and only `shadow::exact` and `penumbra` can say where they end. They
-    /// don't weaken on their way.
-    float light_distance = std::numeric_limits<float>::infinity();
-    float intensity = 4;  ///< of the light on a surface that faces it
-    float sky = 0.05f;    ///< light from everywhere, which no shadow stops; 0 for none
-    float ambient = 0;    ///< light that reaches every surface alike, whatever its slope; 0 for none
-};
-
-/// @throws invalid_input for a value that can't be right
-inline void validate(const overhead& rig) {
-    using detail::require;
-    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "overhead.position",
-            rig.position.x + rig.position.y, "finite coordinates");
-    require(rig.altitude > 0 && numeric::is_finite(rig.altitude), "overhead.altitude", rig.altitude, "above 0");
-    require(numeric::is_finite(rig.yaw), "overhead.yaw", rig.yaw, "a finite angle");
-    require(rig.field_of_view > 0 && static_cast<double>(rig.field_of_view) < numeric::to_radians(179.9),
-            "overhead.field_of_view", rig.field_of_view, "above 0 and below 179.9 degrees, in radians");
-    require(rig.size.x > 0 && rig.size.x <= 32768, "overhead.size.x", rig.size.x, "1 to 32768");
-    require(rig.size.y > 0 && rig.size.y <= 32768, "overhead.size.y", rig.size.y, "1 to 32768");
-    require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-6, "overhead.grazing",
-            rig.grazing, "above 0 and at most pi / 2");
-    require(numeric::is_finite(rig.light_azimuth), "overhead.light_azimuth", rig.light_azimuth, "a finite angle");
-    require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
-    require(rig.intensity >= 0 && numeric::is_finite(rig.intensity), "overhead.intensity", rig.intensity, "0 or more");
-    require(rig.sky >= 0 && numeric::is_finite(rig.sky), "overhead.sky", rig.sky, "0 or more");
-    require(rig.ambient >= 0 && numeric::is_finite(rig.ambient), "overhead.ambient", rig.ambient, "0 or more");
-}
-
-/// What follows from a rig. Everything is drawn in the rig's own frame (origin on the datum below the camera, x to the
-/// right, y forward, z up), so coordinates stay small however far the rig is from the world's origin.
-class overhead_geometry {
-  public:
-    /// @throws invalid_input as validate does
-    explicit overhead_geometry(const overhead& rig)
-        : rig_((validate(rig), rig)),
-          tangent_(numeric::tan(0.5 * static_cast<double>(rig.field_of_view))),
-          light_({static_cast<double>(rig.light_azimuth), static_cast<double>(rig.grazing)}) {
-        clip_scale_ = glm::vec2(1 / tangent_, static_cast<double>(rig.size.x) / rig.size.y / tangent_);
-        const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
-        right_ = {cosine, sine};
-        rig_from_world_.linear = {{cosine, -sine, 0}, {sine, cosine, 0}, {0, 0, 1}};
-        rig_from_world_.offset = -numeric::product(rig_from_world_.linear, glm::dvec3(rig.position, 0));
-    }
-
-    const overhead& rig() const { return rig_; }
-    const shadow::light_frame& light() const { return light_; }
-    /// From the datum below the camera to a point of the light, over the distance to its middle; `beside` that, across
-    /// and up, in the same measure.
-    glm::dvec3 toward_light(const glm::dvec2& beside) const {
-        const glm::dvec3& middle = light_.to_light();
-        const glm::dvec3 across(-light_.travel().y, light_.travel().x, 0), up = numeric::cross(middle, across);
-        return middle + beside.x * across + beside.y * up;
-    }
-    bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
-    /// Where a point of a light that isn't infinitely far stands.
-    glm::dvec3 light_position(const glm::dvec2& beside = {0, 0}) const {
-        return static_cast<double>(rig_.light_distance) * toward_light(beside);
-    }
-
-    /// From world to rig frame. Applied to an object's own map first, it takes large coordinates away exactly.
-    affine rig_from(const affine& world_from_object) const {
-        const glm::dvec3 relative = world_from_object.offset - glm::dvec3(rig_.position, 0);
-        return {numeric::product(rig_from_world_.linear, world_from_object.linear),
-                numeric::product(rig_from_world_.linear, relative)};
-    }
-
-    /// Half of what the picture shows at a height above the datum, metres.
-    glm::dvec2 half_extent(double height) const {
-        const double half_width = (static_cast<double>(rig_.altitude) - height) * tangent_;
-        return {half_width, half_width * rig_.size.y / rig_.size.x};
-    }
-    /// Metres on level ground at the datum from one pixel to the next.
-    double ground_sampling() const { return 2 * half_extent(0).x / rig_.size.x; }
-
-    /// The picture's corners at a height, from the rig's position and along the world's axes.
-    glm::dvec2 corner(double height, int right, int up) const {
-        const glm::dvec2 half = half_extent(height);
-        const glm::dvec2 p{right * half.x, up * half.y};
-        return {p.x * right_.x - p.y * right_.y, p.x * right_.y + p.y * right_.x};
-    }
-
-    /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
-    glm::vec4 clip(const glm::vec3& p) const {
-        return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
-    }
-    /// The same of three coordinates in lanes.
-    template <class Floats>
-    INSONIFY_INLINE void clip(Floats (&into)[4], const Floats* p) const {
-        into[0] = p[0] * clip_scale_.x;
-        into[1] = p[1] * clip_scale_.y;
-        into[2] = Floats{} + 1e-3f * rig_.altitude;
-        into[3] = rig_.altitude - p[2];
-    }
-
-    glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
-    /// Metres from one pixel to the next, 1 m below the camera.
-    double ray_step() const { return 2 * tangent_ / rig_.size.x; }
-    /// From the camera through a pixel's centre to 1 m below it.
-    glm::dvec3 ray(int x, int y) const {
-        const double step = ray_step();
-        return {step * (x + 0.5 - 0.5 * rig_.size.x), step * (0.5 * rig_.size.y - y - 0.5), -1};
-    }
-
-    /// Where a point of the rig frame appears, in continuous pixels.
-    glm::dvec2 pixel(const glm::dvec3& p) const {
-        const double scale = 0.5 * rig_.size.x / (tangent_ * (static_cast<double>(rig_.altitude) - p.z));
-        return {0.5 * rig_.size.x + scale * p.x, 0.5 * rig_.size.y - scale * p.y};
-    }
-
-  private:
-    overhead rig_;
-    double tangent_;
-    glm::vec2 clip_scale_;
-    shadow::light_frame light_;
-    glm::dvec2 right_;
-    affine rig_from_world_;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/seabed_reach.hpp -----------------------------------------------------------
-// How far beyond the picture the seabed has to be there, so that whatever can throw a shadow into it does.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-/// A rectangle along the world's axes around the rig's position, metres.
-struct ground_box {
-    glm::dvec2 first{0}, last{0};
-
-    void include(const glm::dvec2& p) {
-        first = {(std::min)(first.x, p.x), (std::min)(first.y, p.y)};
-        last = {(std::max)(last.x, p.x), (std::max)(last.y, p.y)};
-    }
-};
-
-/// All of the bottom that the picture may show.
-inline ground_box shown_ground(const overhead_geometry& view, const seabed::height_range& range) {
-    ground_box box;
-    for (const int right : {-1, 1})
-        for (const int up : {-1, 1})
-            for (const double height : {range.lowest, range.highest}) box.include(view.corner(height, right, up));
-    return box;
-}
-
-/// The same, longer towards the light by as much as can throw a shadow into it, at most `longest` metres.
-///
-/// A shadow falls from a point of the bottom to a lower one along a ray of the light. On its way up from the lower one,
-/// a ray comes to the highest point that there may be within (highest - lowest) cot(elevation) metres, or, of light
-/// from nearby, within the same share of its way to the light; beyond that it meets nothing. Of a light that isn't a
-/// point, this is asked of the corners of a square around it: the way is a quotient of linear functions of the place on
-/// it, so it is longest in one of them.
-/// @param radius  of the light over its distance
-inline ground_box casting_ground(const overhead_geometry& view, const seabed::height_range& range, double radius,
-                                 double longest) {
-    const ground_box shown = shown_ground(view, range);
-    ground_box all = shown;
-    const double relief = range.highest - range.lowest;
-    const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
-    const auto held = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
-    for (const double across : {-radius, radius})
-        for (const double up : {-radius, radius}) {
-            const glm::dvec2 beside{across, up};
-            const glm::dvec3 toward = numeric::product(to_world, view.toward_light(beside));
-            const glm::dvec3 source = numeric::product(to_world, view.light_position(beside));
-            for (int axis = 0; axis < 2; ++axis) {
-                for (const double from : {shown.first[axis], shown.last[axis]}) {
-                    double way;
-                    if (view.has_near_light()) {
-                        const double share = source.z > range.highest ? relief / (source.z - range.lowest) : 1;
-                        way = share * (source[axis] - from);
-                    } else {
-                        way = toward.z > 0 ? relief / toward.z * toward[axis] : longest * (toward[axis] < 0 ? -1 : 1);
-                    }
-                    const double end = from + held(way);
-                    all.first[axis] = (std::min)(all.first[axis], end);
-                    all.last[axis] = (std::max)(all.last[axis], end);
-                }
-            }
-        }
-    return all;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
 
 INSONIFY_ARITHMETIC_END
 
@@ -8025,6 +8116,146 @@ inline void order_along_curve(mesh& m, const bounding_box& box) {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/geometry/detail/lattice_order.hpp ------------------------------------------------
+// Heightfields over a regular lattice whose vertices or triangles come in another order, as after a mesh optimizer:
+// found by where the vertices lie, and put in the order of the lattice.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// The lattice that one of a mesh's triangles is half a cell of.
+class triangle_lattice {
+  public:
+    /// Of a cell's three edges the longest is its diagonal. The first step goes mostly along x, both upwards.
+    static std::optional<triangle_lattice> of(const mesh& m) {
+        if (m.triangles.size() < 2) return std::nullopt;
+        glm::dvec2 corner[3];
+        for (int i = 0; i < 3; ++i) corner[i] = place(m, m.triangles[0][i]);
+        int right_angle = 0;
+        double longest = 0;
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec2 edge = corner[(i + 2) % 3] - corner[(i + 1) % 3];
+            const double square = edge.x * edge.x + edge.y * edge.y;
+            if (square > longest) longest = square, right_angle = i;
+        }
+        triangle_lattice l;
+        l.origin_ = corner[right_angle];
+        l.right_ = corner[(right_angle + 1) % 3] - l.origin_;
+        l.up_ = corner[(right_angle + 2) % 3] - l.origin_;
+        if (numeric::magnitude(l.up_.x) > numeric::magnitude(l.right_.x)) std::swap(l.right_, l.up_);
+        if (l.right_.x < 0) l.right_ = -l.right_;
+        if (l.up_.y < 0) l.up_ = -l.up_;
+        const double area = l.right_.x * l.up_.y - l.right_.y * l.up_.x;
+        if (!(area > 0)) return std::nullopt;
+        l.x_of_ = glm::dvec2(l.up_.y, -l.up_.x) / area;
+        l.y_of_ = glm::dvec2(-l.right_.y, l.right_.x) / area;
+        return l;
+    }
+
+    /// The steps of a vertex from the triangle's right angle, if it lies within a quarter of one.
+    std::optional<glm::ivec2> steps(const mesh& m, std::uint32_t vertex) const {
+        const glm::dvec2 off = place(m, vertex) - origin_;
+        const glm::dvec2 at{x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y};
+        constexpr double farthest = 1 << 24;
+        glm::ivec2 whole;
+        for (int axis = 0; axis < 2; ++axis) {
+            if (!(numeric::magnitude(at[axis]) < farthest)) return std::nullopt;
+            whole[axis] = static_cast<int>(numeric::floor_to_int(at[axis] + 0.5));
+            if (numeric::magnitude(at[axis] - whole[axis]) > 0.25) return std::nullopt;
+        }
+        return whole;
+    }
+
+  private:
+    static glm::dvec2 place(const mesh& m, std::uint32_t vertex) {
+        return {static_cast<double>(m.positions[vertex].x), static_cast<double>(m.positions[vertex].y)};
+    }
+
+    glm::dvec2 origin_{0}, right_{0}, up_{0}, x_of_{0}, y_of_{0};
+};
+
+/// Renumbers a mesh that is a whole lattice of cells, each cut the same way into two triangles that are
+/// counter-clockwise seen from +z: vertices row by row, triangles cell by cell. Any other mesh stays as it is.
+/// @returns whether it was one
+inline bool order_by_lattice(mesh& m) {
+    const auto lattice = triangle_lattice::of(m);
+    if (!lattice) return false;
+    std::vector<glm::ivec2> at(m.positions.size());
+    glm::ivec2 lowest(0), highest(0);
+    for (std::uint32_t v = 0; v < at.size(); ++v) {
+        const auto steps = lattice->steps(m, v);
+        if (!steps) return false;
+        at[v] = *steps;
+        lowest = {(std::min)(lowest.x, at[v].x), (std::min)(lowest.y, at[v].y)};
+        highest = {(std::max)(highest.x, at[v].x), (std::max)(highest.y, at[v].y)};
+    }
+    const auto columns = static_cast<std::size_t>(highest.x - lowest.x + 1),
+               rows = static_cast<std::size_t>(highest.y - lowest.y + 1);
+    if (columns * rows != at.size() || m.triangles.size() != 2 * (columns - 1) * (rows - 1)) return false;
+
+    constexpr std::uint32_t none = 0xFFFFFFFFu;
+    std::vector<std::uint32_t> vertex_at(at.size(), none);
+    const auto number_of = [&](const glm::ivec2& p) {
+        return static_cast<std::size_t>(p.y - lowest.y) * columns + static_cast<std::size_t>(p.x - lowest.x);
+    };
+    for (std::uint32_t v = 0; v < at.size(); ++v) {
+        std::uint32_t& to = vertex_at[number_of(at[v])];
+        if (to != none) return false;
+        to = v;
+    }
+
+    // Each triangle leaves one corner of its cell out; with a cell's corners numbered x + 2 y, the diagonals leave out
+    // 1 and 2, or 0 and 3.
+    std::vector<bool> is_there(m.triangles.size(), false);
+    std::optional<bool> is_rising;
+    for (const glm::uvec3& t : m.triangles) {
+        const glm::ivec2 a = at[t.x], b = at[t.y], c = at[t.z];
+        const glm::ivec2 corner{(std::min)((std::min)(a.x, b.x), c.x), (std::min)((std::min)(a.y, b.y), c.y)};
+        const glm::ivec2 ab = b - a, ac = c - a;
+        if (ab.x * ac.y - ab.y * ac.x != 1) return false;
+        int left_out = 6;
+        for (const glm::ivec2& p : {a, b, c}) {
+            if (p.x > corner.x + 1 || p.y > corner.y + 1) return false;
+            left_out -= (p.x - corner.x) + 2 * (p.y - corner.y);
+        }
+        const bool rises = left_out == 1 || left_out == 2;
+        if (is_rising.value_or(rises) != rises) return false;
+        is_rising = rises;
+        const std::size_t cell = static_cast<std::size_t>(corner.y - lowest.y) * (columns - 1) +
+                                 static_cast<std::size_t>(corner.x - lowest.x);
+        const std::size_t slot = 2 * cell + (left_out < 2 ? 1 : 0);
+        if (is_there[slot]) return false;
+        is_there[slot] = true;
+    }
+
+    mesh ordered;
+    ordered.positions.reserve(m.positions.size());
+    ordered.normals.reserve(m.normals.size());
+    for (const std::uint32_t v : vertex_at) {
+        ordered.positions.push_back(m.positions[v]);
+        if (!m.normals.empty()) ordered.normals.push_back(m.normals[v]);
+    }
+    ordered.triangles.reserve(m.triangles.size());
+    for (std::size_t y = 0; y + 1 < rows; ++y)
+        for (std::size_t x = 0; x + 1 < columns; ++x) {
+            const auto a = static_cast<std::uint32_t>(y * columns + x), b = a + 1,
+                       c = a + static_cast<std::uint32_t>(columns), d = c + 1;
+            ordered.triangles.emplace_back(a, b, *is_rising ? d : c);
+            ordered.triangles.emplace_back(*is_rising ? a : b, d, c);
+        }
+    m = std::move(ordered);
+    return true;
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/normals.hpp -------------------------------------------------------------
 // Shading normals for meshes that come without.
 //
@@ -8062,12 +8293,29 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     return normals;
 }
 
+/// Turns over each triangle whose three corner normals all point to its back: normals decide which side is outside.
+/// @param m  its indices have positions, and positions have normals
+/// @returns how many were turned
+inline std::size_t wind_by_normals(mesh& m) {
+    std::size_t turned = 0;
+    for (glm::uvec3& t : m.triangles) {
+        const glm::dvec3 a(m.positions[t.x]), b(m.positions[t.y]), c(m.positions[t.z]);
+        const glm::dvec3 facet = numeric::cross(b - a, c - a);
+        bool is_back = true;
+        for (int i = 0; i < 3; ++i) is_back = is_back && numeric::dot(facet, glm::dvec3(m.normals[t[i]])) < 0;
+        if (!is_back) continue;
+        std::swap(t.y, t.z);
+        ++turned;
+    }
+    return turned;
+}
+
 }  // namespace insonify::inline INSONIFY_ABI
 
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/topology.hpp ------------------------------------------------------------
-// Is a mesh closed? The question to ask of an imported target before it casts a shadow.
+// Checks whether a mesh is closed and consistently oriented, as imported targets should be.
 
 #include <numeric>
 #include <tuple>
@@ -8179,7 +8427,8 @@ inline topology inspect(const mesh& m) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/surface_kind.hpp --------------------------------------------------------
-// What a mesh is as a surface, as far as it is proved: renderers leave out triangles only where that changes nothing.
+// Classifies meshes as closed, heightfield or open. Only proven classes are used: renderers skip triangles only where
+// that changes no pixel.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8260,7 +8509,7 @@ inline bool is_convex_loop(const mesh& m, const std::vector<std::pair<std::uint3
 
 }  // namespace detail
 
-/// Finds out what a mesh is. Linear in its triangles, but for sorting positions.
+/// Classifies a mesh, in linear time but for sorting positions.
 /// @param m  its indices have positions
 inline surface_kind kind_of(const mesh& m) {
     if (m.triangles.empty()) return surface_kind::open;
@@ -8284,15 +8533,17 @@ inline surface_kind kind_of(const mesh& m) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/shared_mesh.hpp ---------------------------------------------------------
-// A mesh that many objects share and none changes, with what is known of it.
+// An immutable mesh shared by many objects, with the properties that renderers need.
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// An immutable mesh: copies refer to the same triangles. A mesh whose triangles follow one another without order, as
-/// those of a shuffled one, is renumbered, triangles and vertices: otherwise it keeps its numbers. What renderers need
-/// of it is found once, when it is made: its bounds, smooth normals if it brings none, whether it is closed or a
-/// heightfield, and the regular grid that a heightfield's vertices lie on, if they do.
+/// those of a shuffled one, is renumbered, triangles and vertices, and so is a regular grid that comes in another order
+/// than its rows'; otherwise a mesh keeps its numbers. Triangles that are
+/// wound against all of their normals are turned over. What renderers need of it is found once, when it is made: its
+/// bounds, smooth normals if it brings none, whether it is closed or a heightfield, and the regular grid that a
+/// heightfield's vertices lie on, if they do.
 class shared_mesh {
   public:
     /// No triangles.
@@ -8322,10 +8573,17 @@ class shared_mesh {
         explicit state(mesh m) : shape(std::move(m)) {
             validate(shape);
             box = bounds(shape);
-            if (detail::is_incoherent(shape)) detail::order_along_curve(shape, box);
-            if (shape.normals.empty()) shape.normals = smooth_normals(shape);
+            grid = regular_grid_of(shape, serial_executor{}, grid_error);
+            if (!grid && detail::order_by_lattice(shape))
+                grid = regular_grid_of(shape, serial_executor{}, grid_error);
+            else if (!grid && detail::is_incoherent(shape))
+                detail::order_along_curve(shape, box);
+            if (shape.normals.empty())
+                shape.normals = smooth_normals(shape);
+            else
+                wind_by_normals(shape);
             kind = kind_of(shape);
-            if (kind == surface_kind::heightfield) grid = regular_grid_of(shape, serial_executor{}, grid_error);
+            if (kind != surface_kind::heightfield) grid.reset();
         }
     };
     static std::shared_ptr<const state> empty() { return std::make_shared<const state>(); }
@@ -8337,13 +8595,13 @@ class shared_mesh {
 }  // namespace insonify
 
 // ------------ insonify/seabed/none.hpp ------------------------------------------------------------------
-// No seabed at all: for scenes that bring theirs as a mesh.
+// No seabed: for scenes whose bottom is a mesh, or that have none.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
-/// Nothing there: no height is known anywhere (NaN), nothing is drawn and nothing rests on it.
+/// The absence of a seabed. Heights are NaN everywhere, nothing is drawn, and nothing rests on it.
 struct none {
     static constexpr type kind = type::sand;
 
@@ -8729,7 +8987,7 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/lattice.hpp ---------------------------------------------------------------
 // The world's lattices: where positions lie on them, and random bits for their cells.
 //
-// What a recipe draws by lot it draws by cell, so that a place looks the same whoever asks for it, however it is cut.
+// Random draws are keyed by lattice cell, so that a place looks the same in any grid, tile or order of evaluation.
 // Cells are found in double; what goes to float is the way across a cell alone, so precision is that of home at 10^7 m
 // from it.
 //
@@ -8743,7 +9001,7 @@ namespace insonify::inline INSONIFY_ABI::seabed::detail {
 using insonify::detail::dispatch;
 using insonify::detail::lanes;
 
-/// What draws are for: every layer of every recipe has its own stream of the seed.
+/// Random streams: every layer of every model has its own.
 enum class stream : std::uint32_t {
     sand = 0x5EAB0000,
     ripples,
@@ -9216,7 +9474,7 @@ class power_law_noise {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/area.hpp ------------------------------------------------------------------
-// Where a type of bottom lies: patches by lot, shapes, pictures. All answer with the distance to their border.
+// Where a type of bottom lies: random patches, shapes, pictures; each as a signed distance to its border.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -9350,7 +9608,7 @@ class outline {
   public:
     /// @param border  metres, > 0: the finest detail of the outline
     /// @param ragged  metres: how far a shape's outline strays
-    /// @param layer   tells the outlines of one seed apart
+    /// @param layer   selects the random stream, so that outlines of one seed differ
     outline(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
         : shape_(std::move(where)), noise_(roughness_of(shape_, border, ragged), seed, stream::mask, layer) {
         if (const auto* p = std::get_if<patches>(&shape_)) {
@@ -9410,7 +9668,7 @@ class outline {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/cover.hpp -----------------------------------------------------------------
-// One bottom laid over another, with the border between them as nature makes it: what stands high is buried last.
+// One bottom laid over another, with a natural border: what stands high is buried last.
 //
 // Across a border the layer rises from beneath: its crests come out first, as narrow tips, while its troughs are still
 // filled; further in, the highest of what lies below looks out of it last. Types follow the surface that is on top.
@@ -9421,7 +9679,7 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 namespace detail {
 
-/// A layer along its border.
+/// The transition across a layer's border.
 class border {
   public:
     /// @param width   metres, > 0
@@ -9453,7 +9711,7 @@ class border {
     float per_metre_, relief_;
 };
 
-/// From the first to the last sample of a row that is wanted.
+/// The range of samples of a row that have to be evaluated.
 struct extent {
     std::size_t begin, end = 0;
 
@@ -9468,8 +9726,8 @@ struct extent {
     }
 };
 
-/// Lays what `layer` samples over `heights` and `types`, which hold what lies below, or don't where the layer hides it:
-/// `below` is asked to fill them where they are wanted.
+/// Composites a layer over what lies below it. `below(line, heights, types)` evaluates the latter where the layer does
+/// not hide it.
 template <class Below, typed_sampler Layer>
 void lay_over(const outline& where, const border& edge, const Layer& layer, const scanline& line,
               std::span<float> heights, std::span<type> types, Below&& below) {
@@ -10020,8 +10278,8 @@ inline type blend::type_at(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/detailed.hpp --------------------------------------------------------------
-// A coarse survey with relief finer than its grid: what multibeam maps of a metre's spacing need before a sonar of
-// centimetres looks at them.
+// A coarse survey with relief finer than its grid, as multibeam maps of a metre's spacing need under a sonar that
+// resolves centimetres.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10110,7 +10368,7 @@ inline float detailed::operator()(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/mixed.hpp -----------------------------------------------------------------
-// A seabed of many: bottoms laid one over the other, each where its area says, and the type at every point.
+// A seabed of layers: bottoms laid over a base, each within its own area, with the label at every point.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10203,7 +10461,7 @@ inline type mixed::type_at(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/strewn.hpp ----------------------------------------------------------------
-// Things strewn over the plane by lot: which cells of a lattice may hold one that a row crosses, and round ones drawn.
+// Randomly scattered features, at most one per lattice cell: finds those that a row crosses, and adds round ones.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10967,7 +11225,7 @@ struct flatten {
     float level = 0;   ///< metres above the datum
 };
 
-/// Takes away relief that is shorter than a length or two.
+/// Removes relief shorter than one to two lengths.
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0: with its edge
@@ -11254,10 +11512,10 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/sculpt.hpp ----------------------------------------------------------------
-// A seabed worked by hand: raised, lowered, flattened, smoothed, ramped, stamped, scoured, heaped up; in order.
+// A seabed edited by hand: raised, lowered, flattened, smoothed, ramped, stamped, scoured, heaped up; in order.
 //
-// An edit is a function of the position and of the height that earlier edits left there, so what is sculpted stays
-// what recipes are: unbounded, and the same wherever it is asked from. Away from an edit not a bit changes.
+// An edit is a function of the position and of the height after the edits before it, so that a sculpted seabed stays
+// unbounded and independent of the grid. Outside an edit's bounds no bit changes.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11265,7 +11523,7 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 class sculpt_sampler;
 
-/// A ground and what is done to it. Labels are the ground's.
+/// A seabed and a list of edits. Labels are those of the seabed.
 struct sculpted {
     any ground = flat{};
     std::vector<edit> edits;  ///< the first is done first
@@ -11483,7 +11741,7 @@ constexpr bottom_materials default_bottom() {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/scene.hpp ------------------------------------------------------------------
-// What there is to see: a seabed, and targets on it.
+// The scene: a seabed and targets on it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11506,7 +11764,8 @@ struct scene {
     std::vector<target> targets;
 
     /// Adds a mesh, a shared mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
-    /// Targets are told apart by instance numbers, 1 for the first. A mesh without normals gets smooth ones.
+    /// Targets are numbered by instance, 1 for the first. A mesh without normals gets smooth ones, also across sharp
+    /// edges whose triangles share vertices; `with_creases` keeps those sharp.
     /// Several targets of one shape share it: make a `shared_mesh` once and add it as often as needed.
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
@@ -11582,7 +11841,7 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/labels.hpp -----------------------------------------------------------------
-// What each pixel shows, for those who train and those who test: targets, seabed types, shadows and who cast them.
+// Ground truth per pixel: target instances, seabed labels, and shadows with their casters.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11625,6 +11884,9 @@ struct labels {
           shadow(detail::filled(width, height, is_lit, ex)),
           seabed(detail::filled(width, height, no_seabed, ex)) {}
 };
+
+/// Asks for no labels: none are stored or computed.
+struct no_labels {};
 
 /// 255 where a target is visible, 0 elsewhere.
 inline image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance) {
@@ -11690,6 +11952,403 @@ inline void describe_targets(labels& l, const std::vector<target>& targets) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/side_scan.hpp --------------------------------------------------------------
+// A side-scan sonar on its way: where each ping is sent from, and which ranges are listened to.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Which way a channel looks: to the left or to the right of the track.
+enum class side : std::uint8_t { port, starboard };
+
+/// What a column of the picture is a step of.
+enum class across_track {
+    slant_range,   ///< the time of the echo: water column, layover, front faces folded towards the sonar
+    ground_range,  ///< the place on the bottom: a map, with the shadows of the same source
+};
+
+/// One ping: where the sonar is, and its attitude. Rotations apply as for ships: yaw first, then pitch, then roll.
+struct ping {
+    glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum, heave included
+    double yaw = 0;                ///< radians: 0 travels towards +y, with starboard at +x; counter-clockwise
+    double pitch = 0;              ///< radians, positive with the bow up: tilts the fan forward, below +-80 degrees
+    double roll = 0;               ///< radians, positive with starboard down: turns the beams within the fan
+};
+
+/// @throws invalid_input for a value that can't be right
+inline void validate(const ping& p) {
+    const double sum = p.position.x + p.position.y + p.position.z + p.yaw;
+    detail::require(numeric::is_finite(sum), "ping.position", sum, "finite");
+    detail::require(numeric::magnitude(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
+                    "at most 80 degrees, in radians");
+    detail::require(numeric::is_finite(p.roll), "ping.roll", p.roll, "a finite angle");
+}
+
+/// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
+/// all else stays the same.
+///
+/// A picture of it has a row per ping and a column per bin. Row i is ping i, the first on top, as in every recording of
+/// range modes (`upside_down` turns it so that up is forward); its left column is the first bin on either side, so that
+/// range grows and shadows fall to the right.
+template <across_track Axis>
+struct side_scan_rig {
+    static constexpr across_track axis = Axis;
+
+    glm::dvec2 position{0, 0};   ///< of the first ping over the datum, metres
+    float altitude = 5;          ///< above the datum, metres
+    float yaw = 0;               ///< radians, as a ping's
+    float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
+    int pings = 1024;            ///< 1 to 2^20
+    float first_range = 0;       ///< where the first bin begins, metres, >= 0
+    float range = 40;            ///< where the last bin ends, metres
+    int bins = 2048;             ///< 1 to 2^20
+    insonify::side side = insonify::side::starboard;
+
+    /// Metres per bin.
+    double bin() const { return (static_cast<double>(range) - static_cast<double>(first_range)) / bins; }
+};
+using side_scan = side_scan_rig<across_track::slant_range>;
+using ground_range = side_scan_rig<across_track::ground_range>;
+
+/// @throws invalid_input for a value that can't be right
+template <across_track Axis>
+void validate(const side_scan_rig<Axis>& rig) {
+    using detail::require;
+    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "side_scan.position",
+            rig.position.x + rig.position.y, "finite coordinates");
+    require(numeric::is_finite(rig.altitude), "side_scan.altitude", rig.altitude, "a finite height");
+    require(numeric::is_finite(rig.yaw), "side_scan.yaw", rig.yaw, "a finite angle");
+    require(rig.ping_spacing > 0 && numeric::is_finite(rig.ping_spacing), "side_scan.ping_spacing", rig.ping_spacing,
+            "above 0");
+    require(rig.pings >= 1 && rig.pings <= 1 << 20, "side_scan.pings", rig.pings, "1 to 2^20");
+    require(rig.first_range >= 0 && numeric::is_finite(rig.first_range), "side_scan.first_range", rig.first_range,
+            "0 or more");
+    require(rig.range > rig.first_range && rig.range <= 1e5f, "side_scan.range", rig.range,
+            "above first_range and at most 10^5 metres");
+    require(rig.bins >= 1 && rig.bins <= 1 << 20, "side_scan.bins", rig.bins, "1 to 2^20");
+}
+
+/// A ping of the rig's track; those before the first and after the last are on the same line.
+template <across_track Axis>
+ping ping_of(const side_scan_rig<Axis>& rig, int number) {
+    const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
+    const double along = static_cast<double>(rig.ping_spacing) * number;
+    return {{rig.position.x - along * sine, rig.position.y + along * cosine, static_cast<double>(rig.altitude)},
+            static_cast<double>(rig.yaw)};
+}
+
+/// The track of a rig, a ping after the other.
+template <across_track Axis>
+std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
+    validate(rig);
+    std::vector<ping> track;
+    track.reserve(static_cast<std::size_t>(rig.pings));
+    for (int i = 0; i < rig.pings; ++i) track.push_back(ping_of(rig, i));
+    return track;
+}
+
+/// A ping's own frame: x away from it on the side it looks to, level; u along the sonar's axis; z up from the sonar.
+/// The fan is the plane u = 0, which a pitch tilts from the vertical.
+class ping_frame {
+  public:
+    ping_frame(const ping& p, side looks) : position_(p.position) {
+        const auto [sine, cosine] = numeric::sin_cos(p.yaw);
+        const double sign = looks == side::starboard ? 1 : -1;
+        across_ = {sign * cosine, sign * sine};
+        along_ = {-sine, cosine};
+        const numeric::sine_cosine pitch = numeric::sin_cos(p.pitch), roll = numeric::sin_cos(p.roll);
+        sine_pitch_ = pitch.sine, cosine_pitch_ = pitch.cosine;
+        sine_roll_ = sign * roll.sine, cosine_roll_ = roll.cosine;
+    }
+    const glm::dvec3& position() const { return position_; }
+    /// Unit vectors on the ground.
+    const glm::dvec2& across() const { return across_; }
+    const glm::dvec2& along() const { return along_; }
+    bool is_level() const { return sine_pitch_ == 0; }
+    double sine_pitch() const { return sine_pitch_; }
+    double cosine_pitch() const { return cosine_pitch_; }
+    /// Of the angle by which the side that is looked to is rolled down.
+    double sine_roll() const { return sine_roll_; }
+    double cosine_roll() const { return cosine_roll_; }
+
+    /// World coordinates of the datum below (x, u), u along the heading.
+    glm::dvec2 world(double x, double u) const {
+        return {position_.x + x * across_.x + u * along_.x, position_.y + x * across_.y + u * along_.y};
+    }
+    /// World coordinates below the fan's point at (x, down).
+    glm::dvec2 below(double x, double down) const { return world(x, down * sine_pitch_); }
+    /// (x, u, z) of a world vector.
+    glm::dvec3 turned(const glm::dvec3& v) const {
+        const double ahead = v.x * along_.x + v.y * along_.y;
+        return {v.x * across_.x + v.y * across_.y, ahead * cosine_pitch_ + v.z * sine_pitch_,
+                v.z * cosine_pitch_ - ahead * sine_pitch_};
+    }
+    /// (x, u, z) of a world position.
+    glm::dvec3 operator()(const glm::dvec3& world) const { return turned(world - position_); }
+
+  private:
+    glm::dvec3 position_;
+    glm::dvec2 across_, along_;
+    double sine_pitch_, cosine_pitch_, sine_roll_, cosine_roll_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/frame.hpp ------------------------------------------------------------------
+// The result of every kind of picture: the image, its labels, which pings its rows are, and what was drawn.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// What became of the triangles, and how large the intermediate things were. Range modes draw no triangles.
+struct render_stats {
+    draw_stats seabed, targets;
+    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled, of which the mesh may leave some out
+    std::uint64_t seabed_samples = 0;         ///< points at which the seabed was evaluated
+    double cell = 0;                          ///< metres between them
+};
+
+/// Which pings the rows of a picture are, and which side its columns hear.
+struct ping_numbers {
+    std::int64_t first = 0;  ///< of the top row
+    int step = 1;            ///< from row to row: 1, or -1; 0 for overhead pictures, whose rows are not pings
+    insonify::side side = insonify::side::starboard;
+    int port_columns = 0;  ///< at the left, of another channel: port, its range growing to the left
+};
+
+/// A picture with all that is known about it.
+///
+/// Of `overhead`, up is forward and pixels are in [0, 1]. Of range modes, row i is ping i, column j is bin j, and
+/// pixels are intensities, 0 and above: see sonar_equation.hpp for their unit.
+template <class Labels = labels>
+struct frame {
+    insonify::image<float> image;  ///< linear
+    Labels labels;                 ///< or no_labels
+    render_stats stats;
+    ping_numbers rows;
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/rig.hpp --------------------------------------------------------------------
+// The paper's rig: a camera that looks straight down, and a parallel light low over the sea floor that turns with it.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Camera and light over a point of the sea floor. Image up is forward, image right is starboard; the light comes from
+/// the left, so ranges and shadows grow to the right, as on a starboard channel.
+///
+/// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky x share of the
+/// sky that the surface looks at + ambient), cut at 1.
+struct overhead {
+    glm::dvec2 position{0, 0};                                      ///< of the camera over the datum, metres
+    float altitude = 10;                                            ///< above the datum, metres
+    float yaw = 0;                                                  ///< of camera and light together, radians
+    float field_of_view = static_cast<float>(2 * numeric::pi / 3);  ///< across the picture, radians
+    glm::ivec2 size{2048, 2048};                           ///< pixels: width (across track), height (along track)
+    float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
+    float light_azimuth = 0;  ///< where the light travels, from image right towards image up, radians
+    /// Of the light from the datum below the camera, to which grazing and azimuth belong, metres. Infinitely far, its
+    /// rays are parallel; from nearby they spread, and only `shadow::exact` and `penumbra` can say where they end. They
+    /// don't weaken on their way.
+    float light_distance = std::numeric_limits<float>::infinity();
+    float intensity = 4;  ///< of the light on a surface that faces it
+    float sky = 0.05f;    ///< light from everywhere, which no shadow stops; 0 for none
+    float ambient = 0;    ///< light that reaches every surface alike, whatever its slope; 0 for none
+};
+
+/// @throws invalid_input for a value that can't be right
+inline void validate(const overhead& rig) {
+    using detail::require;
+    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "overhead.position",
+            rig.position.x + rig.position.y, "finite coordinates");
+    require(rig.altitude > 0 && numeric::is_finite(rig.altitude), "overhead.altitude", rig.altitude, "above 0");
+    require(numeric::is_finite(rig.yaw), "overhead.yaw", rig.yaw, "a finite angle");
+    require(rig.field_of_view > 0 && static_cast<double>(rig.field_of_view) < numeric::to_radians(179.9),
+            "overhead.field_of_view", rig.field_of_view, "above 0 and below 179.9 degrees, in radians");
+    require(rig.size.x > 0 && rig.size.x <= 32768, "overhead.size.x", rig.size.x, "1 to 32768");
+    require(rig.size.y > 0 && rig.size.y <= 32768, "overhead.size.y", rig.size.y, "1 to 32768");
+    require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-6, "overhead.grazing",
+            rig.grazing, "above 0 and at most pi / 2");
+    require(numeric::is_finite(rig.light_azimuth), "overhead.light_azimuth", rig.light_azimuth, "a finite angle");
+    require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
+    require(rig.intensity >= 0 && numeric::is_finite(rig.intensity), "overhead.intensity", rig.intensity, "0 or more");
+    require(rig.sky >= 0 && numeric::is_finite(rig.sky), "overhead.sky", rig.sky, "0 or more");
+    require(rig.ambient >= 0 && numeric::is_finite(rig.ambient), "overhead.ambient", rig.ambient, "0 or more");
+}
+
+/// What follows from a rig. Everything is drawn in the rig's own frame (origin on the datum below the camera, x to the
+/// right, y forward, z up), so coordinates stay small however far the rig is from the world's origin.
+class overhead_geometry {
+  public:
+    /// @throws invalid_input as validate does
+    explicit overhead_geometry(const overhead& rig)
+        : rig_((validate(rig), rig)),
+          tangent_(numeric::tan(0.5 * static_cast<double>(rig.field_of_view))),
+          light_({static_cast<double>(rig.light_azimuth), static_cast<double>(rig.grazing)}) {
+        clip_scale_ = glm::vec2(1 / tangent_, static_cast<double>(rig.size.x) / rig.size.y / tangent_);
+        const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
+        right_ = {cosine, sine};
+        rig_from_world_.linear = {{cosine, -sine, 0}, {sine, cosine, 0}, {0, 0, 1}};
+        rig_from_world_.offset = -numeric::product(rig_from_world_.linear, glm::dvec3(rig.position, 0));
+    }
+
+    const overhead& rig() const { return rig_; }
+    const shadow::light_frame& light() const { return light_; }
+    /// From the datum below the camera to a point of the light, over the distance to its middle; `beside` that, across
+    /// and up, in the same measure.
+    glm::dvec3 toward_light(const glm::dvec2& beside) const {
+        const glm::dvec3& middle = light_.to_light();
+        const glm::dvec3 across(-light_.travel().y, light_.travel().x, 0), up = numeric::cross(middle, across);
+        return middle + beside.x * across + beside.y * up;
+    }
+    bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
+    /// Where a point of a light that isn't infinitely far stands.
+    glm::dvec3 light_position(const glm::dvec2& beside = {0, 0}) const {
+        return static_cast<double>(rig_.light_distance) * toward_light(beside);
+    }
+
+    /// From world to rig frame. Applied to an object's own map first, it takes large coordinates away exactly.
+    affine rig_from(const affine& world_from_object) const {
+        const glm::dvec3 relative = world_from_object.offset - glm::dvec3(rig_.position, 0);
+        return {numeric::product(rig_from_world_.linear, world_from_object.linear),
+                numeric::product(rig_from_world_.linear, relative)};
+    }
+
+    /// Half of what the picture shows at a height above the datum, metres.
+    glm::dvec2 half_extent(double height) const {
+        const double half_width = (static_cast<double>(rig_.altitude) - height) * tangent_;
+        return {half_width, half_width * rig_.size.y / rig_.size.x};
+    }
+    /// Metres on level ground at the datum from one pixel to the next.
+    double ground_sampling() const { return 2 * half_extent(0).x / rig_.size.x; }
+
+    /// The picture's corners at a height, from the rig's position and along the world's axes.
+    glm::dvec2 corner(double height, int right, int up) const {
+        const glm::dvec2 half = half_extent(height);
+        const glm::dvec2 p{right * half.x, up * half.y};
+        return {p.x * right_.x - p.y * right_.y, p.x * right_.y + p.y * right_.x};
+    }
+
+    /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
+    glm::vec4 clip(const glm::vec3& p) const {
+        return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
+    }
+    /// The same of three coordinates in lanes.
+    template <class Floats>
+    INSONIFY_INLINE void clip(Floats (&into)[4], const Floats* p) const {
+        into[0] = p[0] * clip_scale_.x;
+        into[1] = p[1] * clip_scale_.y;
+        into[2] = Floats{} + 1e-3f * rig_.altitude;
+        into[3] = rig_.altitude - p[2];
+    }
+
+    glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
+    /// Metres from one pixel to the next, 1 m below the camera.
+    double ray_step() const { return 2 * tangent_ / rig_.size.x; }
+    /// From the camera through a pixel's centre to 1 m below it.
+    glm::dvec3 ray(int x, int y) const {
+        const double step = ray_step();
+        return {step * (x + 0.5 - 0.5 * rig_.size.x), step * (0.5 * rig_.size.y - y - 0.5), -1};
+    }
+
+    /// Where a point of the rig frame appears, in continuous pixels.
+    glm::dvec2 pixel(const glm::dvec3& p) const {
+        const double scale = 0.5 * rig_.size.x / (tangent_ * (static_cast<double>(rig_.altitude) - p.z));
+        return {0.5 * rig_.size.x + scale * p.x, 0.5 * rig_.size.y - scale * p.y};
+    }
+
+  private:
+    overhead rig_;
+    double tangent_;
+    glm::vec2 clip_scale_;
+    shadow::light_frame light_;
+    glm::dvec2 right_;
+    affine rig_from_world_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/seabed_reach.hpp -----------------------------------------------------------
+// How far beyond the picture the seabed has to be there, so that whatever can throw a shadow into it does.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// A rectangle along the world's axes around the rig's position, metres.
+struct ground_box {
+    glm::dvec2 first{0}, last{0};
+
+    void include(const glm::dvec2& p) {
+        first = {(std::min)(first.x, p.x), (std::min)(first.y, p.y)};
+        last = {(std::max)(last.x, p.x), (std::max)(last.y, p.y)};
+    }
+};
+
+/// All of the bottom that the picture may show.
+inline ground_box shown_ground(const overhead_geometry& view, const seabed::height_range& range) {
+    ground_box box;
+    for (const int right : {-1, 1})
+        for (const int up : {-1, 1})
+            for (const double height : {range.lowest, range.highest}) box.include(view.corner(height, right, up));
+    return box;
+}
+
+/// The same, longer towards the light by as much as can throw a shadow into it, at most `longest` metres.
+///
+/// A shadow falls from a point of the bottom to a lower one along a ray of the light. On its way up from the lower one,
+/// a ray comes to the highest point that there may be within (highest - lowest) cot(elevation) metres, or, of light
+/// from nearby, within the same share of its way to the light; beyond that it meets nothing. Of a light that isn't a
+/// point, this is asked of the corners of a square around it: the way is a quotient of linear functions of the place on
+/// it, so it is longest in one of them.
+/// @param radius  of the light over its distance
+inline ground_box casting_ground(const overhead_geometry& view, const seabed::height_range& range, double radius,
+                                 double longest) {
+    const ground_box shown = shown_ground(view, range);
+    ground_box all = shown;
+    const double relief = range.highest - range.lowest;
+    const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
+    const auto held = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
+    for (const double across : {-radius, radius})
+        for (const double up : {-radius, radius}) {
+            const glm::dvec2 beside{across, up};
+            const glm::dvec3 toward = numeric::product(to_world, view.toward_light(beside));
+            const glm::dvec3 source = numeric::product(to_world, view.light_position(beside));
+            for (int axis = 0; axis < 2; ++axis) {
+                for (const double from : {shown.first[axis], shown.last[axis]}) {
+                    double way;
+                    if (view.has_near_light()) {
+                        const double share = source.z > range.highest ? relief / (source.z - range.lowest) : 1;
+                        way = share * (source[axis] - from);
+                    } else {
+                        way = toward.z > 0 ? relief / toward.z * toward[axis] : longest * (toward[axis] < 0 ? -1 : 1);
+                    }
+                    const double end = from + held(way);
+                    all.first[axis] = (std::min)(all.first[axis], end);
+                    all.last[axis] = (std::max)(all.last[axis], end);
+                }
+            }
+        }
+    return all;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
 
 INSONIFY_ARITHMETIC_END
 
@@ -12326,9 +12985,6 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Asks for no labels: none are stored or computed.
-struct no_labels {};
-
 namespace detail {
 
 /// The object that a visibility buffer's id belongs to.
@@ -12365,6 +13021,13 @@ class shadow_pass {
     void cast(const Occlusion& occlusion, E& ex) {
         std::vector<point_finder> finders;
         for (const surface& s : surfaces_) finders.emplace_back(view_, s);
+        known_.resize(surfaces_.size());
+        if constexpr (shadow::triangle_occlusion<Occlusion>)
+            for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+                // Of a mesh much finer than the picture, points are fewer than triangles.
+                const bool is_worth_it = surfaces_[i].mesh.triangles.size() <= 2 * image_.size();
+                if (is_worth_it) known_[i] = occlusion.known_triangles(surfaces_[i].caster, view_.eye(), ex);
+            }
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
         constexpr std::size_t run = 4;  // tiles share their memory
         const std::size_t pixels = static_cast<std::size_t>(tile_) * static_cast<std::size_t>(tile_);
@@ -12377,11 +13040,13 @@ class shadow_pass {
         bulk_ranges(ex, count, run, [&](std::size_t first, std::size_t last) {
             point_arrays arrays(pixels);
             light_arrays light(pixels);
+            std::vector<float> lit(pixels);
             if constexpr (is_collective) pending[first / run] = point_list(rest_of_points, first / run * room, room);
             for (std::size_t i = first; i < last; ++i) {
                 const pixel_box box = tile_box(i);
                 point_list points(arrays, 0, pixels);
-                find_points(finders, box, points);
+                std::fill(lit.begin(), lit.end(), 0.0f);
+                find_points(finders, box, lit, points);
                 const shadow::shares shares = light.part(0, points.size());
                 point_batches(points, shares, targets_).for_each([&](const shadow::points& p, const shadow::shares& s) {
                     if constexpr (is_collective)
@@ -12401,7 +13066,7 @@ class shadow_pass {
                         }
                     }
                 }
-                finish(box, points, shares);
+                finish(box, points, shares, lit);
             }
         });
         if constexpr (is_collective) {
@@ -12447,10 +13112,13 @@ class shadow_pass {
                                           static_cast<std::size_t>(box.x0) + pixel % width);
     }
 
-    /// The points of a tile that matter: where there is light to lose, or all for the sake of labels.
-    void find_points(std::span<const point_finder> finders, const pixel_box& box, point_list& into) const {
+    /// The points of a tile that matter: where there is light to lose, or all for the sake of labels. Pixels of
+    /// triangles of which all is known get their share of light at once.
+    void find_points(std::span<const point_finder> finders, const pixel_box& box, std::span<float> lit,
+                     point_list& into) {
         std::vector<std::vector<shown_pixel>> pixels(surfaces_.size());
         const surface* last = nullptr;
+        const shadow::known* known = nullptr;  // of the triangles of that
         std::vector<shown_pixel>* to = nullptr;
         for (int y = box.y0; y <= box.y1; ++y) {
             const std::uint32_t* const ids = &ids_(box.x0, y);
@@ -12460,11 +13128,21 @@ class shadow_pass {
                 if (id == shadow::invalid_id || !(labelled || direct[x] > 0)) continue;
                 if (last == nullptr || id - last->first_id >= last->mesh.triangles.size()) {
                     last = &surface_of(surfaces_, id);
-                    to = &pixels[static_cast<std::size_t>(last - surfaces_.data())];
+                    const auto number = static_cast<std::size_t>(last - surfaces_.data());
+                    known = known_[number].empty() ? nullptr : known_[number].data();
+                    to = &pixels[number];
                     if (to->empty()) to->reserve(static_cast<std::size_t>(box.width() * box.height()));
                 }
-                to->push_back(
-                    {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y - box.y0), id - last->first_id});
+                const std::uint32_t triangle = id - last->first_id;
+                const auto answer = known != nullptr ? known[triangle] : shadow::known::nothing;
+                if (answer == shadow::known::nothing) {
+                    to->push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y - box.y0), triangle});
+                } else if (answer == shadow::known::lit) {
+                    lit[static_cast<std::size_t>(y - box.y0) * static_cast<std::size_t>(box.width()) +
+                        static_cast<std::size_t>(x)] = 1;
+                } else if constexpr (labelled) {
+                    labels_.shadow(box.x0 + x, y) = name_of(last->caster);
+                }
             }
         }
         for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -12473,9 +13151,9 @@ class shadow_pass {
     }
 
     /// Pixels of a tile from what the light makes of them and how much of it arrives.
-    void finish(const pixel_box& box, const point_list& points, const shadow::shares& light) {
+    /// @param lit  of the pixels that need no point
+    void finish(const pixel_box& box, const point_list& points, const shadow::shares& light, std::span<float> lit) {
         const auto width = static_cast<std::size_t>(box.width());
-        std::vector<float> lit(width * static_cast<std::size_t>(box.height()), 0.0f);
         for (std::size_t i = 0; i < points.facing; ++i) lit[points.pixel(i)] = light.lit[i];
         for (int y = box.y0; y <= box.y1; ++y) {
             const float* const share = lit.data() + static_cast<std::size_t>(y - box.y0) * width;
@@ -12496,9 +13174,11 @@ class shadow_pass {
             const std::uint32_t caster = is_averted && light.caster[i] >= targets_ ? points.caster(i) : light.caster[i];
             // A lit share of 0 without a caster is one that is yet to be tested.
             if (caster == shadow::invalid_id) continue;
-            labels_.shadow.pixels()[pixel_of(points.pixel(i))] =
-                caster < targets_ ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
+            labels_.shadow.pixels()[pixel_of(points.pixel(i))] = name_of(caster);
         }
+    }
+    std::uint16_t name_of(std::uint32_t caster) const {
+        return caster < targets_ ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
     }
 
     const overhead_geometry& view_;
@@ -12507,6 +13187,7 @@ class shadow_pass {
     const image<float>& rest_;
     image<float>& image_;
     Labels& labels_;
+    std::vector<unfilled_vector<shadow::known>> known_;  ///< of the surfaces' triangles, where anything is
     std::uint32_t targets_;
     int tile_;
     isa level_;
@@ -12542,21 +13223,19 @@ struct render_options {
     int subpixel_bits = shadow::casting_policy<Shadow> ? 12 : 8;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
-};
 
-/// What became of the triangles, and how large the intermediate things were.
-struct render_stats {
-    draw_stats seabed, targets;
-    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled, of which the mesh may leave some out
-    std::uint64_t seabed_samples = 0;         ///< points at which the seabed was evaluated
-};
-
-/// A picture with all that is known about it.
-template <class Labels = labels>
-struct frame {
-    insonify::image<float> image;  ///< linear, [0, 1]; see the rig for what a value means
-    Labels labels;                 ///< or no_labels
-    render_stats stats;
+    /// The same options with another shadow policy, another law, or without labels.
+    template <shadow::policy Other>
+    render_options<Other, Labels, Law> with(const Other& other) const {
+        return {other, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    }
+    template <backscatter_law Other>
+    render_options<Shadow, Labels, Other> with(const Other& other) const {
+        return {shadow, other, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    }
+    render_options<Shadow, no_labels, Law> without_labels() const {
+        return {shadow, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    }
 };
 
 /// Which triangle each pixel of a picture shows.
@@ -12577,6 +13256,7 @@ class overhead_painter {
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
         : scene_(s), view_(rig), options_(options) {
         validate(s);
+        out_.rows.step = 0;
         materials_ = resolved_bottom(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y, unfilled{});  // the first draw fills it, and the depths
@@ -12656,6 +13336,7 @@ class overhead_painter {
         if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
         field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
         out_.stats.seabed_samples = field_.heights.size();
+        out_.stats.cell = spacing;
         model_seabed(ex);
         for (const float height : field_.heights.pixels()) {
             if (!numeric::is_finite(height)) {
@@ -13437,7 +14118,7 @@ inline int segments_for(const hemisphere& shape, float deviation) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/accuracy/budget.hpp --------------------------------------------------------------
-// From the errors that somebody can live with to the cheapest settings that keep to them.
+// Chooses the cheapest settings whose errors keep to a budget.
 //
 // What has a closed form is computed: how far a curved target's facets may be from its surface follows from where the
 // camera and the light stand. What depends on the seabed is measured: a few small pictures of it are compared with
@@ -13534,7 +14215,7 @@ struct settings {
 /// @param tolerated  each above 0
 /// @param bottom     the seabed; pictures of others of its kind have about the same errors
 /// @param rig        of the pictures
-/// @param ex         who runs it
+/// @param ex         runs it
 /// @throws invalid_input for a tolerated error that isn't above 0, a probe that can't be, and as `render`
 template <shadow::policy Shadow = shadow::exact, executor_argument E = serial_executor>
 settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::any& bottom, const overhead& rig,
@@ -16931,6 +17612,76 @@ filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask,
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/geometry/camera.hpp --------------------------------------------------------------
+// A camera for `draw`: where it stands, what it looks at, and the perspective of its picture.
+//
+// Its clip space is the library's: visible is -w <= x <= w, -w <= y <= w with y up, and 0 <= z <= w. Depth is reversed,
+// z / w = z_near / distance, so that precision does not fall off far away (draw with keep_depth::larger).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// A pinhole camera.
+struct camera {
+    glm::dvec3 eye{0, -5, 2};                                   ///< metres in the world
+    glm::dvec3 target{0, 0, 0};                                 ///< appears in the middle of the picture
+    glm::dvec3 up{0, 0, 1};                                     ///< appears upwards; not along the line of sight
+    float field_of_view = static_cast<float>(numeric::pi / 3);  ///< from the picture's bottom to its top, radians
+    float aspect = 1;                                           ///< width of the picture / its height
+    float z_near = 0.01f;                                       ///< metres; what is nearer is clipped
+};
+
+/// From the world to the camera's frame: x right, y up, z towards the viewer.
+/// @throws invalid_input for an eye at the target, or `up` along the line of sight
+inline affine look_at(const camera& c) {
+    const glm::dvec3 back = detail::unit(c.eye - c.target), right = detail::unit(numeric::cross(c.up, back));
+    const double turned = numeric::dot(right, right);
+    detail::require(turned > 0.5 && numeric::is_finite(turned), "length of up x line of sight", turned, "above 0");
+    const glm::dvec3 up = numeric::cross(back, right);
+    const glm::dmat3 linear(glm::dvec3(right.x, up.x, back.x), glm::dvec3(right.y, up.y, back.y),
+                            glm::dvec3(right.z, up.z, back.z));
+    return {linear, -numeric::product(linear, c.eye)};
+}
+
+/// Projects points of an object to clip space: `clip = view(point)`.
+class camera_view {
+  public:
+    /// @param object_to_world  where the object stands
+    /// @throws invalid_input as look_at, and for a field of view or a z_near that can't be
+    explicit camera_view(const camera& c, const affine& object_to_world = {})
+        : to_camera_(compose(look_at(c), object_to_world)), z_near_(c.z_near) {
+        detail::require(c.field_of_view > 0 && static_cast<double>(c.field_of_view) < numeric::pi,
+                        "camera.field_of_view", c.field_of_view, "above 0 and below pi");
+        detail::require(c.aspect > 0 && numeric::is_finite(c.aspect), "camera.aspect", c.aspect, "above 0");
+        detail::require(c.z_near > 0 && numeric::is_finite(c.z_near), "camera.z_near", c.z_near, "metres above 0");
+        const double scale = 1 / numeric::tan(0.5 * static_cast<double>(c.field_of_view));
+        scale_ = {static_cast<float>(scale / static_cast<double>(c.aspect)), static_cast<float>(scale)};
+    }
+
+    glm::vec4 operator()(const glm::vec3& point) const {
+        const glm::vec3 p(transform_point(to_camera_, glm::dvec3(point)));
+        return {p.x * scale_.x, p.y * scale_.y, z_near_, -p.z};
+    }
+
+  private:
+    affine to_camera_;
+    glm::vec2 scale_{1};
+    float z_near_;
+};
+
+/// A position in OpenGL's clip space, where -w <= z <= w, in the library's: without it all that lies between the near
+/// plane and twice its distance would be clipped.
+constexpr glm::vec4 from_gl_clip(const glm::vec4& p) {
+    return {p.x, p.y, 0.5f * (p.z + p.w), p.w};
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/cube.hpp ----------------------------------------------------------------
 // Boxes.
 
@@ -17159,7 +17910,7 @@ class obj_reader {
         return text_.substr(first, at_ - first);
     }
 
-    /// Passes over what nobody asked for; a comment isn't continued.
+    /// Skips statements that are not supported; a comment isn't continued.
     void finish_line() {
         while (at_ < text_.size() && line_end(at_) == 0) {
             if (text_[at_] == '#') {
@@ -17321,7 +18072,7 @@ inline mesh load_obj(const std::string& path) {
     const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
     if (!file) fail();
 
-    // Grow by doubling and read until the end: a size asked beforehand says nothing about pipes.
+    // Grow by doubling and read until the end: pipes report no size.
     std::string text;
     for (std::size_t filled = 0;;) {
         text.resize((std::max)(std::size_t{1} << 16, 2 * text.size()));
@@ -19455,7 +20206,7 @@ inline bool rename_over(const std::string& from, const std::string& to) {
 #if defined(_WIN32)
     constexpr unsigned long replace_and_write_through = 1 | 8;
     if (MoveFileExA(from.c_str(), to.c_str(), replace_and_write_through) != 0) return true;
-    errno = EACCES;  // nearly always: somebody has it open
+    errno = EACCES;  // nearly always: another process has it open
     return false;
 #else
     return std::rename(from.c_str(), to.c_str()) == 0;
@@ -19470,7 +20221,7 @@ inline std::string read_file(const std::string& path) {
     errno = 0;
     const detail::file_handle file(path, "rb");
     if (file.get() == nullptr) detail::raise_io(path, "can't open for reading", errno);
-    // Ask for more until there is no more: pipes can't tell their size.
+    // Read until the end: pipes report no size.
     std::string bytes;
     std::size_t filled = 0;
     do {
@@ -19485,7 +20236,7 @@ inline std::string read_file(const std::string& path) {
 /// A file in the making, beside the one it will replace. `commit` brings it to disk and into place in one step; without
 /// that, nothing of it remains and the old file is as it was. A symbolic link is replaced, not followed.
 ///
-/// The temporary name is the path with .tmp0, .tmp1, ...: the first that nobody holds, so threads and processes that
+/// The temporary name is the path with .tmp0, .tmp1, ...: the first that is free, so threads and processes that
 /// write one path don't meet, and the last to commit wins.
 class replacement_file {
   public:
@@ -19508,7 +20259,7 @@ class replacement_file {
         std::remove(temporary_.c_str());
     }
 
-    /// Appends. Doesn't throw, so C libraries may call back into it; `commit` tells of what went wrong.
+    /// Appends. Doesn't throw, so C libraries may call back into it; `commit` reports what failed.
     void write(const void* data, std::size_t size) noexcept {
         errno = 0;
         if (error_ == 0 && std::fwrite(data, 1, size, file_.get()) != size) error_ = errno != 0 ? errno : EIO;
@@ -19658,7 +20409,7 @@ concept storable_pixel = detail::netpbm_sample<typename detail::netpbm_pixel<T>:
 
 namespace detail {
 
-/// Reads a header, then samples, from bytes that nobody vouches for.
+/// Reads a header, then samples, from untrusted bytes.
 class netpbm_reader {
   public:
     netpbm_reader(std::string_view bytes, std::string_view name) : rest_(bytes), name_(name) {
@@ -19844,7 +20595,7 @@ image<Pixel> read_netpbm(const std::string& path) {
 }
 
 /// The bytes of a binary netpbm file with this image: PGM, PPM or PFM by the pixel type.
-/// @throws invalid_input for an image without pixels, which the formats don't know
+/// @throws invalid_input for an image without pixels, which the formats cannot store
 template <class Pixel>
     requires storable_pixel<std::remove_const_t<Pixel>> std::string format_netpbm(image_view<Pixel> source) {
         using stored = detail::netpbm_pixel<std::remove_const_t<Pixel>>;
@@ -19890,7 +20641,7 @@ void write_netpbm(const std::string& path, const image<Pixel>& source) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/bathymetry.hpp ------------------------------------------------------------
-// Surveyed bottoms: heightfields from the text that hydrographers exchange, broken or hostile text included.
+// Readers of surveyed bathymetry: heightfields from Esri ASCII grids and lists of soundings.
 //
 // Pictures of heights (16-bit PGM, PFM) come by `read_netpbm` and `from_image`; text by the parsers here, from whatever
 // `read_file` gives: `parse_esri_grid(read_file("bottom.asc"))`. Cells without data are NaN, which a heightfield leaves
@@ -19904,7 +20655,7 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 namespace detail {
 
-/// Words and numbers of a text, and what to say of wrong ones.
+/// Splits a text into words and numbers; errors name the line.
 class survey_reader {
   public:
     survey_reader(std::string_view text, std::string_view name) : text_(text), name_(name) {
@@ -20725,124 +21476,6 @@ struct penumbra {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/side_scan.hpp --------------------------------------------------------------
-// A side-scan sonar on its way: where each ping is sent from, and which ranges are listened to.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// Which way a channel looks: to the left or to the right of the track.
-enum class side : std::uint8_t { port, starboard };
-
-/// What a column of the picture is a step of.
-enum class across_track {
-    slant_range,   ///< the time of the echo: water column, layover, front faces folded towards the sonar
-    ground_range,  ///< the place on the bottom: a map, with the shadows of the same source
-};
-
-/// One ping.
-struct ping {
-    glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum
-    double yaw = 0;                ///< radians: 0 travels towards +y, with starboard at +x; counter-clockwise
-};
-
-/// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
-/// all else stays the same.
-///
-/// A picture of it has a row per ping and a column per bin. Its top row is the last ping, so that up is forward; its
-/// left column is the first bin on either side, so that range grows and shadows fall to the right.
-template <across_track Axis>
-struct side_scan_rig {
-    static constexpr across_track axis = Axis;
-
-    glm::dvec2 position{0, 0};   ///< of the first ping over the datum, metres
-    float altitude = 5;          ///< above the datum, metres
-    float yaw = 0;               ///< radians, as a ping's
-    float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
-    int pings = 1024;            ///< 1 to 2^20
-    float first_range = 0;       ///< where the first bin begins, metres, >= 0
-    float range = 40;            ///< where the last bin ends, metres
-    int bins = 2048;             ///< 1 to 2^20
-    insonify::side side = insonify::side::starboard;
-
-    /// Metres per bin.
-    double bin() const { return (static_cast<double>(range) - static_cast<double>(first_range)) / bins; }
-};
-using side_scan = side_scan_rig<across_track::slant_range>;
-using ground_range = side_scan_rig<across_track::ground_range>;
-
-/// @throws invalid_input for a value that can't be right
-template <across_track Axis>
-void validate(const side_scan_rig<Axis>& rig) {
-    using detail::require;
-    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "side_scan.position",
-            rig.position.x + rig.position.y, "finite coordinates");
-    require(numeric::is_finite(rig.altitude), "side_scan.altitude", rig.altitude, "a finite height");
-    require(numeric::is_finite(rig.yaw), "side_scan.yaw", rig.yaw, "a finite angle");
-    require(rig.ping_spacing > 0 && numeric::is_finite(rig.ping_spacing), "side_scan.ping_spacing", rig.ping_spacing,
-            "above 0");
-    require(rig.pings >= 1 && rig.pings <= 1 << 20, "side_scan.pings", rig.pings, "1 to 2^20");
-    require(rig.first_range >= 0 && numeric::is_finite(rig.first_range), "side_scan.first_range", rig.first_range,
-            "0 or more");
-    require(rig.range > rig.first_range && rig.range <= 1e5f, "side_scan.range", rig.range,
-            "above first_range and at most 10^5 metres");
-    require(rig.bins >= 1 && rig.bins <= 1 << 20, "side_scan.bins", rig.bins, "1 to 2^20");
-}
-
-/// A ping of the rig's track; those before the first and after the last are on the same line.
-template <across_track Axis>
-ping ping_of(const side_scan_rig<Axis>& rig, int number) {
-    const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
-    const double along = static_cast<double>(rig.ping_spacing) * number;
-    return {{rig.position.x - along * sine, rig.position.y + along * cosine, static_cast<double>(rig.altitude)},
-            static_cast<double>(rig.yaw)};
-}
-
-/// The track of a rig, a ping after the other.
-template <across_track Axis>
-std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
-    validate(rig);
-    std::vector<ping> track;
-    track.reserve(static_cast<std::size_t>(rig.pings));
-    for (int i = 0; i < rig.pings; ++i) track.push_back(ping_of(rig, i));
-    return track;
-}
-
-/// A ping's own frame: x away from it on the side it looks to, u along the track, z up from the sonar.
-class ping_frame {
-  public:
-    ping_frame(const ping& p, side looks) : position_(p.position) {
-        const auto [sine, cosine] = numeric::sin_cos(p.yaw);
-        const double sign = looks == side::starboard ? 1 : -1;
-        across_ = {sign * cosine, sign * sine};
-        along_ = {-sine, cosine};
-    }
-    const glm::dvec3& position() const { return position_; }
-    /// Unit vectors on the ground.
-    const glm::dvec2& across() const { return across_; }
-    const glm::dvec2& along() const { return along_; }
-
-    /// World coordinates of the bottom's datum below (x, u).
-    glm::dvec2 world(double x, double u) const {
-        return {position_.x + x * across_.x + u * along_.x, position_.y + x * across_.y + u * along_.y};
-    }
-    /// (x, u, z) of a world vector.
-    glm::dvec3 turned(const glm::dvec3& v) const {
-        return {v.x * across_.x + v.y * across_.y, v.x * along_.x + v.y * along_.y, v.z};
-    }
-    /// (x, u, z) of a world position.
-    glm::dvec3 operator()(const glm::dvec3& world) const { return turned(world - position_); }
-
-  private:
-    glm::dvec3 position_;
-    glm::dvec2 across_, along_;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/sonar/bottom_tiles.hpp -----------------------------------------------------------
 // The bottom under a track that goes anywhere: heights and slopes in square tiles, sampled where pings look and nowhere
 // else.
@@ -20866,7 +21499,11 @@ class bottom_tiles {
 
     /// @param spacing  metres between vertices; what `even` makes of it is taken
     bottom_tiles(const seabed::any& source, double spacing)
-        : prepared_(source.prepare()), spacing_(even(spacing)), scale_(1 / spacing_) {}
+        : is_empty_(source.empty()),
+          prepared_(source.prepare()),
+          range_(prepared_.range()),
+          spacing_(even(spacing)),
+          scale_(1 / spacing_) {}
 
     /// A length whose multiples are exact, so that a vertex is the same in whatever row it is sampled.
     static double even(double length) {
@@ -20878,6 +21515,7 @@ class bottom_tiles {
     /// @param from, reach  metres from each ping, on the side it looks to
     template <executor E>
     void cover(std::span<const ping_frame> pings, double from, double reach, E& ex) {
+        if (is_empty_) return;
         const double side = cells * spacing_;
         // Lines of sight in steps of half a tile: the boxes around the steps hold every tile that is touched.
         const double looked_at = reach - from;
@@ -20889,25 +21527,35 @@ class bottom_tiles {
         };
         std::int64_t last_x = -(std::int64_t{1} << 60), last_y = last_x;
         first_x_ = first_y_ = -last_x;
-        for (const ping_frame& p : pings)
-            for (const double x : {from, step(steps + 1)}) {
-                const auto [tile_x, tile_y] = tile_of(p.world(x, 0));
-                first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
-                last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
-            }
+        for (const ping_frame& p : pings) {
+            const auto [least, most] = depths(p);
+            for (const double x : {from, step(steps + 1)})
+                for (const double down : {least, most}) {
+                    const auto [tile_x, tile_y] = tile_of(p.below(x, down));
+                    first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
+                    last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
+                }
+        }
         columns_ = last_x - first_x_ + 1;
         const std::int64_t rows = last_y - first_y_ + 1;
         require(columns_ * rows < (1 << 26), "seabed tiles", columns_ * rows, "below 2^26: take larger cells");
         slots_.assign(static_cast<std::size_t>(columns_ * rows), absent);
-        for (const ping_frame& p : pings)
+        for (const ping_frame& p : pings) {
+            const auto [least, most] = depths(p);
             for (int i = 0; i < steps; ++i) {
-                const auto [ax, ay] = tile_of(p.world(step(i), 0));
-                const auto [bx, by] = tile_of(p.world(step(i + 1), 0));
-                for (std::int64_t y = (std::min)(ay, by); y <= (std::max)(ay, by); ++y)
-                    for (std::int64_t x = (std::min)(ax, bx); x <= (std::max)(ax, bx); ++x) slots_[slot_of(x, y)] = 0;
+                auto [ax, ay] = tile_of(p.below(step(i), least));
+                std::int64_t bx = ax, by = ay;
+                for (const auto& [x, y] : {tile_of(p.below(step(i + 1), least)), tile_of(p.below(step(i), most)),
+                                           tile_of(p.below(step(i + 1), most))}) {
+                    ax = (std::min)(ax, x), ay = (std::min)(ay, y);
+                    bx = (std::max)(bx, x), by = (std::max)(by, y);
+                }
+                for (std::int64_t y = ay; y <= by; ++y)
+                    for (std::int64_t x = ax; x <= bx; ++x) slots_[slot_of(x, y)] = 0;
             }
+        }
 
-        // Recipes like long rows: neighbours along x are sampled together.
+        // Long rows are cheaper per sample: neighbours along x are sampled together.
         std::vector<tile_run> runs;
         std::uint32_t tiles = 0;
         for (std::int64_t y = 0; y < rows; ++y)
@@ -20929,6 +21577,7 @@ class bottom_tiles {
 
     /// The bottom at a world position that is covered; bilinear in the cell, of the nearest vertex's type.
     bottom_vertex at(double x, double y) const {
+        if (is_empty_) return {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0};
         const double u = x * scale_, v = y * scale_;
         const std::int64_t cell_x = numeric::floor_to_int(u), cell_y = numeric::floor_to_int(v);
         const auto right = static_cast<float>(u - static_cast<double>(cell_x));
@@ -20947,6 +21596,12 @@ class bottom_tiles {
                 wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
     }
 
+    /// Clamps a depth to those bounds; NaN becomes the least.
+    double clamped(const ping_frame& p, double depth) const {
+        const auto [least, most] = depths(p);
+        return depth > least ? (std::min)(depth, most) : least;
+    }
+
     /// Vertices evaluated so far.
     std::uint64_t sampled() const { return sampled_; }
 
@@ -20959,6 +21614,15 @@ class bottom_tiles {
 
     std::size_t slot_of(std::int64_t x, std::int64_t y) const {
         return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
+    }
+
+    /// Bounds of the bottom's depth along a fan; used for pitched fans only.
+    /// @throws invalid_input for pitched pings over a seabed that does not state its heights
+    std::pair<double, double> depths(const ping_frame& p) const {
+        if (p.is_level() || range_.empty()) return {0, 0};
+        seabed::detail::require_finite(range_);
+        return {(p.position().z - range_.highest) / p.cosine_pitch(),
+                (p.position().z - range_.lowest) / p.cosine_pitch()};
     }
 
     /// Tiles side by side.
@@ -20997,7 +21661,9 @@ class bottom_tiles {
         }
     }
 
+    bool is_empty_;
     seabed::any_sampler prepared_;
+    seabed::height_range range_;
     double spacing_, scale_;
     std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0;
     std::vector<std::uint32_t> slots_;
@@ -21067,6 +21733,60 @@ inline double smooth_noise(double x, double y, std::uint32_t layer, const philox
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/sonar/name_tally.hpp -------------------------------------------------------------
+// Which of several names has most of a bin: lengths or powers are summed by bin and name.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+class name_tally {
+  public:
+    explicit name_tally(std::size_t bins) : heads_(bins, none) {}
+
+    bool empty() const { return entries_.empty(); }
+    void clear() {
+        if (empty()) return;
+        heads_.assign(heads_.size(), none);
+        entries_.clear();
+    }
+    void add(std::size_t bin, std::uint16_t name, float amount) {
+        std::uint32_t* at = &heads_[bin];
+        while (*at != none && entries_[*at].name != name) at = &entries_[*at].next;
+        if (*at != none) {
+            entries_[*at].amount += amount;
+            return;
+        }
+        *at = static_cast<std::uint32_t>(entries_.size());
+        entries_.push_back({amount, none, name});
+    }
+    struct share {
+        std::uint16_t name;
+        float amount;
+    };
+    /// The name that has most; of equal ones the first that was added. `otherwise` where nothing was.
+    share largest(std::size_t bin, std::uint16_t otherwise) const {
+        share best{otherwise, 0};
+        for (std::uint32_t i = heads_[bin]; i != none; i = entries_[i].next)
+            if (entries_[i].amount > best.amount) best = {entries_[i].name, entries_[i].amount};
+        return best;
+    }
+
+  private:
+    static constexpr std::uint32_t none = 0xFFFFFFFFu;
+    struct entry {
+        float amount;
+        std::uint32_t next;
+        std::uint16_t name;
+    };
+    std::vector<std::uint32_t> heads_;
+    std::vector<entry> entries_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/ping_fan.hpp ---------------------------------------------------------------
 // The rays of a ping, in the vertical plane across the track: nadir first, one after the other outwards.
 //
@@ -21077,12 +21797,11 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// What a fan is made for. Heights of the sonar above things are rounded so that few different fans serve a whole
-/// track.
+/// Parameters of a fan. Heights are rounded so that few different fans serve a whole track.
 struct fan_shape {
-    double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: nothing to be seen
+    double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: no rays
     double above_highest = 1;  ///< over the highest bottom
-    double above_all = 1;      ///< over the highest of targets and bottom; not above 0: rays go up to 45 degrees
+    double above_all = 1;      ///< over the highest of targets and bottom; not above 0: rays go up to the zenith
 
     friend bool operator==(const fan_shape&, const fan_shape&) = default;
 
@@ -21133,9 +21852,11 @@ class ping_fan {
             const double cosine = 1 / numeric::square_root(1 + tangent * tangent);
             rays_.push_back({tangent * cosine, cosine, spacing * cosine * cosine});
         }
+        spacing_ = spacing, first_ = static_cast<double>(first), wall_first_ = static_cast<double>(last);
         const double from = numeric::atan2(static_cast<double>(last) * spacing, 1);
-        const double up_to = shape.above_all > 0 ? numeric::atan2(range, shape.above_all) : 0.75 * numeric::pi;
+        const double up_to = shape.above_all > 0 ? numeric::atan2(range, shape.above_all) : numeric::pi;
         const double angle = step / range;
+        wall_from_ = from, wall_angle_ = angle;
         for (std::int64_t i = 0; from + angle * static_cast<double>(i) < up_to; ++i) {
             const auto [sine, cosine] = numeric::sin_cos(from + angle * (static_cast<double>(i) + 0.5));
             rays_.push_back({sine, cosine, angle});
@@ -21156,17 +21877,131 @@ class ping_fan {
         return static_cast<std::size_t>(at - rays_.begin());
     }
 
+    /// Number of the first ray. Rays are numbered from nadir, so that fans that begin farther out agree with others.
+    std::size_t first() const { return static_cast<std::size_t>(first_); }
+    /// Where a point lies among the rays: ray i, whose number is first() + i, covers [number, number + 1). Clamped to
+    /// the rays that there are.
+    double coordinate(double x, double down) const {
+        double t = down > 0 ? x / down / spacing_ : wall_first_;
+        if (t >= wall_first_) t = wall_first_ + (numeric::atan2(x, down) - wall_from_) / wall_angle_;
+        return (std::min)((std::max)(t, first_), first_ + static_cast<double>(size()));
+    }
+    struct direction {
+        double sine, cosine;  ///< across and down
+    };
+    /// The inverse of `coordinate`.
+    direction at(double t) const {
+        if (t >= wall_first_) {
+            const auto [sine, cosine] = numeric::sin_cos(wall_from_ + wall_angle_ * (t - wall_first_));
+            return {sine, cosine};
+        }
+        const double tangent = t * spacing_;
+        const double cosine = 1 / numeric::square_root(1 + tangent * tangent);
+        return {tangent * cosine, cosine};
+    }
+
   private:
     fan_shape shape_{0, 0, 0};
     std::vector<ray> rays_;
+    double spacing_ = 1, first_ = 0;                          ///< of level ground: tangents per ray, the first number
+    double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond it: the first number, radians
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/geometry/detail/plane_tree.hpp ---------------------------------------------------
+// Finds the triangles of a mesh that a plane may cut, without looking at the others.
+//
+// Boxes around runs of eight triangles, boxes around eight of those, and so on: an implicit tree over the triangles in
+// their own order, which shared_mesh keeps coherent. Building it is one pass, and triangles are visited in order.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+class plane_tree {
+  public:
+    plane_tree() = default;
+    /// @param m  its indices have positions; triangles with corners that are not finite are left out
+    explicit plane_tree(const mesh_view& m) : triangles_(m.triangles.size()) {
+        std::vector<box> level((triangles_ + branching - 1) / branching);
+        for (std::size_t i = 0; i < triangles_; ++i) {
+            const glm::uvec3& t = m.triangles[i];
+            glm::vec3 sum(0);
+            for (int k = 0; k < 3; ++k) sum += m.positions[t[k]];
+            if (!numeric::is_finite(sum.x) || !numeric::is_finite(sum.y) || !numeric::is_finite(sum.z)) continue;
+            for (int k = 0; k < 3; ++k) level[i / branching].include(m.positions[t[k]]);
+        }
+        levels_.push_back(std::move(level));
+        while (levels_.back().size() > 1) {
+            const std::vector<box>& below = levels_.back();
+            std::vector<box> above((below.size() + branching - 1) / branching);
+            for (std::size_t i = 0; i < below.size(); ++i) {
+                above[i / branching].include(below[i].low);
+                above[i / branching].include(below[i].high);
+            }
+            levels_.push_back(std::move(above));
+        }
+    }
+
+    /// Calls `visit(first, last)` for runs of triangles that contain all those cut by normal . p + offset = 0.
+    template <class Visit>
+    void cut(const glm::dvec3& normal, double offset, const Visit& visit) const {
+        if (triangles_ > 0) descend(levels_.size() - 1, 0, normal, offset, visit);
+    }
+
+  private:
+    static constexpr std::size_t branching = 8;
+
+    struct box {
+        glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+
+        void include(const glm::vec3& p) {
+            for (int i = 0; i < 3; ++i) {
+                low[i] = (std::min)(low[i], p[i]);
+                high[i] = (std::max)(high[i], p[i]);
+            }
+        }
+        bool meets(const glm::dvec3& normal, double offset) const {
+            double lowest = offset, highest = offset, size = numeric::magnitude(offset);
+            for (int i = 0; i < 3; ++i) {
+                const double a = normal[i] * static_cast<double>(low[i]), b = normal[i] * static_cast<double>(high[i]);
+                lowest += (std::min)(a, b);
+                highest += (std::max)(a, b);
+                size += (std::max)(numeric::magnitude(a), numeric::magnitude(b));
+            }
+            const double rounding = 1e-12 * size;
+            return lowest <= rounding && highest >= -rounding;  // false for an empty box
+        }
+    };
+
+    template <class Visit>
+    void descend(std::size_t level, std::size_t i, const glm::dvec3& normal, double offset, const Visit& visit) const {
+        if (!levels_[level][i].meets(normal, offset)) return;
+        const std::size_t first = i * branching;
+        if (level == 0) return visit(first, (std::min)(first + branching, triangles_));
+        for (std::size_t child = first; child < (std::min)(first + branching, levels_[level - 1].size()); ++child)
+            descend(level - 1, child, normal, offset, visit);
+    }
+
+    std::size_t triangles_ = 0;
+    std::vector<std::vector<box>> levels_;
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/target_slices.hpp ----------------------------------------------------------
-// Targets as one ping meets them: the outline in its plane, cut from the mesh.
+// Slices of targets by the plane of a ping.
+
+#include <map>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -21185,7 +22020,9 @@ struct outline_piece {
 /// A target in the world, ready to be cut.
 class sliced_target {
   public:
-    explicit sliced_target(const target& t) : shape_(t.shape), to_world_(to_world(t.placement)) {
+    /// @param tree  of the shape's triangles
+    sliced_target(const target& t, std::shared_ptr<const plane_tree> tree)
+        : shape_(t.shape), tree_(std::move(tree)), to_world_(to_world(t.placement)) {
         const bounding_box& box = t.shape.box();
         if (box.empty()) return;
         centre_ = transform_point(to_world_, box.centre());
@@ -21193,8 +22030,9 @@ class sliced_target {
         radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
     }
 
-    /// Height above the datum that nothing of it reaches over.
+    /// Heights above the datum that it doesn't leave.
     double top() const { return centre_.z + radius_; }
+    double foot() const { return radius_ > 0 ? centre_.z - radius_ : 1e30; }
 
     bool is_met_by(const ping_frame& p, double range) const {
         const glm::dvec3 centre = p(centre_);
@@ -21215,37 +22053,287 @@ class sliced_target {
         for (int i = 0; i < 3; ++i) turn[i] = p.turned(to_world_.linear[i]);
         const glm::mat3 normals(turn);  // scales are uniform
         const double sign = numeric::determinant(turn) < 0 ? -1 : 1;
-        for (const glm::uvec3& t : shape_->triangles) {
-            glm::dvec3 v[3];
-            int behind = 0;
-            for (int i = 0; i < 3; ++i) {
-                v[i] = numeric::product(turn, glm::dvec3(shape_->positions[t[i]])) + offset;
-                behind += v[i].y < 0 ? 1 : 0;
-            }
-            if (behind == 0 || behind == 3 || !numeric::is_finite(v[0].x + v[1].x + v[2].x + v[0].z + v[1].z + v[2].z))
-                continue;
-            // The corner that is alone on its side, and the edges that leave it.
-            int alone = 0;
-            while ((v[alone].y < 0) != (behind == 1)) ++alone;
-            const auto corner = [&](int other) {
-                const int from = behind == 1 ? alone : other,
-                          to = behind == 1 ? other : alone;  // from behind to before
-                const double f = v[from].y / (v[from].y - v[to].y);
-                const glm::dvec3 at = v[from] + f * (v[to] - v[from]);
-                const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
-                return outline_piece::corner{at.x, -at.z,
-                                             numeric::product(normals, n + static_cast<float>(f) * (m - n))};
-            };
-            visit(outline_piece{corner((alone + 1) % 3), corner((alone + 2) % 3),
-                                glm::vec3(sign * numeric::cross(v[1] - v[0], v[2] - v[0]))});
-        }
+        const glm::dvec3 ahead(turn[0].y, turn[1].y, turn[2].y);
+        tree_->cut(ahead, offset.y, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                cut_triangle(shape_->triangles[i], turn, offset, normals, sign, visit);
+        });
     }
 
   private:
+    template <class Visit>
+    void cut_triangle(const glm::uvec3& t, const glm::dmat3& turn, const glm::dvec3& offset, const glm::mat3& normals,
+                      double sign, const Visit& visit) const {
+        glm::dvec3 v[3];
+        int behind = 0;
+        for (int i = 0; i < 3; ++i) {
+            v[i] = numeric::product(turn, glm::dvec3(shape_->positions[t[i]])) + offset;
+            behind += v[i].y < 0 ? 1 : 0;
+        }
+        if (behind == 0 || behind == 3 || !numeric::is_finite(v[0].x + v[1].x + v[2].x + v[0].z + v[1].z + v[2].z))
+            return;
+        // The corner that is alone on its side, and the edges that leave it.
+        int alone = 0;
+        while ((v[alone].y < 0) != (behind == 1)) ++alone;
+        const auto corner = [&](int other) {
+            const int from = behind == 1 ? alone : other,
+                      to = behind == 1 ? other : alone;  // from behind to before
+            const double f = v[from].y / (v[from].y - v[to].y);
+            const glm::dvec3 at = v[from] + f * (v[to] - v[from]);
+            const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
+            return outline_piece::corner{at.x, -at.z, numeric::product(normals, n + static_cast<float>(f) * (m - n))};
+        };
+        visit(outline_piece{corner((alone + 1) % 3), corner((alone + 2) % 3),
+                            glm::vec3(sign * numeric::cross(v[1] - v[0], v[2] - v[0]))});
+    }
+
     shared_mesh shape_;
+    std::shared_ptr<const plane_tree> tree_;
     affine to_world_;
     glm::dvec3 centre_{0, 0, -1e30};
     double radius_ = 0;
+};
+
+/// The targets of a scene; those of one shape share its tree.
+inline std::vector<sliced_target> sliced_targets(const scene& s) {
+    std::vector<sliced_target> all;
+    std::map<const mesh*, std::shared_ptr<const plane_tree>> trees;
+    for (const target& t : s.targets) {
+        std::shared_ptr<const plane_tree>& tree = trees[&*t.shape];
+        if (tree == nullptr) tree = std::make_shared<const plane_tree>(t.shape);
+        all.emplace_back(t, tree);
+    }
+    return all;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/target_hits.hpp ------------------------------------------------------------
+// First hits of a ping's rays with the targets, with exact fractional coverage of each ray's width.
+//
+// The outline of the targets in a ping's plane is a set of straight pieces. Within each ray's width the pieces' ends
+// divide the width into parts; of each part the nearest piece counts, in proportion to the part. So a bar that is
+// thinner than the spacing of rays is heard in every ping that meets it, and with the energy that it has.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// The part of a ray that a target stops.
+struct target_hit {
+    double share;                 ///< of the ray's width
+    double x, down;               ///< the middle, metres
+    double x0, down0, x1, down1;  ///< its ends
+    float facing;                 ///< sine of the grazing angle on the surface
+    float reflectivity;
+    std::uint16_t instance;
+
+    double square_range() const { return x * x + down * down; }
+};
+
+class target_hits {
+  public:
+    void begin(const ping_fan& fan) {
+        fan_ = &fan;
+        pieces_.clear();
+        partial_.clear();
+        hits_.clear();
+        nearest_.assign(fan.size(), {std::numeric_limits<double>::infinity(), 0});
+        first_.assign(fan.size() + 1, 0);
+        screens_.assign(fan.size(), {std::numeric_limits<double>::infinity(), 0});
+    }
+
+    /// A piece of an outline.
+    void add(outline_piece o, std::uint16_t instance, float reflectivity) {
+        if (o.a.x * o.b.down > o.a.down * o.b.x) std::swap(o.a, o.b);  // b is farther out
+        if (!(o.a.x > 0 || o.b.x > 0)) return;
+        cut_at_nadir(o.a, o.b);
+        cut_at_nadir(o.b, o.a);
+        if (fan_->size() == 0) return;
+        const double from = fan_->coordinate(o.a.x, o.a.down), to = fan_->coordinate(o.b.x, o.b.down);
+        if (!(from < to)) return;
+        const auto id = static_cast<std::uint32_t>(pieces_.size());
+        pieces_.push_back({o, instance, reflectivity});
+        const std::size_t first = static_cast<std::size_t>(from) - fan_->first();
+        const std::size_t last = (std::min)(static_cast<std::size_t>(to) - fan_->first(), fan_->size() - 1);
+        for (std::size_t k = first; k <= last; ++k) {
+            const double low = (std::max)(from, number(k)), high = (std::min)(to, number(k) + 1);
+            if (!(low < high)) continue;
+            if (high - low < 1) {
+                partial_.push_back({static_cast<std::uint32_t>(k), id, low, high});
+                continue;
+            }
+            const ping_fan::ray& ray = (*fan_)[k];
+            const glm::dvec2 p = point(o, {ray.sine, ray.cosine});
+            const double range = p.x * p.x + p.y * p.y;
+            if (range < nearest_[k].range) nearest_[k] = {range, id};
+        }
+    }
+
+    /// Finds what is nearest, once all pieces are there.
+    void resolve() {
+        std::stable_sort(partial_.begin(), partial_.end(), [](const part& a, const part& b) { return a.ray < b.ray; });
+        auto next = partial_.begin();
+        for (std::size_t k = 0; k < fan_->size(); ++k) {
+            first_[k] = static_cast<std::uint32_t>(hits_.size());
+            auto end = next;
+            while (end != partial_.end() && end->ray == k) ++end;
+            const bool is_met = nearest_[k].range < std::numeric_limits<double>::infinity();
+            if (next != end)
+                divide(k, {next, end}, is_met);
+            else if (is_met)
+                keep(nearest_[k].piece, number(k), number(k) + 1);
+            next = end;
+            find_screen(k, hits_.size());
+        }
+        first_.back() = static_cast<std::uint32_t>(hits_.size());
+    }
+
+    /// Removes what lies behind the bottom, which ray k meets at a range; behind everything, if nothing is met.
+    /// @returns the share of the ray that targets stop before
+    double cut_off(std::size_t k, double range) {
+        double stopped = 0;
+        bool is_cut = false;
+        for (std::size_t i = first_[k]; i < first_[k + 1]; ++i) {
+            if (hits_[i].square_range() < range * range)
+                stopped += hits_[i].share;
+            else if (hits_[i].share > 0)
+                hits_[i].share = 0, is_cut = true;
+        }
+        if (is_cut) find_screen(k, first_[k + 1]);
+        return stopped > 1 - 1e-9 ? 1 : stopped;
+    }
+
+    /// The target that stops most of ray k before a range, if they stop more than half; else is_lit.
+    std::uint16_t screen(std::size_t k, double range) const {
+        return k < screens_.size() && screens_[k].range < range ? screens_[k].instance : labels::is_lit;
+    }
+
+    /// Calls `visit(ray number, hit)` in the order of the rays.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (std::size_t k = 0; k + 1 < first_.size(); ++k)
+            for (std::size_t i = first_[k]; i < first_[k + 1]; ++i)
+                if (hits_[i].share > 0) visit(k, hits_[i]);
+    }
+
+  private:
+    struct piece {
+        outline_piece outline;
+        std::uint16_t instance;
+        float reflectivity;
+    };
+    struct part {
+        std::uint32_t ray, piece;
+        double low, high;  ///< coordinates of the fan
+    };
+    struct candidate {
+        double range;  ///< squared
+        std::uint32_t piece;
+    };
+    struct screen_of_ray {
+        double range;
+        std::uint16_t instance;
+    };
+
+    /// The coordinate at which ray k begins.
+    double number(std::size_t k) const { return static_cast<double>(fan_->first() + k); }
+
+    static void cut_at_nadir(outline_piece::corner& from, const outline_piece::corner& to) {
+        if (from.x > 0) return;
+        const double f = from.x / (from.x - to.x);
+        from = {0, from.down + f * (to.down - from.down),
+                from.normal + static_cast<float>(f) * (to.normal - from.normal)};
+    }
+
+    /// How far along a piece a direction meets it, in [0, 1].
+    static double along(const outline_piece& o, const ping_fan::direction& d) {
+        const double before = o.a.x * d.cosine - o.a.down * d.sine, after = o.b.x * d.cosine - o.b.down * d.sine;
+        const double f = before / (before - after);
+        return f > 0 ? (f < 1 ? f : 1.0) : 0.0;
+    }
+    static glm::dvec2 point(const outline_piece& o, const ping_fan::direction& d) {
+        const double f = along(o, d);
+        return {o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down)};
+    }
+
+    /// Keeps a part of a ray as stopped by a piece.
+    void keep(std::uint32_t id, double low, double high) {
+        const piece& p = pieces_[id];
+        const outline_piece& o = p.outline;
+        const ping_fan::direction middle = fan_->at(0.5 * (low + high));
+        const double f = along(o, middle);
+        const glm::dvec2 at(o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down));
+        const glm::dvec2 from = point(o, fan_->at(low)), to = point(o, fan_->at(high));
+        if (!(at.x * at.x + at.y * at.y > 0)) return;
+        hits_.push_back({high - low, at.x, at.y, from.x, from.y, to.x, to.y, facing(o, static_cast<float>(f), middle),
+                         p.reflectivity, p.instance});
+    }
+
+    /// Sine of the grazing angle. The facet says which side is heard and decides the sign of normals that contradict
+    /// it, or that are none.
+    static float facing(const outline_piece& o, float f, const ping_fan::direction& d) {
+        const auto sine = static_cast<float>(d.sine), cosine = static_cast<float>(d.cosine);
+        glm::vec3 n = o.a.normal + f * (o.b.normal - o.a.normal);
+        float square = numeric::dot(n, n);
+        if (!(square > 0 && numeric::is_finite(square))) n = o.facet, square = numeric::dot(n, n);
+        const bool is_front = o.facet.z * cosine - o.facet.x * sine > 0, is_along = numeric::dot(n, o.facet) > 0;
+        return (is_front == is_along ? 1.0f : -1.0f) * (n.z * cosine - n.x * sine) / numeric::square_root(square);
+    }
+
+    /// Divides a ray between the pieces that it meets with parts of its width, and the one with all of it.
+    void divide(std::size_t k, std::span<const part> parts, bool is_met) {
+        // Very many pieces are sampled at fixed positions instead.
+        ends_.clear();
+        ends_.push_back(number(k)), ends_.push_back(number(k) + 1);
+        if (parts.size() <= most_parts) {
+            for (const part& p : parts) ends_.push_back(p.low), ends_.push_back(p.high);
+        } else {
+            for (std::size_t i = 1; i < most_parts; ++i)
+                ends_.push_back(number(k) + static_cast<double>(i) / static_cast<double>(most_parts));
+        }
+        std::sort(ends_.begin(), ends_.end());
+        for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
+            if (!(ends_[i] < ends_[i + 1])) continue;
+            const double middle = 0.5 * (ends_[i] + ends_[i + 1]);
+            const ping_fan::direction d = fan_->at(middle);
+            candidate best{std::numeric_limits<double>::infinity(), 0};
+            const auto offer = [&](std::uint32_t id) {
+                const glm::dvec2 p = point(pieces_[id].outline, d);
+                const double range = p.x * p.x + p.y * p.y;
+                if (range < best.range) best = {range, id};
+            };
+            for (const part& p : parts)
+                if (p.low <= middle && middle <= p.high) offer(p.piece);
+            if (is_met) offer(nearest_[k].piece);
+            if (best.range < std::numeric_limits<double>::infinity()) keep(best.piece, ends_[i], ends_[i + 1]);
+        }
+    }
+
+    void find_screen(std::size_t k, std::size_t end) {
+        screens_[k] = {std::numeric_limits<double>::infinity(), 0};
+        double stopped = 0, largest = 0;
+        for (std::size_t i = first_[k]; i < end; ++i) {
+            stopped += hits_[i].share;
+            if (hits_[i].share <= largest) continue;
+            largest = hits_[i].share;
+            screens_[k] = {numeric::square_root(hits_[i].square_range()), hits_[i].instance};
+        }
+        if (!(stopped > 0.5)) screens_[k].range = std::numeric_limits<double>::infinity();
+    }
+
+    static constexpr std::size_t most_parts = 64;
+
+    const ping_fan* fan_ = nullptr;
+    std::vector<piece> pieces_;
+    std::vector<part> partial_;
+    std::vector<candidate> nearest_;  ///< by ray: the nearest piece over all of its width
+    std::vector<target_hit> hits_;
+    std::vector<std::uint32_t> first_;  ///< by ray: its hits begin here
+    std::vector<screen_of_ray> screens_;
+    std::vector<double> ends_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
@@ -21253,9 +22341,9 @@ class sliced_target {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/ping_echo.hpp --------------------------------------------------------------
-// What comes back of one ping, bin by bin.
+// Computes the echo of one ping, bin by bin.
 //
-// The source is where the receiver is: what a ray meets first is what it insonifies and what it hears. Each ray's
+// Source and receiver coincide: the first surface along a ray is both insonified and heard. Each ray's
 // power is spread evenly over the bins between the ranges at which its upper and its lower edge meet the surface; so
 // level ground has no gaps and no beats, whatever the ratio of rays to bins. Bottom that is met by no ray is in shadow,
 // and belongs to whatever stands in front of it.
@@ -21264,17 +22352,18 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// What a bin hears, and what lies in it; lengths are in bins.
+/// Power and contents of a range bin; lengths are in bins.
 struct echo_bin {
     float bottom = 0, target = 0;  ///< power
     float lit = 0;                 ///< of the bottom
     float dark_by_seabed = 0, dark_by_target = 0;
-    float most_bottom = 0, most_target = 0;  ///< the largest single contributions: what named the bin
-    std::uint16_t instance = labels::no_instance, caster = labels::is_lit;
+    float of_seabed = 0;  ///< of the first type in the bin; name_tally has the others
+    // Those that have most of the bin, in the end.
+    std::uint16_t instance = labels::no_instance, caster = labels::by_seabed;
     std::uint8_t seabed = labels::no_seabed;
 };
 
-/// Hears pings, one after the other. Rig is a side_scan or a ground_range; what labels need is left out if !Labelled.
+/// Computes pings one after the other. Rig is a side_scan or a ground_range; what labels need is left out if !Labelled.
 template <class Rig, class Law, class Equation, bool Labelled>
 class ping_listener {
   public:
@@ -21295,9 +22384,14 @@ class ping_listener {
           profile_step_((std::max)(step_, 0.5 * cell)),
           first_point_(static_cast<std::size_t>(-numeric::floor_to_int(-start / profile_step_))),
           spacing_(rig.ping_spacing),
-          bins_(static_cast<std::size_t>(rig.bins)) {
-        top_ = -1e30;
-        for (const sliced_target& t : targets) top_ = (std::max)(top_, t.top());
+          bins_(static_cast<std::size_t>(rig.bins)),
+          echoing_(bins_.size()),
+          casting_(bins_.size()),
+          types_(bins_.size()) {
+        for (const sliced_target& t : targets) {
+            top_ = (std::max)(top_, t.top());
+            foot_ = (std::min)(foot_, t.foot());
+        }
     }
 
     /// @returns one per bin, until the next ping
@@ -21305,26 +22399,32 @@ class ping_listener {
         std::fill(bins_.begin(), bins_.end(), echo_bin{});
         sample_bottom(p);
         const double altitude = p.position().z;
-        if (looks_beyond(relief_, first_range_, altitude)) lowest_ = relief_.lowest, highest_ = relief_.highest;
-        const fan_shape shape =
-            fan_shape::around(altitude - lowest_, altitude - highest_, altitude - (std::max)(top_, highest_));
-        if (!(shape == fan_.shape())) spread_out(shape);
+        if (looks_beyond(relief_, first_range_, p)) lowest_ = relief_.lowest, highest_ = relief_.highest;
+        if (!(lowest_ <= highest_))  // no bottom here: rays for the targets alone
+            lowest_ = highest_ = (std::min)(foot_, altitude - range_ / 16);
+        // The pitched fan's own depths are longer; heights above are bounded by the level ones.
+        const double longer = 1 / p.cosine_pitch();
+        const fan_shape shape = fan_shape::around((altitude - lowest_) * longer, altitude - highest_,
+                                                  altitude - (std::max)(top_, highest_));
+        const std::array<double, 3> attitude{p.sine_roll(), p.cosine_roll(), p.cosine_pitch()};
+        if (!(shape == fan_.shape()) || attitude != attitude_) spread_out(shape, attitude);
         if (!(altitude > lowest_) || profile_[0].down <= 0) return bins_;  // it lies in the ground
         gather_targets(p);
-        hear_bottom();
+        hear_bottom(p);
         if (some_target_) hear_targets();
+        if constexpr (Labelled) name_bins();
         return bins_;
     }
 
-    /// How far from the track pings look, metres on the ground: what has to be covered.
+    /// Ground range up to which the bottom has to be sampled, metres.
     static double reach(const Rig& rig, double cell) { return static_cast<double>(rig.range) + 4 * cell; }
 
-    /// From where on they have to look: nothing nearer is heard in the first bin or later, nor hides what is.
+    /// Ground range from which the bottom has to be sampled: nothing nearer is heard in the window or hides what is.
     /// @param relief  of the bottom
     static double start(const Rig& rig, double cell, const seabed::height_range& relief, const ping_frame& p,
                         std::span<const sliced_target> targets) {
         const double altitude = p.position().z, first = static_cast<double>(rig.first_range);
-        if (!looks_beyond(relief, first, altitude)) return 0;
+        if (!looks_beyond(relief, first, p)) return 0;
         const double lowest = altitude - relief.lowest, heard = first - 4 * rig.bin();
         const double square = counts_time ? heard * heard - lowest * lowest : heard * heard;
         const double place = heard > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
@@ -21338,9 +22438,11 @@ class ping_listener {
     static constexpr float most = 2;  // bins that an echo may spread to either side of its ray, whatever the slope
     static constexpr bool counts_time = Rig::axis == across_track::slant_range;
 
-    /// Whether pings look past a bottom that they are well above.
-    static bool looks_beyond(const seabed::height_range& relief, double first_range, double altitude) {
-        return first_range > 0 && !relief.empty() && relief.lowest > -altitude && 2 * relief.highest < altitude;
+    /// Whether a ping is well above the bottom, so that the bottom before the window can be skipped.
+    static bool looks_beyond(const seabed::height_range& relief, double first_range, const ping_frame& p) {
+        const double altitude = p.position().z;
+        return first_range > 0 && p.is_level() && !relief.empty() && relief.lowest > -altitude &&
+               2 * relief.highest < altitude;
     }
 
     struct bottom_point {
@@ -21348,24 +22450,23 @@ class ping_listener {
         float slope, slope_along;
         std::uint8_t type;
     };
-    struct target_hit {
-        float range = std::numeric_limits<float>::infinity();
-        float low = 0, high = 0;  ///< where it is heard, in bins
-        float power = 0;
-        std::uint16_t instance = 0;
-    };
-
-    /// A new fan, and what each of its rays carries for every metre of range.
-    void spread_out(const fan_shape& shape) {
+    /// Builds the fan, and each ray's power per metre of range.
+    void spread_out(const fan_shape& shape, const std::array<double, 3>& attitude) {
         const auto slant = [&](double r) {
             return counts_time ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
         };
         farthest_ = slant(range_);
         fan_ = ping_fan(shape, step_, slant(first_range_), farthest_);
         carried_.resize(fan_.size());
-        for (std::size_t k = 0; k < fan_.size(); ++k)
-            carried_[k] =
-                spacing_ * static_cast<float>(fan_[k].width * equation_.over_direction(fan_[k].sine, fan_[k].cosine));
+        attitude_ = attitude;
+        const auto [sine_roll, cosine_roll, cosine_pitch] = attitude;
+        // A fan that leans by a pitch is thinner than its spacing along the track.
+        const float thickness = spacing_ * static_cast<float>(cosine_pitch);
+        for (std::size_t k = 0; k < fan_.size(); ++k) {
+            const double across = fan_[k].sine * cosine_roll + fan_[k].cosine * sine_roll,
+                         down = fan_[k].cosine * cosine_roll - fan_[k].sine * sine_roll;
+            carried_[k] = thickness * static_cast<float>(fan_[k].width * equation_.over_direction(across, down));
+        }
     }
 
     /// The profile below the ping, from where it matters outwards.
@@ -21374,11 +22475,25 @@ class ping_listener {
         profile_.resize(end - first_point_);
         lowest_ = 1e30, highest_ = -1e30;
         const glm::vec2 across(p.across()), along(p.along());
+        const double altitude = p.position().z;
         for (std::size_t i = 0; i < profile_.size(); ++i) {
-            const glm::dvec2 at = p.world(place_of(i), 0);
-            const bottom_vertex v = tiles_.at(at.x, at.y);
+            bottom_vertex v;
+            double depth;
+            if (p.is_level()) {
+                const glm::dvec2 at = p.world(place_of(i), 0);
+                v = tiles_.at(at.x, at.y);
+                depth = altitude - static_cast<double>(v.height);
+            } else {
+                // The place depends on the depth; slopes below 1 / tan(pitch) make the steps converge.
+                depth = i > 0 ? profile_[i - 1].down : 0;
+                for (int step = 0; step < 5; ++step) {
+                    const glm::dvec2 at = p.below(place_of(i), tiles_.clamped(p, depth));
+                    v = tiles_.at(at.x, at.y);
+                    depth = (altitude - static_cast<double>(v.height)) / p.cosine_pitch();
+                }
+            }
             const auto height = static_cast<double>(v.height);
-            profile_[i] = {p.position().z - height, v.slope_x * across.x + v.slope_y * across.y,
+            profile_[i] = {depth, v.slope_x * across.x + v.slope_y * across.y,
                            v.slope_x * along.x + v.slope_y * along.y, static_cast<std::uint8_t>(v.type)};
             lowest_ = (std::min)(height, lowest_);  // NaN stays out
             highest_ = (std::max)(height, highest_);
@@ -21388,62 +22503,26 @@ class ping_listener {
     /// How far out a point of the profile is.
     double place_of(std::size_t i) const { return profile_step_ * static_cast<double>(first_point_ + i); }
 
-    /// Which rays meet which target first.
     void gather_targets(const ping_frame& p) {
         some_target_ = false;
         for (std::size_t i = 0; i < targets_.size(); ++i) {
             if (!targets_[i].is_met_by(p, farthest_)) continue;
-            if (!some_target_) hits_.assign(fan_.size(), target_hit{});
+            if (!some_target_) hits_.begin(fan_);
             some_target_ = true;
             targets_[i].cut(p, [&](const outline_piece& piece) {
-                meet(piece, static_cast<std::uint16_t>(i + 1), scene_.targets[i].surface.reflectivity);
+                hits_.add(piece, static_cast<std::uint16_t>(i + 1), scene_.targets[i].surface.reflectivity);
             });
         }
-    }
-
-    void meet(outline_piece o, std::uint16_t instance, float reflectivity) {
-        if (o.a.x * o.b.down > o.a.down * o.b.x) std::swap(o.a, o.b);  // b is farther out
-        if (!(o.a.x > 0 || o.b.x > 0)) return;
-        const auto cut_at_nadir = [](outline_piece::corner& from, const outline_piece::corner& to) {
-            if (from.x > 0) return;
-            const double f = from.x / (from.x - to.x);
-            from = {0, from.down + f * (to.down - from.down),
-                    from.normal + static_cast<float>(f) * (to.normal - from.normal)};
-        };
-        cut_at_nadir(o.a, o.b);
-        cut_at_nadir(o.b, o.a);
-        // A ray's echo ends where the piece ends.
-        const auto a = static_cast<float>(place(o.a.x, o.a.down)), b = static_cast<float>(place(o.b.x, o.b.down));
-        const float nearest = (std::min)(a, b), farthest = (std::max)(a, b);
-        const std::size_t last = fan_.first_over(o.b.x, o.b.down);
-        for (std::size_t k = fan_.first_over(o.a.x, o.a.down); k < last; ++k) {
-            const ping_fan::ray& ray = fan_[k];
-            const double before = ping_fan::beyond(ray, o.a.x, o.a.down),
-                         after = ping_fan::beyond(ray, o.b.x, o.b.down);
-            const double f = before / (before - after);
-            const double dx = o.b.x - o.a.x, ddown = o.b.down - o.a.down;
-            const double range = (o.a.x + f * dx) * ray.sine + (o.a.down + f * ddown) * ray.cosine;
-            target_hit& hit = hits_[k];
-            if (!(range > 0 && range < static_cast<double>(hit.range))) continue;
-            const glm::vec3 n = o.a.normal + static_cast<float>(f) * (o.b.normal - o.a.normal);
-            const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
-            const bool outside = o.facet.z * cosine - o.facet.x * sine > 0;
-            const float facing =
-                (outside ? 1.0f : -1.0f) * (n.z * cosine - n.x * sine) / numeric::square_root(numeric::dot(n, n));
-            const float at = column(ray, range), half = half_length(ray, range, dx, ddown);
-            hit = {static_cast<float>(range), at - (std::min)(half, (std::max)(most, at - nearest)),
-                   at + (std::min)(half, (std::max)(most, farthest - at)), power_of(k, range, facing) * reflectivity,
-                   instance};
-        }
+        if (some_target_) hits_.resolve();
     }
 
     /// Walks along the profile; rays meet it in order, and what lies below the last one met is hidden.
-    void hear_bottom() {
+    void hear_bottom(const ping_frame& ping) {
         double horizon_x = 0, horizon_down = 1;
         // Rays that meet the bottom before the profile begins see nothing behind it.
         std::size_t k = first_point_ > 0 ? fan_.first_over(place_of(0), profile_[0].down) : 0;
         if (some_target_)
-            for (std::size_t j = 0; j < k; ++j) hits_[j].range = std::numeric_limits<float>::infinity();
+            for (std::size_t j = 0; j < k; ++j) hits_.cut_off(j, 0);
         const std::size_t rays = fan_.size();
         for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
             const double px = place_of(i), qx = place_of(i + 1);
@@ -21454,7 +22533,7 @@ class ping_listener {
                 if (Labelled && ddown == ddown) name(p, q, px, dx, 0, 1, hider(qx, q.down));
                 continue;
             }
-            // The part over the horizon begins here; labels cut it between rays, so that shadows end where rays say.
+            // The part over the horizon begins here. Labels divide it halfway between rays, as the rays' power does.
             const double below = px * horizon_down - p.down * horizon_x;
             double from = below / (below - above);
             if (Labelled && from > 0) name(p, q, px, dx, 0, from, hider(px + from * dx, p.down + from * ddown));
@@ -21471,7 +22550,8 @@ class ping_listener {
                     from = between;
                 }
                 last_met = f;
-                if (range <= farthest_ + bin_) hear_bottom_at(ray, k, range, dx, ddown, p, q, static_cast<float>(f));
+                if (range <= farthest_ + bin_)
+                    hear_bottom_at(ping, ray, k, range, dx, ddown, p, q, static_cast<float>(f));
             }
             if constexpr (Labelled)
                 name(p, q, px, dx, from, 1,
@@ -21481,78 +22561,100 @@ class ping_listener {
         }
     }
 
-    void hear_bottom_at(const ping_fan::ray& ray, std::size_t k, double range, double dx, double ddown,
-                        const bottom_point& p, const bottom_point& q, float f) {
-        if (some_target_) {
-            if (static_cast<double>(hits_[k].range) < range) return;
-            hits_[k].range = std::numeric_limits<float>::infinity();  // buried, or behind a rise
-        }
+    void hear_bottom_at(const ping_frame& ping, const ping_fan::ray& ray, std::size_t k, double range, double dx,
+                        double ddown, const bottom_point& p, const bottom_point& q, float f) {
+        // Targets that are buried or behind a rise are cut off.
+        const double stopped = some_target_ ? hits_.cut_off(k, range) : 0;
+        if (stopped >= 1) return;
         const float at = column(ray, range), half = (std::min)(half_length(ray, range, dx, ddown), most);
         const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
         const float slope = p.slope + f * (q.slope - p.slope);
         const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
-        const float facing =
-            (slope * sine + cosine) / numeric::square_root(1 + slope * slope + slope_along * slope_along);
-        const float power =
-            power_of(k, range, facing) * materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
-        spread(at - half, at + half, [&](echo_bin& bin, float share, float) { bin.bottom += power * share; });
+        const auto upright = static_cast<float>(ping.cosine_pitch()), ahead = static_cast<float>(ping.sine_pitch());
+        const float facing = (slope * sine + cosine * (upright + slope_along * ahead)) /
+                             numeric::square_root(1 + slope * slope + slope_along * slope_along);
+        const float power = static_cast<float>(1 - stopped) * power_of(k, range, facing) *
+                            materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
+        spread(at - half, at + half, [&](std::size_t bin, float share, float) { bins_[bin].bottom += power * share; });
     }
 
     void hear_targets() {
-        for (std::size_t k = 0; k < hits_.size(); ++k) {
-            const target_hit& hit = hits_[k];
-            if (!(static_cast<double>(hit.range) < 1e30)) continue;
-            spread(hit.low, hit.high, [&](echo_bin& bin, float share, float) {
-                const float power = hit.power * share;
-                bin.target += power;
-                if (power > bin.most_target) bin.most_target = power, bin.instance = hit.instance;
-            });
-        }
+        hits_.for_each([&](std::size_t k, const target_hit& hit) {
+            const double range = numeric::square_root(hit.square_range());
+            const float power = static_cast<float>(hit.share) * power_of(k, range, hit.facing) * hit.reflectivity;
+            const double a = place(hit.x0, hit.down0), b = place(hit.x1, hit.down1);
+            spread(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
+                   [&](std::size_t bin, float share, float) {
+                       bins_[bin].target += power * share;
+                       if constexpr (Labelled) echoing_.add(bin, hit.instance, power * share);
+                   });
+        });
     }
 
-    /// The target that stands between the sonar and a point of a ray, or is_lit.
-    std::uint16_t screen(std::size_t k, double x, double down) const {
-        const double range = numeric::square_root(x * x + down * down);
-        return k < hits_.size() && static_cast<double>(hits_[k].range) < range ? hits_[k].instance : labels::is_lit;
+    /// Gives each bin the names that have most of it.
+    void name_bins() {
+        if (!types_.empty())
+            for (std::size_t b = 0; b < bins_.size(); ++b) {
+                const auto [type, length] = types_.largest(b, labels::no_seabed);
+                if (length > bins_[b].of_seabed) bins_[b].seabed = static_cast<std::uint8_t>(type);
+            }
+        if (some_target_)
+            for (std::size_t b = 0; b < bins_.size(); ++b) {
+                echo_bin& bin = bins_[b];
+                bin.instance = echoing_.largest(b, labels::no_instance).name;
+                const auto [caster, length] = casting_.largest(b, labels::by_seabed);
+                bin.caster = length >= bin.dark_by_seabed ? caster : labels::by_seabed;
+            }
+        echoing_.clear(), casting_.clear(), types_.clear();
     }
-    /// Who hides bottom below the horizon; what a target keeps dark is the target's, even if the seabed would too.
+
+    /// The target that stands between the sonar and a point of ray k, or is_lit.
+    std::uint16_t screen(std::size_t k, double x, double down) const {
+        return hits_.screen(k, numeric::square_root(x * x + down * down));
+    }
+    /// What hides bottom below the horizon: a target, if one does, even where the seabed would too.
     std::uint16_t hider(double x, double down) const {
         const std::uint16_t target = some_target_ ? screen(fan_.first_over(x, down), x, down) : labels::is_lit;
         return target == labels::is_lit ? labels::by_seabed : target;
     }
 
-    /// Notes for the labels who keeps the bottom dark between two shares of the way from p to q.
+    /// Adds to the labels what keeps the bottom dark between two fractions of the way from p to q.
     void name(const bottom_point& p, const bottom_point& q, double px, double dx, double from, double to,
               std::uint16_t caster) {
         const double down = q.down - p.down;
         const double a = place(px + from * dx, p.down + from * down), b = place(px + to * dx, p.down + to * down);
         const std::uint8_t type = from + to < 1 ? p.type : q.type;
         spread(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
-               [&](echo_bin& bin, float, float length) {
+               [&](std::size_t number, float, float length) {
+                   echo_bin& bin = bins_[number];
                    if (caster == labels::is_lit)
                        bin.lit += length;
                    else if (caster == labels::by_seabed)
                        bin.dark_by_seabed += length;
                    else
-                       bin.dark_by_target += length, bin.caster = caster;
-                   if (length > bin.most_bottom) bin.most_bottom = length, bin.seabed = type;
+                       bin.dark_by_target += length, casting_.add(number, caster, length);
+                   if (bin.seabed == labels::no_seabed) bin.seabed = type;
+                   if (bin.seabed == type)
+                       bin.of_seabed += length;
+                   else
+                       types_.add(number, type, length);
                });
     }
 
-    /// Calls `visit(bin, share, length)` for the bins from `low` to `high`.
+    /// Calls `visit(number of the bin, share, length)` for the bins from `low` to `high`.
     template <class Visit>
     void spread(float low, float high, const Visit& visit) {
         if (!(high > 0 && low < static_cast<float>(bins_.size()))) return;
         const auto first = static_cast<std::int64_t>(low > 0 ? low : 0.0f);
         const auto last = (std::min)(static_cast<std::int64_t>(high), static_cast<std::int64_t>(bins_.size()) - 1);
         if (first == last && low >= static_cast<float>(first) && high <= static_cast<float>(first + 1)) {
-            visit(bins_[static_cast<std::size_t>(first)], 1.0f, high - low);
+            visit(static_cast<std::size_t>(first), 1.0f, high - low);
             return;
         }
         const float scale = 1 / (high - low);
         for (std::int64_t b = first; b <= last; ++b) {
             const float from = (std::max)(low, static_cast<float>(b)), to = (std::min)(high, static_cast<float>(b + 1));
-            if (to > from) visit(bins_[static_cast<std::size_t>(b)], (to - from) * scale, to - from);
+            if (to > from) visit(static_cast<std::size_t>(b), (to - from) * scale, to - from);
         }
     }
 
@@ -21574,8 +22676,8 @@ class ping_listener {
         return static_cast<float>(numeric::magnitude(half));
     }
 
-    /// What a surface of reflectivity one sends back of a ray: its area, seen from here, over the sine of grazing, by
-    /// law.
+    /// Power that a surface of reflectivity one returns from a ray: its projected area over the sine of the grazing
+    /// angle, times the law.
     float power_of(std::size_t k, double range, float facing) const {
         const float sine = (std::min)((std::max)(facing, 1e-3f), 1.0f);
         return static_cast<float>(range) * carried_[k] * law_(sine) / sine;
@@ -21591,13 +22693,16 @@ class ping_listener {
     double range_, first_range_, bin_, step_, profile_step_, farthest_ = 0;
     std::size_t first_point_;
     float spacing_;
-    double top_, lowest_ = 0, highest_ = 0;
+    double top_ = -1e30, foot_ = 1e30;         ///< of all targets
+    double lowest_ = 0, highest_ = 0;          ///< of the bottom below the ping
+    std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
     std::vector<float> carried_;
     std::vector<bottom_point> profile_;
-    std::vector<target_hit> hits_;
+    target_hits hits_;
     bool some_target_ = false;
     std::vector<echo_bin> bins_;
+    name_tally echoing_, casting_, types_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail
@@ -21755,7 +22860,7 @@ concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(dou
 };
 }  // namespace detail
 
-/// Anything that `sonar_equation` knows how to use: one of the above, or your own type with one of their functions.
+/// A part of the sonar equation: one of the above, or a user's own type with one of their functions.
 template <class P>
 concept equation_part = detail::direction_part<P> || detail::range_part<P> || detail::footprint_part<P> ||
     detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;
@@ -21840,14 +22945,14 @@ class sonar_equation {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/slant_range.hpp ------------------------------------------------------------
-// Pictures in the sonar's own geometry: pings by ranges, with water column, first return, layover and shadows, and
-// labels for every bin. See ping_echo.hpp for how a ping is heard.
+// Side-scan pictures, pings by ranges: water column, first return, layover and shadows, with labels for every bin. See
+// ping_echo.hpp for the echo of one ping.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// How to record; the types say what is in it.
+/// Options of recordings. What the types leave out is not compiled.
 template <class Labels = labels, backscatter_law Law = lambert_backscatter, class Equation = sonar_equation<level_gain>>
 struct record_options {
     Law law{};
@@ -21857,22 +22962,18 @@ struct record_options {
     /// of 0.9, 1.5 and 3.4 % of the bins differ on ripples, of 3.6, 5.3 and 11 % on rock; and amplitudes by 7, 10 and
     /// 19 % (rms) on ripples.
     double cell = 0;
-};
 
-/// How large the intermediate things were.
-struct record_stats {
-    std::uint64_t seabed_vertices = 0;  ///< sampled
-    double cell = 0;                    ///< metres between them
-};
-
-/// A picture with all that is known about it: a row per ping, a column per bin.
-template <class Labels = labels>
-struct recording {
-    insonify::image<float> image;  ///< intensity, linear, 0 and above; see sonar_equation.hpp for its unit
-    /// Or no_labels. `shadow` names who keeps most of a bin's bottom dark, `instance` the target that sends back more
-    /// than the bottom does; a bin without bottom (the water column) has neither, and no seabed type.
-    Labels labels;
-    record_stats stats;
+    /// The same options with another sonar equation, another law, or without labels:
+    /// `record_options<>{}.with(sonar_equation{pulse{}, level_gain{}})`.
+    template <class... Parts>
+    record_options<Labels, Law, sonar_equation<Parts...>> with(const sonar_equation<Parts...>& other) const {
+        return {law, other, cell};
+    }
+    template <backscatter_law Other>
+    record_options<Labels, Other, Equation> with(const Other& other) const {
+        return {other, equation, cell};
+    }
+    record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
 };
 
 namespace detail {
@@ -21911,12 +23012,11 @@ class recorder {
         validate(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "metres, or 0");
-        for (const ping& p : track)
-            require(numeric::is_finite(p.position.x + p.position.y + p.position.z + p.yaw), "ping.position",
-                    p.position.x + p.position.y + p.position.z + p.yaw, "finite");
+        for (const ping& p : track) validate(p);
+        out_.rows.side = rig.side;
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
         materials_ = resolved_bottom(s);
-        for (const target& t : s.targets) targets_.emplace_back(t);
+        targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
         out_.image = filled(rig.bins, height, 0.0f, ex);
         if constexpr (labelled) {
@@ -21926,7 +23026,7 @@ class recorder {
     }
 
     template <executor E>
-    recording<Labels> record(E& ex) {
+    frame<Labels> record(E& ex) {
         hear(ex);
         if constexpr (Equation::has_beam)
             options_.equation.for_each([&](const auto& part) {
@@ -21975,7 +23075,7 @@ class recorder {
                 for (std::size_t i = from; i < to; ++i) keep(start + i, ears.hear(frames[i]), over_range);
             });
         }
-        out_.stats.seabed_vertices = bottom.sampled();
+        out_.stats.seabed_samples = bottom.sampled();
     }
 
     /// Writes what one ping heard.
@@ -22085,7 +23185,7 @@ class recorder {
     options_type options_;
     bottom_materials materials_;
     std::vector<sliced_target> targets_;
-    recording<Labels> out_;
+    frame<Labels> out_;
 };
 
 /// Fills in labels::targets anew, for images that were put together from those of described labels.
@@ -22110,23 +23210,41 @@ image<T> rows_of(const image<T>& source, int first, int count) {
 /// @param track    pings in order; row i of the recording is ping i
 /// @param rig      ranges, side and ping spacing; its own track isn't used
 /// @param options  types of labels, law and sonar equation, and how finely the seabed is sampled
-/// @param ex       who runs it; the result is the same bytes for any executor
+/// @param ex       runs it; the result is the same bytes for any executor
 /// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option that can't be right
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-recording<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
-                         const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+frame<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
+                     const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
     auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
     if constexpr (std::is_same_v<Labels, labels>) describe_targets(out.labels, s.targets);
     return out;
 }
 
-/// Draws a scene as a side-scan sonar on a straight track hears it, or as a map of what it hears: see side_scan_rig.
-/// The top row is the last ping. The other parameters are those of `record`.
+/// Records a few pings into memory of the caller's: row i of `into` becomes ping i.
+/// @param into     rig.bins columns, a row per ping; it may be a part of a larger image
+/// The other parameters and errors are those of `record`; it also throws invalid_input for a view of another size,
+/// which is then untouched.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
-                         const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+render_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
+                         const side_scan_rig<Axis>& rig, const record_options<Labels, Law, Equation>& options = {},
+                         E&& ex = {}) {
+    detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
+    detail::require(static_cast<std::size_t>(into.height()) == track.size(), "into.height()", into.height(),
+                    "that of the pings");
+    const auto heard = record(s, track, rig, options.without_labels(), ex);
+    for (int y = 0; y < into.height(); ++y)
+        std::copy(heard.image.row(y).begin(), heard.image.row(y).end(), into.row(y).begin());
+    return heard.stats;
+}
+
+/// Draws a scene as a side-scan sonar on a straight track hears it, or as a map of what it hears: see side_scan_rig.
+/// Row i is ping i. The other parameters are those of `record`.
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
+                     const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
     validate(rig);
     // The beam hears beyond the ends of the track.
     int more = 0;
@@ -22135,7 +23253,7 @@ recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
             if constexpr (detail::footprint_part<decltype(part)>) more = detail::beam_reach(part, rig);
         });
     std::vector<ping> track;
-    for (int i = rig.pings - 1 + more; i >= -more; --i) track.push_back(ping_of(rig, i));
+    for (int i = -more; i < rig.pings + more; ++i) track.push_back(ping_of(rig, i));
     auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
     if (more > 0) out.image = detail::rows_of(out.image, more, rig.pings);
     if constexpr (std::is_same_v<Labels, labels>) {
@@ -22153,9 +23271,103 @@ recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/sonar/swath.hpp ------------------------------------------------------------------
+// Both sides of the track in one picture.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// The picture with left and right exchanged: what grew to the right grows to the left.
+template <class T>
+image<T> mirrored(const image<T>& source) {
+    image<T> out(source.width(), source.height());
+    for (int y = 0; y < source.height(); ++y)
+        std::reverse_copy(source.row(y).begin(), source.row(y).end(), out.row(y).begin());
+    return out;
+}
+
+/// The picture turned by half a turn: that of a rig which looks the other way, with forward up again.
+template <class T>
+image<T> turned(const image<T>& source) {
+    image<T> out(source.width(), source.height());
+    std::reverse_copy(source.pixels().begin(), source.pixels().end(), out.pixels().begin());
+    return out;
+}
+
+/// The recording with its last ping on top, so that up is forward, as in overhead pictures.
+template <class Labels>
+frame<Labels> upside_down(frame<Labels> r) {
+    const auto turn = [](auto& picture) {
+        for (int y = 0; 2 * y < picture.height() - 1; ++y)
+            std::swap_ranges(picture.row(y).begin(), picture.row(y).end(),
+                             picture.row(picture.height() - 1 - y).begin());
+    };
+    turn(r.image);
+    if constexpr (std::is_same_v<Labels, labels>) {
+        turn(r.labels.instance), turn(r.labels.shadow), turn(r.labels.seabed);
+        detail::describe_again(r.labels);
+    }
+    r.rows.first += static_cast<std::int64_t>(r.image.height() - 1) * r.rows.step;
+    r.rows.step = -r.rows.step;
+    return r;
+}
+
+/// Two pictures side by side, `gap` columns of `fill` between them.
+///
+/// `beside(turned(port.image), starboard.image, gap)` of two frames of `overhead`, the one with its yaw half a turn
+/// further, is the paper's stitched picture; its dead zone is the gap.
+/// @throws invalid_input for pictures of different heights, or a negative gap
+template <class T>
+image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
+    detail::require(left.height() == right.height(), "right.height()", right.height(), "that of the left picture");
+    detail::require(gap >= 0, "gap", gap, "at least 0");
+    image<T> out(left.width() + gap + right.width(), left.height(), fill);
+    for (int y = 0; y < left.height(); ++y) {
+        std::copy(left.row(y).begin(), left.row(y).end(), out.row(y).begin());
+        std::copy(right.row(y).begin(), right.row(y).end(), out.row(y).begin() + left.width() + gap);
+    }
+    return out;
+}
+
+/// A port and a starboard recording of one track as one, port to the left: range grows from the middle outwards, and
+/// the water column, as wide as the sonar is high, lies between. `targets` of the labels describes both sides.
+template <class Labels>
+frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
+    frame<Labels> out;
+    out.image = beside(mirrored(port.image), starboard.image);
+    out.stats = port.stats;
+    out.stats.seabed_samples += starboard.stats.seabed_samples;
+    out.rows = starboard.rows;
+    out.rows.port_columns = port.image.width();
+    if constexpr (std::is_same_v<Labels, labels>) {
+        out.labels.instance = beside(mirrored(port.labels.instance), starboard.labels.instance);
+        out.labels.shadow = beside(mirrored(port.labels.shadow), starboard.labels.shadow);
+        out.labels.seabed = beside(mirrored(port.labels.seabed), starboard.labels.seabed);
+        out.labels.targets = starboard.labels.targets;
+        out.labels.legend = starboard.labels.legend;
+        detail::describe_again(out.labels);
+    }
+    return out;
+}
+
+/// Draws both sides of a straight track; the rig's own side doesn't matter. See `render`.
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+frame<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
+                           const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+    rig.side = side::port;
+    const auto port = render(s, rig, options, ex);
+    rig.side = side::starboard;
+    return both_sides(port, render(s, rig, options, ex));
+}
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/speckle.hpp ----------------------------------------------------------------
-// Speckle that belongs to the seabed: how echoes fluctuate depends on what the bottom is, and a ping's speckle is the
-// same whenever it is recorded.
+// Speckle by seabed label, keyed by ping and bin: recordings made in pieces have the same speckle.
 //
 // The fluctuation of a bin is a function of (seed, side, ping number, bin) and nothing else: recordings made in pieces
 // fit together, and the two sides are independent.
@@ -22199,25 +23411,12 @@ struct seabed_speckle {
     std::uint64_t seed = 1;
 };
 
-/// Which speckle the rows of a picture have.
-struct ping_numbers {
-    std::int64_t first = 0;  ///< of the top row
-    int step = 1;            ///< from row to row
-    insonify::side side = insonify::side::starboard;
-};
-
-/// Those of a picture that `render` made: its top row is the last ping.
-template <across_track Axis>
-ping_numbers numbers_of(const side_scan_rig<Axis>& rig) {
-    return {rig.pings - 1, -1, rig.side};
-}
-
 namespace detail {
 
-/// What a number is drawn for; part of what a seed means.
+/// Random streams; changing one changes the noise of every seed.
 enum class speckle_stream : std::uint32_t { field = 0x73706B00, texture = 0x73706B02, choice = 0x73706B04 };
 
-/// Draws that are told apart by ping and bin.
+/// Random numbers keyed by ping and bin.
 class ping_noise {
   public:
     ping_noise(std::uint64_t seed, side s, speckle_stream stream)
@@ -22287,7 +23486,7 @@ class speckle_field {
 };
 
 /// The K-distribution's mean: gamma-distributed at the nodes of a lattice. A bin takes that of one of the four nodes
-/// around it, by lot, the nearer the likelier: so textures are correlated, and distributed as they should be.
+/// around it, chosen at random with the bilinear weights, so that textures are correlated and keep their distribution.
 class speckle_texture {
   public:
     speckle_texture(const seabed_speckle& s, side looks)
@@ -22390,12 +23589,27 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
     return s;
 }
 
-/// The same recording with speckle: of one side, as `render` made it of this rig.
-template <across_track Axis, executor_argument E = serial_executor>
-recording<labels> with_speckle(recording<labels> r, const side_scan_rig<Axis>& rig, const seabed_speckle& s = {},
-                               E&& ex = {}) {
-    r.image =
-        with_speckle(r.image.view(), r.labels.seabed.view(), with_legend(s, r.labels.legend), numbers_of(rig), ex);
+/// The same recording with speckle; its rows say which pings they are, and its legend which laws own labels have.
+template <executor_argument E = serial_executor>
+frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
+    const seabed_speckle laws = with_legend(s, r.labels.legend);
+    const int port = r.rows.port_columns;
+    if (port == 0) {
+        r.image = with_speckle(r.image.view(), r.labels.seabed.view(), laws, r.rows, ex);
+        return r;
+    }
+    const auto channel = [&](side looks, int left, int width) {
+        const bool is_port = looks == side::port;
+        const auto part = [&](const auto& picture) {
+            const std::remove_cvref_t<decltype(picture)> cut(picture.view().part(left, 0, width, picture.height()));
+            return is_port ? mirrored(cut) : cut;
+        };
+        const auto mean = part(r.image);
+        const auto types = part(r.labels.seabed);
+        const auto noisy = with_speckle(mean.view(), types.view(), laws, {r.rows.first, r.rows.step, looks}, ex);
+        return is_port ? mirrored(noisy) : noisy;
+    };
+    r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));
     return r;
 }
 
@@ -22522,10 +23736,10 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// @param r    as `render` made it of this rig: before noise and speckle
 /// @throws invalid_input for a parameter out of its range
 template <across_track Axis, executor_argument E = serial_executor>
-recording<labels> with_tone(recording<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
+frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     const detail::tone_sampler level(tone);
     if (tone.is_none()) return r;
-    const ping_numbers numbers = numbers_of(rig);
+    const ping_numbers numbers = r.rows;
     const double altitude = static_cast<double>(rig.altitude), first = static_cast<double>(rig.first_range);
     bulk_ranges(ex, static_cast<std::size_t>(r.image.height()), 16, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {
@@ -23052,7 +24266,7 @@ INSONIFY_ARITHMETIC_END
 // The closed forms of side-scan geometry over a level bottom: ranges, shadows, layover and what is measured from them.
 //
 // Lengths are metres. `altitude` is the sonar's above the bottom, `ground` a distance across the track on the bottom,
-// `height` that of a point above the bottom. Answers that don't exist are 0 (a distance inside the water column) or
+// `height` that of a point above the bottom. Results that don't exist are 0 (a distance inside the water column) or
 // infinity (the shadow of what reaches the sonar's height), never NaN for finite arguments.
 //
 // Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
@@ -23140,15 +24354,16 @@ namespace insonify::inline INSONIFY_ABI {
 /// @param altitudes  of the sonar above the bottom, one per row from the top, or none: then all are the rig's
 /// @throws invalid_input for a rig that can't be right, or a number of altitudes that is neither 0 nor that of rows
 template <class Labels>
-recording<Labels> to_ground_range(const recording<Labels>& slant, const side_scan& from, const ground_range& to,
-                                  std::span<const double> altitudes = {}) {
+frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from, const ground_range& to,
+                              std::span<const double> altitudes = {}) {
     validate(from), validate(to);
     const int rows = slant.image.height(), bins = slant.image.width();
     detail::require(bins == from.bins, "from.bins", from.bins, "the recording's width");
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");
-    recording<Labels> out;
+    frame<Labels> out;
     out.stats = slant.stats;
+    out.rows = slant.rows;
     out.image = image<float>(to.bins, rows);
     if constexpr (std::is_same_v<Labels, labels>) {
         out.labels = labels(to.bins, rows);
@@ -23178,81 +24393,6 @@ recording<Labels> to_ground_range(const recording<Labels>& slant, const side_sca
     }
     if constexpr (std::is_same_v<Labels, labels>) detail::describe_again(out.labels);
     return out;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/swath.hpp ------------------------------------------------------------------
-// Both sides of the track in one picture.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// The picture with left and right exchanged: what grew to the right grows to the left.
-template <class T>
-image<T> mirrored(const image<T>& source) {
-    image<T> out(source.width(), source.height());
-    for (int y = 0; y < source.height(); ++y)
-        std::reverse_copy(source.row(y).begin(), source.row(y).end(), out.row(y).begin());
-    return out;
-}
-
-/// The picture turned by half a turn: that of a rig which looks the other way, with forward up again.
-template <class T>
-image<T> turned(const image<T>& source) {
-    image<T> out(source.width(), source.height());
-    std::reverse_copy(source.pixels().begin(), source.pixels().end(), out.pixels().begin());
-    return out;
-}
-
-/// Two pictures side by side, `gap` columns of `fill` between them.
-///
-/// `beside(turned(port.image), starboard.image, gap)` of two frames of `overhead`, the one with its yaw half a turn
-/// further, is the paper's stitched picture; its dead zone is the gap.
-/// @throws invalid_input for pictures of different heights, or a negative gap
-template <class T>
-image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
-    detail::require(left.height() == right.height(), "right.height()", right.height(), "that of the left picture");
-    detail::require(gap >= 0, "gap", gap, "at least 0");
-    image<T> out(left.width() + gap + right.width(), left.height(), fill);
-    for (int y = 0; y < left.height(); ++y) {
-        std::copy(left.row(y).begin(), left.row(y).end(), out.row(y).begin());
-        std::copy(right.row(y).begin(), right.row(y).end(), out.row(y).begin() + left.width() + gap);
-    }
-    return out;
-}
-
-/// A port and a starboard recording of one track as one, port to the left: range grows from the middle outwards, and
-/// the water column, as wide as the sonar is high, lies between. `targets` of the labels tells of both sides.
-template <class Labels>
-recording<Labels> both_sides(const recording<Labels>& port, const recording<Labels>& starboard) {
-    recording<Labels> out;
-    out.image = beside(mirrored(port.image), starboard.image);
-    out.stats = port.stats;
-    out.stats.seabed_vertices += starboard.stats.seabed_vertices;
-    if constexpr (std::is_same_v<Labels, labels>) {
-        out.labels.instance = beside(mirrored(port.labels.instance), starboard.labels.instance);
-        out.labels.shadow = beside(mirrored(port.labels.shadow), starboard.labels.shadow);
-        out.labels.seabed = beside(mirrored(port.labels.seabed), starboard.labels.seabed);
-        out.labels.targets = starboard.labels.targets;
-        out.labels.legend = starboard.labels.legend;
-        detail::describe_again(out.labels);
-    }
-    return out;
-}
-
-/// Draws both sides of a straight track; the rig's own side doesn't matter. See `render`.
-template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
-          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-recording<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
-                               const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
-    rig.side = side::port;
-    const auto port = render(s, rig, options, ex);
-    rig.side = side::starboard;
-    return both_sides(port, render(s, rig, options, ex));
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

@@ -2,9 +2,9 @@
 //
 // A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
 // values go through it at a time. Its arithmetic is the same in every lane at every N, and products are never fused
-// with sums, so all levels give the same bytes; N = 1 is plain scalar code. Kernels that gain by AVX-512 say how many
-// values at a time are best there, `static constexpr int widest = 16` (or 8, for its registers alone); others stay at
-// AVX2.
+// with sums, so all levels give the same bytes; N = 1 is plain scalar code, compiled where INSONIFY_SIMD is 0. Kernels
+// that gain by AVX-512 say how many values at a time are best there, `static constexpr int widest = 16`; others stay at
+// AVX2. That is for kernels that gain more than a tenth: each copy costs compile time.
 #pragma once
 
 #include <insonify/core/error.hpp>
@@ -15,7 +15,7 @@ namespace insonify::inline INSONIFY_ABI {
 
 /// Instruction sets that kernels are compiled for, slowest first.
 enum class isa {
-    scalar,    ///< one value at a time
+    scalar,    ///< one value at a time: builds with INSONIFY_SIMD=0; others take it for `baseline`
     baseline,  ///< the 128-bit vectors that every processor of the target has (SSE2, NEON)
     avx2,      ///< 256-bit integer and float vectors
     avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
@@ -64,9 +64,10 @@ void dispatch(const Kernel& kernel, isa level) {
     if (level >= isa::avx2) return run_avx2(kernel);
 #endif
 #if INSONIFY_SIMD
-    if (level == isa::baseline) return kernel.template run<4>();
-#endif
+    kernel.template run<4>();
+#else
     kernel.template run<1>();
+#endif
 }
 
 }  // namespace detail

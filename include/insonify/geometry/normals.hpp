@@ -9,6 +9,7 @@
 #include <insonify/geometry/mesh.hpp>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -42,6 +43,23 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
         normals[i] = length > 0 ? glm::vec3(sums[i] / length) : glm::vec3(0, 0, 1);
     }
     return normals;
+}
+
+/// Turns over each triangle whose three corner normals all point to its back: normals decide which side is outside.
+/// @param m  its indices have positions, and positions have normals
+/// @returns how many were turned
+inline std::size_t wind_by_normals(mesh& m) {
+    std::size_t turned = 0;
+    for (glm::uvec3& t : m.triangles) {
+        const glm::dvec3 a(m.positions[t.x]), b(m.positions[t.y]), c(m.positions[t.z]);
+        const glm::dvec3 facet = numeric::cross(b - a, c - a);
+        bool is_back = true;
+        for (int i = 0; i < 3; ++i) is_back = is_back && numeric::dot(facet, glm::dvec3(m.normals[t[i]])) < 0;
+        if (!is_back) continue;
+        std::swap(t.y, t.z);
+        ++turned;
+    }
+    return turned;
 }
 
 }  // namespace insonify::inline INSONIFY_ABI

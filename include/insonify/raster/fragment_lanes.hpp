@@ -141,7 +141,6 @@ class fragment_lanes {
 /// part of a row before any of it is shaded: either is one long chain, and so neighbours' chains run side by side.
 template <class Screen, class Varyings, class Shader>
 struct shading_kernel {
-    static constexpr int widest = 8;  // of AVX-512 its registers help, wider vectors don't
     const Screen& screen;
     const vertex_record<Varyings>* records;
     tile_buffer<true>& tile;

@@ -30,7 +30,11 @@ class bottom_tiles {
 
     /// @param spacing  metres between vertices; what `even` makes of it is taken
     bottom_tiles(const seabed::any& source, double spacing)
-        : prepared_(source.prepare()), spacing_(even(spacing)), scale_(1 / spacing_) {}
+        : is_empty_(source.empty()),
+          prepared_(source.prepare()),
+          range_(prepared_.range()),
+          spacing_(even(spacing)),
+          scale_(1 / spacing_) {}
 
     /// A length whose multiples are exact, so that a vertex is the same in whatever row it is sampled.
     static double even(double length) {
@@ -42,6 +46,7 @@ class bottom_tiles {
     /// @param from, reach  metres from each ping, on the side it looks to
     template <executor E>
     void cover(std::span<const ping_frame> pings, double from, double reach, E& ex) {
+        if (is_empty_) return;
         const double side = cells * spacing_;
         // Lines of sight in steps of half a tile: the boxes around the steps hold every tile that is touched.
         const double looked_at = reach - from;
@@ -53,25 +58,35 @@ class bottom_tiles {
         };
         std::int64_t last_x = -(std::int64_t{1} << 60), last_y = last_x;
         first_x_ = first_y_ = -last_x;
-        for (const ping_frame& p : pings)
-            for (const double x : {from, step(steps + 1)}) {
-                const auto [tile_x, tile_y] = tile_of(p.world(x, 0));
-                first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
-                last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
-            }
+        for (const ping_frame& p : pings) {
+            const auto [least, most] = depths(p);
+            for (const double x : {from, step(steps + 1)})
+                for (const double down : {least, most}) {
+                    const auto [tile_x, tile_y] = tile_of(p.below(x, down));
+                    first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
+                    last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
+                }
+        }
         columns_ = last_x - first_x_ + 1;
         const std::int64_t rows = last_y - first_y_ + 1;
         require(columns_ * rows < (1 << 26), "seabed tiles", columns_ * rows, "below 2^26: take larger cells");
         slots_.assign(static_cast<std::size_t>(columns_ * rows), absent);
-        for (const ping_frame& p : pings)
+        for (const ping_frame& p : pings) {
+            const auto [least, most] = depths(p);
             for (int i = 0; i < steps; ++i) {
-                const auto [ax, ay] = tile_of(p.world(step(i), 0));
-                const auto [bx, by] = tile_of(p.world(step(i + 1), 0));
-                for (std::int64_t y = (std::min)(ay, by); y <= (std::max)(ay, by); ++y)
-                    for (std::int64_t x = (std::min)(ax, bx); x <= (std::max)(ax, bx); ++x) slots_[slot_of(x, y)] = 0;
+                auto [ax, ay] = tile_of(p.below(step(i), least));
+                std::int64_t bx = ax, by = ay;
+                for (const auto& [x, y] : {tile_of(p.below(step(i + 1), least)), tile_of(p.below(step(i), most)),
+                                           tile_of(p.below(step(i + 1), most))}) {
+                    ax = (std::min)(ax, x), ay = (std::min)(ay, y);
+                    bx = (std::max)(bx, x), by = (std::max)(by, y);
+                }
+                for (std::int64_t y = ay; y <= by; ++y)
+                    for (std::int64_t x = ax; x <= bx; ++x) slots_[slot_of(x, y)] = 0;
             }
+        }
 
-        // Recipes like long rows: neighbours along x are sampled together.
+        // Long rows are cheaper per sample: neighbours along x are sampled together.
         std::vector<tile_run> runs;
         std::uint32_t tiles = 0;
         for (std::int64_t y = 0; y < rows; ++y)
@@ -93,6 +108,7 @@ class bottom_tiles {
 
     /// The bottom at a world position that is covered; bilinear in the cell, of the nearest vertex's type.
     bottom_vertex at(double x, double y) const {
+        if (is_empty_) return {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0};
         const double u = x * scale_, v = y * scale_;
         const std::int64_t cell_x = numeric::floor_to_int(u), cell_y = numeric::floor_to_int(v);
         const auto right = static_cast<float>(u - static_cast<double>(cell_x));
@@ -111,6 +127,12 @@ class bottom_tiles {
                 wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
     }
 
+    /// Clamps a depth to those bounds; NaN becomes the least.
+    double clamped(const ping_frame& p, double depth) const {
+        const auto [least, most] = depths(p);
+        return depth > least ? (std::min)(depth, most) : least;
+    }
+
     /// Vertices evaluated so far.
     std::uint64_t sampled() const { return sampled_; }
 
@@ -123,6 +145,15 @@ class bottom_tiles {
 
     std::size_t slot_of(std::int64_t x, std::int64_t y) const {
         return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
+    }
+
+    /// Bounds of the bottom's depth along a fan; used for pitched fans only.
+    /// @throws invalid_input for pitched pings over a seabed that does not state its heights
+    std::pair<double, double> depths(const ping_frame& p) const {
+        if (p.is_level() || range_.empty()) return {0, 0};
+        seabed::detail::require_finite(range_);
+        return {(p.position().z - range_.highest) / p.cosine_pitch(),
+                (p.position().z - range_.lowest) / p.cosine_pitch()};
     }
 
     /// Tiles side by side.
@@ -161,7 +192,9 @@ class bottom_tiles {
         }
     }
 
+    bool is_empty_;
     seabed::any_sampler prepared_;
+    seabed::height_range range_;
     double spacing_, scale_;
     std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0;
     std::vector<std::uint32_t> slots_;

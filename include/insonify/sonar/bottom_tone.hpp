@@ -120,10 +120,10 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// @param r    as `render` made it of this rig: before noise and speckle
 /// @throws invalid_input for a parameter out of its range
 template <across_track Axis, executor_argument E = serial_executor>
-recording<labels> with_tone(recording<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
+frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     const detail::tone_sampler level(tone);
     if (tone.is_none()) return r;
-    const ping_numbers numbers = numbers_of(rig);
+    const ping_numbers numbers = r.rows;
     const double altitude = static_cast<double>(rig.altitude), first = static_cast<double>(rig.first_range);
     bulk_ranges(ex, static_cast<std::size_t>(r.image.height()), 16, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {

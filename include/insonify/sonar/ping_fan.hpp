@@ -13,12 +13,11 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// What a fan is made for. Heights of the sonar above things are rounded so that few different fans serve a whole
-/// track.
+/// Parameters of a fan. Heights are rounded so that few different fans serve a whole track.
 struct fan_shape {
-    double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: nothing to be seen
+    double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: no rays
     double above_highest = 1;  ///< over the highest bottom
-    double above_all = 1;      ///< over the highest of targets and bottom; not above 0: rays go up to 45 degrees
+    double above_all = 1;      ///< over the highest of targets and bottom; not above 0: rays go up to the zenith
 
     friend bool operator==(const fan_shape&, const fan_shape&) = default;
 
@@ -69,9 +68,11 @@ class ping_fan {
             const double cosine = 1 / numeric::square_root(1 + tangent * tangent);
             rays_.push_back({tangent * cosine, cosine, spacing * cosine * cosine});
         }
+        spacing_ = spacing, first_ = static_cast<double>(first), wall_first_ = static_cast<double>(last);
         const double from = numeric::atan2(static_cast<double>(last) * spacing, 1);
-        const double up_to = shape.above_all > 0 ? numeric::atan2(range, shape.above_all) : 0.75 * numeric::pi;
+        const double up_to = shape.above_all > 0 ? numeric::atan2(range, shape.above_all) : numeric::pi;
         const double angle = step / range;
+        wall_from_ = from, wall_angle_ = angle;
         for (std::int64_t i = 0; from + angle * static_cast<double>(i) < up_to; ++i) {
             const auto [sine, cosine] = numeric::sin_cos(from + angle * (static_cast<double>(i) + 0.5));
             rays_.push_back({sine, cosine, angle});
@@ -92,9 +93,34 @@ class ping_fan {
         return static_cast<std::size_t>(at - rays_.begin());
     }
 
+    /// Number of the first ray. Rays are numbered from nadir, so that fans that begin farther out agree with others.
+    std::size_t first() const { return static_cast<std::size_t>(first_); }
+    /// Where a point lies among the rays: ray i, whose number is first() + i, covers [number, number + 1). Clamped to
+    /// the rays that there are.
+    double coordinate(double x, double down) const {
+        double t = down > 0 ? x / down / spacing_ : wall_first_;
+        if (t >= wall_first_) t = wall_first_ + (numeric::atan2(x, down) - wall_from_) / wall_angle_;
+        return (std::min)((std::max)(t, first_), first_ + static_cast<double>(size()));
+    }
+    struct direction {
+        double sine, cosine;  ///< across and down
+    };
+    /// The inverse of `coordinate`.
+    direction at(double t) const {
+        if (t >= wall_first_) {
+            const auto [sine, cosine] = numeric::sin_cos(wall_from_ + wall_angle_ * (t - wall_first_));
+            return {sine, cosine};
+        }
+        const double tangent = t * spacing_;
+        const double cosine = 1 / numeric::square_root(1 + tangent * tangent);
+        return {tangent * cosine, cosine};
+    }
+
   private:
     fan_shape shape_{0, 0, 0};
     std::vector<ray> rays_;
+    double spacing_ = 1, first_ = 0;                          ///< of level ground: tangents per ray, the first number
+    double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond it: the first number, radians
 };
 
 }  // namespace insonify::inline INSONIFY_ABI::detail

@@ -22,17 +22,29 @@ enum class across_track {
     ground_range,  ///< the place on the bottom: a map, with the shadows of the same source
 };
 
-/// One ping.
+/// One ping: where the sonar is, and its attitude. Rotations apply as for ships: yaw first, then pitch, then roll.
 struct ping {
-    glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum
+    glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum, heave included
     double yaw = 0;                ///< radians: 0 travels towards +y, with starboard at +x; counter-clockwise
+    double pitch = 0;              ///< radians, positive with the bow up: tilts the fan forward, below +-80 degrees
+    double roll = 0;               ///< radians, positive with starboard down: turns the beams within the fan
 };
+
+/// @throws invalid_input for a value that can't be right
+inline void validate(const ping& p) {
+    const double sum = p.position.x + p.position.y + p.position.z + p.yaw;
+    detail::require(numeric::is_finite(sum), "ping.position", sum, "finite");
+    detail::require(numeric::magnitude(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
+                    "at most 80 degrees, in radians");
+    detail::require(numeric::is_finite(p.roll), "ping.roll", p.roll, "a finite angle");
+}
 
 /// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
 /// all else stays the same.
 ///
-/// A picture of it has a row per ping and a column per bin. Its top row is the last ping, so that up is forward; its
-/// left column is the first bin on either side, so that range grows and shadows fall to the right.
+/// A picture of it has a row per ping and a column per bin. Row i is ping i, the first on top, as in every recording of
+/// range modes (`upside_down` turns it so that up is forward); its left column is the first bin on either side, so that
+/// range grows and shadows fall to the right.
 template <across_track Axis>
 struct side_scan_rig {
     static constexpr across_track axis = Axis;
@@ -90,7 +102,8 @@ std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     return track;
 }
 
-/// A ping's own frame: x away from it on the side it looks to, u along the track, z up from the sonar.
+/// A ping's own frame: x away from it on the side it looks to, level; u along the sonar's axis; z up from the sonar.
+/// The fan is the plane u = 0, which a pitch tilts from the vertical.
 class ping_frame {
   public:
     ping_frame(const ping& p, side looks) : position_(p.position) {
@@ -98,19 +111,32 @@ class ping_frame {
         const double sign = looks == side::starboard ? 1 : -1;
         across_ = {sign * cosine, sign * sine};
         along_ = {-sine, cosine};
+        const numeric::sine_cosine pitch = numeric::sin_cos(p.pitch), roll = numeric::sin_cos(p.roll);
+        sine_pitch_ = pitch.sine, cosine_pitch_ = pitch.cosine;
+        sine_roll_ = sign * roll.sine, cosine_roll_ = roll.cosine;
     }
     const glm::dvec3& position() const { return position_; }
     /// Unit vectors on the ground.
     const glm::dvec2& across() const { return across_; }
     const glm::dvec2& along() const { return along_; }
+    bool is_level() const { return sine_pitch_ == 0; }
+    double sine_pitch() const { return sine_pitch_; }
+    double cosine_pitch() const { return cosine_pitch_; }
+    /// Of the angle by which the side that is looked to is rolled down.
+    double sine_roll() const { return sine_roll_; }
+    double cosine_roll() const { return cosine_roll_; }
 
-    /// World coordinates of the bottom's datum below (x, u).
+    /// World coordinates of the datum below (x, u), u along the heading.
     glm::dvec2 world(double x, double u) const {
         return {position_.x + x * across_.x + u * along_.x, position_.y + x * across_.y + u * along_.y};
     }
+    /// World coordinates below the fan's point at (x, down).
+    glm::dvec2 below(double x, double down) const { return world(x, down * sine_pitch_); }
     /// (x, u, z) of a world vector.
     glm::dvec3 turned(const glm::dvec3& v) const {
-        return {v.x * across_.x + v.y * across_.y, v.x * along_.x + v.y * along_.y, v.z};
+        const double ahead = v.x * along_.x + v.y * along_.y;
+        return {v.x * across_.x + v.y * across_.y, ahead * cosine_pitch_ + v.z * sine_pitch_,
+                v.z * cosine_pitch_ - ahead * sine_pitch_};
     }
     /// (x, u, z) of a world position.
     glm::dvec3 operator()(const glm::dvec3& world) const { return turned(world - position_); }
@@ -118,6 +144,7 @@ class ping_frame {
   private:
     glm::dvec3 position_;
     glm::dvec2 across_, along_;
+    double sine_pitch_, cosine_pitch_, sine_roll_, cosine_roll_;
 };
 
 }  // namespace insonify::inline INSONIFY_ABI

@@ -1,16 +1,18 @@
-// Pictures in the sonar's own geometry: pings by ranges, with water column, first return, layover and shadows, and
-// labels for every bin. See ping_echo.hpp for how a ping is heard.
+// Side-scan pictures, pings by ranges: water column, first return, layover and shadows, with labels for every bin. See
+// ping_echo.hpp for the echo of one ping.
 #pragma once
 
+#include <insonify/core/filled.hpp>
+#include <insonify/sonar/backscatter.hpp>
+#include <insonify/sonar/frame.hpp>
 #include <insonify/sonar/ping_echo.hpp>
-#include <insonify/sonar/render.hpp>
 #include <insonify/sonar/sonar_equation.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// How to record; the types say what is in it.
+/// Options of recordings. What the types leave out is not compiled.
 template <class Labels = labels, backscatter_law Law = lambert_backscatter, class Equation = sonar_equation<level_gain>>
 struct record_options {
     Law law{};
@@ -20,22 +22,18 @@ struct record_options {
     /// of 0.9, 1.5 and 3.4 % of the bins differ on ripples, of 3.6, 5.3 and 11 % on rock; and amplitudes by 7, 10 and
     /// 19 % (rms) on ripples.
     double cell = 0;
-};
 
-/// How large the intermediate things were.
-struct record_stats {
-    std::uint64_t seabed_vertices = 0;  ///< sampled
-    double cell = 0;                    ///< metres between them
-};
-
-/// A picture with all that is known about it: a row per ping, a column per bin.
-template <class Labels = labels>
-struct recording {
-    insonify::image<float> image;  ///< intensity, linear, 0 and above; see sonar_equation.hpp for its unit
-    /// Or no_labels. `shadow` names who keeps most of a bin's bottom dark, `instance` the target that sends back more
-    /// than the bottom does; a bin without bottom (the water column) has neither, and no seabed type.
-    Labels labels;
-    record_stats stats;
+    /// The same options with another sonar equation, another law, or without labels:
+    /// `record_options<>{}.with(sonar_equation{pulse{}, level_gain{}})`.
+    template <class... Parts>
+    record_options<Labels, Law, sonar_equation<Parts...>> with(const sonar_equation<Parts...>& other) const {
+        return {law, other, cell};
+    }
+    template <backscatter_law Other>
+    record_options<Labels, Other, Equation> with(const Other& other) const {
+        return {other, equation, cell};
+    }
+    record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
 };
 
 namespace detail {
@@ -74,12 +72,11 @@ class recorder {
         validate(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "metres, or 0");
-        for (const ping& p : track)
-            require(numeric::is_finite(p.position.x + p.position.y + p.position.z + p.yaw), "ping.position",
-                    p.position.x + p.position.y + p.position.z + p.yaw, "finite");
+        for (const ping& p : track) validate(p);
+        out_.rows.side = rig.side;
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
         materials_ = resolved_bottom(s);
-        for (const target& t : s.targets) targets_.emplace_back(t);
+        targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
         out_.image = filled(rig.bins, height, 0.0f, ex);
         if constexpr (labelled) {
@@ -89,7 +86,7 @@ class recorder {
     }
 
     template <executor E>
-    recording<Labels> record(E& ex) {
+    frame<Labels> record(E& ex) {
         hear(ex);
         if constexpr (Equation::has_beam)
             options_.equation.for_each([&](const auto& part) {
@@ -138,7 +135,7 @@ class recorder {
                 for (std::size_t i = from; i < to; ++i) keep(start + i, ears.hear(frames[i]), over_range);
             });
         }
-        out_.stats.seabed_vertices = bottom.sampled();
+        out_.stats.seabed_samples = bottom.sampled();
     }
 
     /// Writes what one ping heard.
@@ -248,7 +245,7 @@ class recorder {
     options_type options_;
     bottom_materials materials_;
     std::vector<sliced_target> targets_;
-    recording<Labels> out_;
+    frame<Labels> out_;
 };
 
 /// Fills in labels::targets anew, for images that were put together from those of described labels.
@@ -273,23 +270,41 @@ image<T> rows_of(const image<T>& source, int first, int count) {
 /// @param track    pings in order; row i of the recording is ping i
 /// @param rig      ranges, side and ping spacing; its own track isn't used
 /// @param options  types of labels, law and sonar equation, and how finely the seabed is sampled
-/// @param ex       who runs it; the result is the same bytes for any executor
+/// @param ex       runs it; the result is the same bytes for any executor
 /// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option that can't be right
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-recording<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
-                         const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+frame<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
+                     const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
     auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
     if constexpr (std::is_same_v<Labels, labels>) describe_targets(out.labels, s.targets);
     return out;
 }
 
-/// Draws a scene as a side-scan sonar on a straight track hears it, or as a map of what it hears: see side_scan_rig.
-/// The top row is the last ping. The other parameters are those of `record`.
+/// Records a few pings into memory of the caller's: row i of `into` becomes ping i.
+/// @param into     rig.bins columns, a row per ping; it may be a part of a larger image
+/// The other parameters and errors are those of `record`; it also throws invalid_input for a view of another size,
+/// which is then untouched.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
-                         const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+render_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
+                         const side_scan_rig<Axis>& rig, const record_options<Labels, Law, Equation>& options = {},
+                         E&& ex = {}) {
+    detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
+    detail::require(static_cast<std::size_t>(into.height()) == track.size(), "into.height()", into.height(),
+                    "that of the pings");
+    const auto heard = record(s, track, rig, options.without_labels(), ex);
+    for (int y = 0; y < into.height(); ++y)
+        std::copy(heard.image.row(y).begin(), heard.image.row(y).end(), into.row(y).begin());
+    return heard.stats;
+}
+
+/// Draws a scene as a side-scan sonar on a straight track hears it, or as a map of what it hears: see side_scan_rig.
+/// Row i is ping i. The other parameters are those of `record`.
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
+                     const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
     validate(rig);
     // The beam hears beyond the ends of the track.
     int more = 0;
@@ -298,7 +313,7 @@ recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
             if constexpr (detail::footprint_part<decltype(part)>) more = detail::beam_reach(part, rig);
         });
     std::vector<ping> track;
-    for (int i = rig.pings - 1 + more; i >= -more; --i) track.push_back(ping_of(rig, i));
+    for (int i = -more; i < rig.pings + more; ++i) track.push_back(ping_of(rig, i));
     auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
     if (more > 0) out.image = detail::rows_of(out.image, more, rig.pings);
     if constexpr (std::is_same_v<Labels, labels>) {

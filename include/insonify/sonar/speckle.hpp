@@ -1,5 +1,4 @@
-// Speckle that belongs to the seabed: how echoes fluctuate depends on what the bottom is, and a ping's speckle is the
-// same whenever it is recorded.
+// Speckle by seabed label, keyed by ping and bin: recordings made in pieces have the same speckle.
 //
 // The fluctuation of a bin is a function of (seed, side, ping number, bin) and nothing else: recordings made in pieces
 // fit together, and the two sides are independent.
@@ -12,7 +11,7 @@
 #include <insonify/core/correlation.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/core/gamma.hpp>
-#include <insonify/sonar/slant_range.hpp>
+#include <insonify/sonar/swath.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -49,25 +48,12 @@ struct seabed_speckle {
     std::uint64_t seed = 1;
 };
 
-/// Which speckle the rows of a picture have.
-struct ping_numbers {
-    std::int64_t first = 0;  ///< of the top row
-    int step = 1;            ///< from row to row
-    insonify::side side = insonify::side::starboard;
-};
-
-/// Those of a picture that `render` made: its top row is the last ping.
-template <across_track Axis>
-ping_numbers numbers_of(const side_scan_rig<Axis>& rig) {
-    return {rig.pings - 1, -1, rig.side};
-}
-
 namespace detail {
 
-/// What a number is drawn for; part of what a seed means.
+/// Random streams; changing one changes the noise of every seed.
 enum class speckle_stream : std::uint32_t { field = 0x73706B00, texture = 0x73706B02, choice = 0x73706B04 };
 
-/// Draws that are told apart by ping and bin.
+/// Random numbers keyed by ping and bin.
 class ping_noise {
   public:
     ping_noise(std::uint64_t seed, side s, speckle_stream stream)
@@ -137,7 +123,7 @@ class speckle_field {
 };
 
 /// The K-distribution's mean: gamma-distributed at the nodes of a lattice. A bin takes that of one of the four nodes
-/// around it, by lot, the nearer the likelier: so textures are correlated, and distributed as they should be.
+/// around it, chosen at random with the bilinear weights, so that textures are correlated and keep their distribution.
 class speckle_texture {
   public:
     speckle_texture(const seabed_speckle& s, side looks)
@@ -240,12 +226,27 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
     return s;
 }
 
-/// The same recording with speckle: of one side, as `render` made it of this rig.
-template <across_track Axis, executor_argument E = serial_executor>
-recording<labels> with_speckle(recording<labels> r, const side_scan_rig<Axis>& rig, const seabed_speckle& s = {},
-                               E&& ex = {}) {
-    r.image =
-        with_speckle(r.image.view(), r.labels.seabed.view(), with_legend(s, r.labels.legend), numbers_of(rig), ex);
+/// The same recording with speckle; its rows say which pings they are, and its legend which laws own labels have.
+template <executor_argument E = serial_executor>
+frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
+    const seabed_speckle laws = with_legend(s, r.labels.legend);
+    const int port = r.rows.port_columns;
+    if (port == 0) {
+        r.image = with_speckle(r.image.view(), r.labels.seabed.view(), laws, r.rows, ex);
+        return r;
+    }
+    const auto channel = [&](side looks, int left, int width) {
+        const bool is_port = looks == side::port;
+        const auto part = [&](const auto& picture) {
+            const std::remove_cvref_t<decltype(picture)> cut(picture.view().part(left, 0, width, picture.height()));
+            return is_port ? mirrored(cut) : cut;
+        };
+        const auto mean = part(r.image);
+        const auto types = part(r.labels.seabed);
+        const auto noisy = with_speckle(mean.view(), types.view(), laws, {r.rows.first, r.rows.step, looks}, ex);
+        return is_port ? mirrored(noisy) : noisy;
+    };
+    r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));
     return r;
 }
 

@@ -127,7 +127,7 @@ TEST_CASE("Own labels reach side-scan pictures, and speckle takes their law from
     const auto quiet = in::render(s, swath);
     CHECK(quiet.labels.legend.size() == 2);
     CHECK(quiet.labels.seabed(100, 100) == static_cast<std::uint8_t>(sb::own_type(3)));
-    const auto noisy = in::with_speckle(quiet, swath, {.along_track = 0, .across_track = 0});
+    const auto noisy = in::with_speckle(quiet, {.along_track = 0, .across_track = 0});
     double sum = 0, square = 0;
     for (std::size_t i = 0; i < noisy.image.size(); ++i) {
         const double v = static_cast<double>(noisy.image.pixels()[i]) / static_cast<double>(quiet.image.pixels()[i]);

@@ -76,8 +76,7 @@ TEST_CASE("Three geometries, one type to change: the same scene, the same labels
     in::scene s;
     s.seabed = in::seabed::flat{.surface = {.rms = 0}};
     s.add(in::cube{.size = glm::vec3(0.4f)}, {.position = {6, 2, 0.2}}, "cube");
-    const auto check = [&](const auto& rig) {
-        const auto picture = in::render(s, rig);
+    const auto check = [&](const auto& picture) {
         REQUIRE(picture.labels.targets.size() == 1);
         const in::target_label& t = picture.labels.targets[0];
         CHECK(t.class_name == "cube");
@@ -86,7 +85,7 @@ TEST_CASE("Three geometries, one type to change: the same scene, the same labels
         CHECK(t.box.y + t.box.height / 2 < picture.image.height() / 2);  // ahead is up
         for (const float v : picture.image.pixels()) REQUIRE(v >= 0);
     };
-    check(in::overhead{.position = {5, 0}, .altitude = 4, .size = {400, 400}});
-    check(in::ground_range{.altitude = 4, .pings = 90, .range = 12, .bins = 400});
-    check(in::side_scan{.altitude = 4, .pings = 90, .range = 12, .bins = 400});
+    check(in::render(s, in::overhead{.position = {5, 0}, .altitude = 4, .size = {400, 400}}));
+    check(in::upside_down(in::render(s, in::ground_range{.altitude = 4, .pings = 90, .range = 12, .bins = 400})));
+    check(in::upside_down(in::render(s, in::side_scan{.altitude = 4, .pings = 90, .range = 12, .bins = 400})));
 }

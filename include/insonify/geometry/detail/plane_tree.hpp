@@ -1,0 +1,95 @@
+// Finds the triangles of a mesh that a plane may cut, without looking at the others.
+//
+// Boxes around runs of eight triangles, boxes around eight of those, and so on: an implicit tree over the triangles in
+// their own order, which shared_mesh keeps coherent. Building it is one pass, and triangles are visited in order.
+#pragma once
+
+#include <insonify/core/linear.hpp>
+#include <insonify/core/numeric.hpp>
+#include <insonify/geometry/mesh.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+class plane_tree {
+  public:
+    plane_tree() = default;
+    /// @param m  its indices have positions; triangles with corners that are not finite are left out
+    explicit plane_tree(const mesh_view& m) : triangles_(m.triangles.size()) {
+        std::vector<box> level((triangles_ + branching - 1) / branching);
+        for (std::size_t i = 0; i < triangles_; ++i) {
+            const glm::uvec3& t = m.triangles[i];
+            glm::vec3 sum(0);
+            for (int k = 0; k < 3; ++k) sum += m.positions[t[k]];
+            if (!numeric::is_finite(sum.x) || !numeric::is_finite(sum.y) || !numeric::is_finite(sum.z)) continue;
+            for (int k = 0; k < 3; ++k) level[i / branching].include(m.positions[t[k]]);
+        }
+        levels_.push_back(std::move(level));
+        while (levels_.back().size() > 1) {
+            const std::vector<box>& below = levels_.back();
+            std::vector<box> above((below.size() + branching - 1) / branching);
+            for (std::size_t i = 0; i < below.size(); ++i) {
+                above[i / branching].include(below[i].low);
+                above[i / branching].include(below[i].high);
+            }
+            levels_.push_back(std::move(above));
+        }
+    }
+
+    /// Calls `visit(first, last)` for runs of triangles that contain all those cut by normal . p + offset = 0.
+    template <class Visit>
+    void cut(const glm::dvec3& normal, double offset, const Visit& visit) const {
+        if (triangles_ > 0) descend(levels_.size() - 1, 0, normal, offset, visit);
+    }
+
+  private:
+    static constexpr std::size_t branching = 8;
+
+    struct box {
+        glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+
+        void include(const glm::vec3& p) {
+            for (int i = 0; i < 3; ++i) {
+                low[i] = (std::min)(low[i], p[i]);
+                high[i] = (std::max)(high[i], p[i]);
+            }
+        }
+        bool meets(const glm::dvec3& normal, double offset) const {
+            double lowest = offset, highest = offset, size = numeric::magnitude(offset);
+            for (int i = 0; i < 3; ++i) {
+                const double a = normal[i] * static_cast<double>(low[i]), b = normal[i] * static_cast<double>(high[i]);
+                lowest += (std::min)(a, b);
+                highest += (std::max)(a, b);
+                size += (std::max)(numeric::magnitude(a), numeric::magnitude(b));
+            }
+            const double rounding = 1e-12 * size;
+            return lowest <= rounding && highest >= -rounding;  // false for an empty box
+        }
+    };
+
+    template <class Visit>
+    void descend(std::size_t level, std::size_t i, const glm::dvec3& normal, double offset, const Visit& visit) const {
+        if (!levels_[level][i].meets(normal, offset)) return;
+        const std::size_t first = i * branching;
+        if (level == 0) return visit(first, (std::min)(first + branching, triangles_));
+        for (std::size_t child = first; child < (std::min)(first + branching, levels_[level - 1].size()); ++child)
+            descend(level - 1, child, normal, offset, visit);
+    }
+
+    std::size_t triangles_ = 0;
+    std::vector<std::vector<box>> levels_;
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
