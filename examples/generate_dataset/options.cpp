@@ -55,11 +55,13 @@ options parsed(int argc, const char* const* argv,
         "generate_dataset"};
     app.footer(
         "A range is low:high, or one number. Examples:\n"
-        "  generate_dataset --out out/a --count 400 --size 512 --noise speckle:0.1\n"
-        "  generate_dataset --out out/b --first 200 --count 200 --reference real_images/ --colormap copper\n"
-        "  generate_dataset --out out/s --mode slant_range --chip 5 --pixels 128 --count 400\n"
+        "  generate_dataset --out out/a --count 4000\n"
+        "  generate_dataset --out out/k --per-class ship=600,plane=600,truncated_cone=200,empty=1400\n"
         "  generate_dataset --out out/l --count 1000000 --shard 3/8\n"
-        "  generate_dataset --out out/c --targets cylinder --mesh wreck=wreck.obj --seabeds mud,mixed");
+        "  generate_dataset --out out/p --recipe published --count 400 --size 512 --noise speckle:0.1\n"
+        "  generate_dataset --out out/b --recipe published --reference real_images/ --colormap copper\n"
+        "  generate_dataset --out out/s --recipe published --mode slant_range --chip 5 --pixels 128 --count 400\n"
+        "  generate_dataset --out out/c --recipe published --targets cylinder --mesh wreck=wreck.obj --seabeds mud");
     app.formatter(std::make_shared<plain_formatter>());
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.set_config("--config", "",
@@ -109,7 +111,7 @@ options parsed(int argc, const char* const* argv,
 
     app.add_option("--recipe", o.recipe,
                    "sonar: wrecks, aeroplanes and bare bottoms as side-scan sonars show them;\n"
-                   "published: the paper's camera, light and primitives")
+                   "published: the paper's primitives, camera and light, or a sonar's modes over them (sonar)")
         ->check(CLI::IsMember({"sonar", "published"}))
         ->group(what);
 
@@ -198,9 +200,24 @@ options parsed(int argc, const char* const* argv,
         app.parse(argc, argv);
         const auto given = [&](const char* name) { return !app.get_option(name)->empty(); };
         if (o.is_sonar()) {
+            // What only the other recipe has is refused, not left out in silence.
+            for (const char* const name :
+                 {"--demo",     "--mesh",   "--seabeds",   "--heightmap", "--target-size",  "--aspect",
+                  "--tilt",     "--burial", "--mode",      "--chip",      "--altitude",     "--grazing",
+                  "--distance", "--beam",   "--intensity", "--sky",       "--reflectivity", "--reference",
+                  "--match",    "--noise",  "--colormap"})
+                if (given(name))
+                    throw CLI::ValidationError(name, "belongs to --recipe published; the recipe sonar draws its own");
             if (!given("--size")) o.size = 128;
             if (!given("--targets")) o.targets = {"ship", "plane"};
-        } else if (!o.is_overhead()) {
+        } else {
+            for (const char* const name : {"--empty", "--visible-share"})
+                if (given(name)) throw CLI::ValidationError(name, "belongs to --recipe sonar");
+            for (const std::string& target : o.targets)
+                if (target != "cylinder" && target != "cube" && target != "cone" && target != "sphere")
+                    throw CLI::ValidationError("--targets", "'" + target + "' belongs to --recipe sonar");
+        }
+        if (!o.is_sonar() && !o.is_overhead()) {
             if (!given("--size")) o.size = 128;
             if (o.chip == 0) o.chip = 5;
             if (!given("--noise")) o.noise = {"seabed"};

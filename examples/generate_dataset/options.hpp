@@ -26,7 +26,7 @@ struct options {
 
     // What decides pixels: pinned in the folder's config.json.
 
-    std::string recipe = "published";
+    std::string recipe = "sonar";  ///< or "published"
     std::uint64_t seed = 1;
     int size = 2048;
     double visible_share = 0.1;          ///< of a target's outline, recipe sonar

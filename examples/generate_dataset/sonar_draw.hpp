@@ -42,7 +42,7 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
                                          .bandwidth = 0.2f},
                               .surface = rough((std::max)(p.feature, 3 * pixel), 0.3 * p.roughness),
                               .seed = p.bottom_seed};
-    const sb::trawl_marks trawls{.density = of(4 * p.trawls / p.chip),
+    const sb::trawl_marks trawls{.density = of((std::min)(4 * p.trawls / p.chip, 0.08 / pixel)),
                                  .depth = of(0.25 * pixel),
                                  .width = of(2.5 * pixel),
                                  .length = of(2 * p.chip)};

@@ -34,8 +34,7 @@ class stock {
         }
         for (const std::string& path : picture_paths(o.references)) {
             names_.push_back(std::filesystem::path(path).filename().string());
-            references_.push_back(
-                in::distribution_of(with_values(reader.read_picture("--reference", path), path)));
+            references_.push_back(in::distribution_of(with_values(reader.read_picture("--reference", path), path)));
         }
         inputs_ = std::move(reader).list();
         if (references_.empty() && o.demo) {

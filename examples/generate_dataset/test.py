@@ -27,10 +27,16 @@ import zlib
 
 GENERATOR, MERGE = sys.argv.pop(1), sys.argv.pop(1)
 KILLS = int(os.environ.get("INSONIFY_KILLS", "8"))
-SMALL = ["--size", "96", "--count", "8", "--seed", "5", "--noise", "speckle:0.1,poisson:200"]
+SMALL = ["--recipe", "published", "--size", "96", "--count", "8", "--seed", "5", "--noise", "speckle:0.1,poisson:200"]
+
+
+def with_recipe(options):
+    """Of the two recipes, most tests are of the published one, which has inputs and modes."""
+    return list(options) if "--recipe" in options else ["--recipe", "published", *options]
 
 
 def run(*options, expect=0, program=GENERATOR, **environment):
+    options = with_recipe(options) if program == GENERATOR else options
     result = subprocess.run([program, *map(str, options)], capture_output=True, text=True, timeout=300,
                             env=os.environ | environment)
     assert expect in (None, result.returncode), f"exit {result.returncode}, expected {expect}:\n{result.stdout}{result.stderr}"
@@ -39,7 +45,7 @@ def run(*options, expect=0, program=GENERATOR, **environment):
 
 def refusal(*options):
     """What a run says that is refused, with an exit code of 1 or 2, before it has made anything."""
-    result = subprocess.run([GENERATOR, *map(str, options)], capture_output=True, text=True, timeout=20)
+    result = subprocess.run([GENERATOR, *map(str, with_recipe(options))], capture_output=True, text=True, timeout=20)
     assert result.returncode in (1, 2), result
     return result.stdout + result.stderr
 
@@ -48,6 +54,31 @@ def digest(folder):
     """What every file of a data set holds, by its path."""
     return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
             for path in sorted(pathlib.Path(folder).rglob("*")) if path.is_file() and path.name != ".lock"}
+
+
+def read_png(path):
+    """Gray samples of a PNG of 8 bits without interlacing."""
+    data = path.read_bytes()
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IHDR":
+            width, height = struct.unpack(">II", data[at + 8:at + 16])
+        if kind == b"IDAT":
+            packed += data[at + 8:at + 8 + size]
+        at += size + 12
+    raw = zlib.decompress(packed)
+    out, before = [], [0] * width
+    for y in range(height):
+        kind, line = raw[y * (width + 1)], list(raw[y * (width + 1) + 1:(y + 1) * (width + 1)])
+        for x in range(width):
+            left, corner = (line[x - 1], before[x - 1]) if x else (0, 0)
+            p = left + before[x] - corner
+            paeth = min((abs(p - left), 0, left), (abs(p - before[x]), 1, before[x]), (abs(p - corner), 2, corner))[2]
+            line[x] = (line[x] + (0, left, before[x], (left + before[x]) // 2, paeth)[kind]) & 255
+        out += line
+        before = line
+    return out
 
 
 def pgm(path, maxval=255, name="P5"):
@@ -305,6 +336,68 @@ class Generator(unittest.TestCase):
             self.assertEqual(digest(self.folder / f"{mode}1"), digest(self.folder / f"{mode}3"))
             for kind in "target", "shadow", "seabed":
                 self.assertEqual(len(list((self.folder / f"{mode}1" / "masks").rglob(f"*_{kind}.png"))), 6)
+
+    def read_manifest(self, folder):
+        return list(csv.DictReader((folder / "manifest.csv").read_text().splitlines()))
+
+    def test_the_sonar_recipe_makes_empty_images_and_labels_what_is_there(self):
+        out = self.folder / "a"
+        options = ["--recipe", "sonar", "--pixels", 64, "--count", 24]
+        run("--out", out, *options, "--threads", 1)
+        run("--out", self.folder / "b", *options, "--threads", 3)
+        self.assertEqual(digest(out), digest(self.folder / "b"))
+        self.assertIn("24 images checked, 0 faults", run("--out", out, *options, "--verify"))
+        rows = self.read_manifest(out)
+        self.assertEqual([row["class"] for row in rows].count("empty"), 12)
+        self.assertEqual({row["class"] for row in rows}, {"ship", "plane", "empty"})
+        coco = json.loads((out / "annotations.json").read_text())
+        names = {category["id"]: category["name"] for category in coco["categories"]}
+        self.assertEqual(sorted(names.values()), ["clutter", "plane", "shadow", "ship"])
+        for row in rows:
+            found = [names[a["category_id"]] for a in coco["annotations"] if a["image_id"] == int(row["index"])]
+            if row["class"] == "empty":
+                self.assertFalse({"ship", "plane"} & set(found))
+                self.assertEqual(row["target_area_px"], "0")
+            else:
+                self.assertIn(row["class"], found)
+                self.assertGreaterEqual(float(row["visible_share"]), 0.1)
+                self.assertIn(row["target_is_cut"], ("true", "false"))
+            # Whatever was sampled is in the row.
+            for column in ("sonar", "display", "looks", "noise_floor", "tone_drift_db", "grazing_deg", "port", "beam_rad",
+                           "feature_m", "first_range_m", "rig_yaw_rad", "noise_seed"):
+                self.assertNotEqual(row[column], "", column)
+
+    def test_counts_by_class_are_kept(self):
+        counts = {"truncated_cone": 3, "empty": 2, "crate": 1}
+        run("--recipe", "sonar", "--out", self.folder / "a", "--pixels", 32, "--visible-share", 0, "--per-class",
+            ",".join(f"{name}={count}" for name, count in counts.items()))
+        rows = self.read_manifest(self.folder / "a")
+        self.assertEqual({name: [row["class"] for row in rows].count(name) for name in counts}, counts)
+        self.assertIn("is not CLASS=COUNT", refusal("--recipe", "sonar", "--out", "x", "--per-class", "submarine=3"))
+        self.assertIn("is not CLASS=COUNT", refusal("--recipe", "sonar", "--out", "x", "--per-class", "ship=0"))
+
+    def test_options_of_the_other_recipe_are_refused(self):
+        self.assertIn("belongs to --recipe published", refusal("--recipe", "sonar", "--out", "x", "--mode", "overhead"))
+        self.assertIn("belongs to --recipe sonar", refusal("--out", "x", "--empty", "0.5"))
+        self.assertIn("belongs to --recipe sonar", refusal("--out", "x", "--targets", "ship"))
+
+    def test_masked_matching_keeps_shadows_dark(self):
+        reference = pgm(self.folder / "r.pgm")
+        dark = {}
+        for match in ("masked", "whole"):
+            out = self.folder / match
+            run("--out", out, "--mode", "slant_range", "--pixels", 96, "--count", 4, "--reference", reference, "--match",
+                match)
+            dark[match] = self.gray_of_shadows(out)
+        self.assertLess(dark["masked"], dark["whole"])
+
+    def gray_of_shadows(self, folder):
+        """The mean gray of targets' shadows."""
+        inside = []
+        for picture in sorted((folder / "images").rglob("*.png")):
+            mask = folder / "masks" / picture.parent.name / f"{picture.stem}_shadow.png"
+            inside += [gray for gray, is_dark in zip(read_png(picture), read_png(mask)) if is_dark]
+        return sum(inside) / len(inside)
 
     def test_options_come_from_a_file_too(self):
         (self.folder / "set.toml").write_text('size = 64\ncount = 2\nseed = 9\ntargets = ["cone"]\n')
