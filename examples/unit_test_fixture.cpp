@@ -8,13 +8,10 @@ using namespace in::literals;
 
 namespace {
 
-/// The code under test, which knows nothing of insonify: the longest dark run of each row.
+/// The code under test: the longest dark run of a row.
 int longest_dark_run(const float* row, int width, float threshold) {
     int longest = 0, run = 0;
-    for (int x = 0; x < width; ++x) {
-        run = row[x] < threshold ? run + 1 : 0;
-        longest = run > longest ? run : longest;
-    }
+    for (int x = 0; x < width; ++x) longest = (std::max)(longest, run = row[x] < threshold ? run + 1 : 0);
     return longest;
 }
 

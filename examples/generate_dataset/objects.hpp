@@ -73,11 +73,11 @@ inline in::mesh plane_of(const object_form& f, in::random_sequence& draw) {
     a.engines = length < 12 ? 1 + static_cast<int>(draw.below(2)) : static_cast<int>(2 * (1 + draw.below(2)));
     a.propeller_diameter = draw.uniform() < 0.8 ? length * between(draw, 0.13, 0.25) : 0.0f;
     a.is_inverted = draw.uniform() < 0.15;
-    if (f.damage > 0.4) {
+    if (f.damage > 0.55) {
         a.port_wing = draw.uniform() < 0.5 ? 1.0f : between(draw, 0.1, 0.9);
         a.starboard_wing = draw.uniform() < 0.5 ? 1.0f : between(draw, 0.1, 0.9);
         a.torn_off = draw.uniform() < 0.5 ? 0.0f : between(draw, 0.3, 3);
-        if (f.damage > 0.7) a.tail_gap = between(draw, 0.1, 0.15 * f.length), a.tail_yaw = between(draw, -1, 1);
+        if (f.damage > 0.8) a.tail_gap = between(draw, 0.1, 0.15 * f.length), a.tail_yaw = between(draw, -1, 1);
     }
     a.segments = 20;
     a.seed = f.seed;

@@ -6,6 +6,7 @@
 #include "config_text.hpp"
 #include "formats.hpp"
 #include "layout.hpp"
+#include "plan.hpp"
 #include "values.hpp"
 
 namespace generator {
@@ -70,7 +71,7 @@ options parsed(int argc, const char* const* argv,
     std::string shard, target_size, aspect, tilt, burial, altitude, grazing, distance, beam;
     const CLI::Validator target_names =
         CLI::IsMember({"cylinder", "cube", "cone", "sphere", "ship", "plane", "truncated_cone", "wedge", "tyre", "pipe",
-                       "boulder", "crate", "lobster_pot", "empty"});
+                       "boulder", "crate", "lobster_pot"});
     const CLI::Validator seabed_names = CLI::IsMember({"ripples", "mud", "rock", "sand", "mixed", "heightmap"});
 
     const char* const what = "What to make";
@@ -116,6 +117,13 @@ options parsed(int argc, const char* const* argv,
     app.add_option("--visible-share", o.visible_share,
                    "Recipe sonar: share of its outline that a target shows at least, or it is drawn again (0.1)")
         ->check(number(0, 1))
+        ->group(scene);
+    app.add_option("--empty", o.empty, "Recipe sonar: share of images without a target, a class of their own (0.5)")
+        ->check(number(0, 1))
+        ->group(scene);
+    app.add_option("--per-class", o.per_class,
+                   "CLASS=COUNT,...: so many images of each class, one class after the other, instead of taking turns")
+        ->delimiter(',')
         ->group(scene);
     app.add_option("--targets", o.targets, "cylinder,cube,cone,sphere; taken in turn")
         ->delimiter(',')
@@ -186,7 +194,7 @@ options parsed(int argc, const char* const* argv,
         const auto given = [&](const char* name) { return !app.get_option(name)->empty(); };
         if (o.is_sonar()) {
             if (!given("--size")) o.size = 128;
-            if (!given("--targets")) o.targets = {"ship", "plane", "empty"};
+            if (!given("--targets")) o.targets = {"ship", "plane"};
         } else if (!o.is_overhead()) {
             if (!given("--size")) o.size = 128;
             if (o.chip == 0) o.chip = 5;
@@ -217,11 +225,16 @@ options parsed(int argc, const char* const* argv,
         o.formats = formats;
         if (o.preview && !shard.empty())
             throw CLI::ValidationError("--preview", "a shard is no whole set; merge it with tools/merge --preview");
+        check_counts(o);
         const bool needs_map = std::find(o.seabeds.begin(), o.seabeds.end(), "heightmap") != o.seabeds.end();
         if (needs_map && o.heightmap.empty())
             throw CLI::ValidationError("--seabeds", "heightmap needs --heightmap FILE");
         if (!o.heightmap.empty() && !needs_map) o.seabeds = {"heightmap"};
         if (o.demo && !given("--count")) o.count = 24;
+        if (!o.per_class.empty() && !given("--count")) {
+            o.count = 0;
+            for (const class_count& c : class_counts(o)) o.count += c.count;
+        }
         if (o.first + o.count > most_images)
             throw CLI::ValidationError("--count", std::to_string(o.count) + " images from --first " +
                                                       std::to_string(o.first) + " on end above index " +

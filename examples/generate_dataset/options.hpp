@@ -29,7 +29,9 @@ struct options {
     std::string recipe = "published";
     std::uint64_t seed = 1;
     int size = 2048;
-    double visible_share = 0.1;  ///< of a target's outline, recipe sonar
+    double visible_share = 0.1;          ///< of a target's outline, recipe sonar
+    double empty = 0.5;                  ///< share of images without a target, recipe sonar
+    std::vector<std::string> per_class;  ///< class=count
     std::vector<std::string> targets{"cylinder", "cube", "cone", "sphere"};
     std::vector<std::string> meshes;  ///< class=path
     std::string mesh_up = "y";

@@ -128,7 +128,7 @@ std::vector<file> files_of(const options& o, const plan& p, const stock& shared)
 std::vector<file> files_of(const options& o, std::uint64_t index, const stock& shared) {
     if (!o.is_sonar()) return files_of(o, plan_image(o, index, shared.references()), shared);
     try {
-        return files_of_sonar(o, index, o.targets[index % o.targets.size()], nullptr);
+        return files_of_sonar(o, index, class_of_image(o, index), nullptr);
     } catch (const std::exception& error) {
         throw in::io_error("image " + std::to_string(index) + ": " + error.what());
     }

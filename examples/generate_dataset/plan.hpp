@@ -3,6 +3,7 @@
 
 #include <insonify/core/random.hpp>
 
+#include <algorithm>
 #include <string>
 
 #include "options.hpp"
@@ -32,6 +33,49 @@ inline std::vector<std::string> class_names(const options& o) {
     std::vector<std::string> names = o.targets;
     for (const std::string& mesh : o.meshes) names.push_back(mesh.substr(0, mesh.find('=')));
     return names;
+}
+
+/// A class and how many images of it, of `--per-class`.
+struct class_count {
+    std::string name;
+    std::uint64_t count;
+};
+inline std::vector<class_count> class_counts(const options& o) {
+    std::vector<class_count> counts;
+    for (const std::string& text : o.per_class) {
+        const std::size_t equals = text.find('=');
+        counts.push_back({text.substr(0, equals), std::stoull(text.substr(equals + 1))});
+    }
+    return counts;
+}
+
+/// What COCO's categories are, but for shadows.
+inline std::vector<std::string> category_names(const options& o) {
+    if (!o.is_sonar()) return class_names(o);
+    std::vector<std::string> names = o.targets;
+    for (const class_count& c : class_counts(o))
+        if (c.name != "empty" && std::find(names.begin(), names.end(), c.name) == names.end()) names.push_back(c.name);
+    names.push_back("clutter");
+    return names;
+}
+
+/// Which class an image of the sonar recipe is of: empty ones are spread evenly, targets take turns among the others.
+inline std::string class_of_image(const options& o, std::uint64_t index) {
+    const std::vector<class_count> counts = class_counts(o);
+    std::uint64_t total = 0;
+    for (const class_count& c : counts) total += c.count;
+    if (total > 0) {
+        std::uint64_t at = index % total;
+        for (const class_count& c : counts) {
+            if (at < c.count) return c.name;
+            at -= c.count;
+        }
+    }
+    const auto empties = [&](std::uint64_t images) {
+        return static_cast<std::uint64_t>(static_cast<double>(images) * o.empty);
+    };
+    if (empties(index + 1) > empties(index)) return "empty";
+    return o.targets[(index - empties(index)) % o.targets.size()];
 }
 
 /// Classes and seabeds take turns, so that every run of targets x seabeds images is balanced; the rest is random.

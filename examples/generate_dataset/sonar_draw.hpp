@@ -35,8 +35,17 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
                               .direction = of(p.direction),
                               .spread = of(p.disorder),
                               .bandwidth = of(0.8 * p.disorder),
+                              .second = {.wavelength = of(7 * p.feature),
+                                         .steepness = of(p.swell),
+                                         .direction = of(p.direction + 0.5),
+                                         .spread = 0.2f,
+                                         .bandwidth = 0.2f},
                               .surface = rough((std::max)(p.feature, 3 * pixel), 0.3 * p.roughness),
                               .seed = p.bottom_seed};
+    const sb::trawl_marks trawls{.density = of(4 * p.trawls / p.chip),
+                                 .depth = of(0.25 * pixel),
+                                 .width = of(2.5 * pixel),
+                                 .length = of(2 * p.chip)};
     if (p.bottom == "ripples") return ripples;
     if (p.bottom == "mud")
         return sb::mud{.surface = rough((std::max)(4 * p.feature, 8 * pixel), 0.06 * p.roughness),
@@ -44,6 +53,7 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
                        .size = of(0.5 * p.feature),
                        .mound_height = of(0.05 * p.feature),
                        .pock_depth = of(0.08 * p.feature),
+                       .trawls = trawls,
                        .seed = p.bottom_seed};
     if (p.bottom == "rock")
         return sb::rock{.relief = of(0.35 * p.feature * (0.3 + p.cover)),

@@ -35,7 +35,8 @@ struct sonar_plan {
 
     std::string bottom;
     std::uint32_t bottom_seed;
-    double feature, steepness, direction, disorder, roughness, cover;  ///< of the bottom; lengths in metres
+    double feature, steepness, direction, disorder, roughness, cover, swell,
+        trawls;  ///< of the bottom; lengths in metres
     int clutter;
     double clutter_size;
     std::uint32_t clutter_seed;
@@ -73,9 +74,9 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
     o.roll = s.derived(name("roll_rad"),
                        on_side ? s.uniform(name("list_rad"), 0.9, 1.8) : s.uniform(name("list_rad"), -0.3, 0.3));
     o.burial = s.uniform_or_0(name("burial"), 0.3, 0.02, 0.55);
-    o.reflectivity = s.logarithmic(name("reflectivity"), 0.6, 8);
-    o.across = s.uniform(name("across"), 0.22, 0.62);
-    o.along = s.uniform(name("along"), 0.3, 0.7);
+    o.reflectivity = s.logarithmic(name("reflectivity"), 0.4, 7);
+    o.across = s.uniform(name("across"), 0.28, 0.6);
+    o.along = s.uniform(name("along"), 0.34, 0.66);
     o.scour = s.uniform_or_0(name("scour"), 0.5, 0.03, 0.25);
     if (!used)
         for (const char* const what : {"form", "length_m", "damage", "yaw_rad", "pitch_rad", "on_side", "list_rad",
@@ -91,30 +92,32 @@ inline double extent_of(const in::mesh& m) {
 }
 
 inline void sample_bottom(sampler& s, sonar_plan& p, double pixel) {
-    p.bottom = s.choice("seabed", {{"sand", 0.45}, {"ripples", 0.25}, {"mud", 0.12}, {"rock", 0.06}, {"mixed", 0.12}});
+    p.bottom = s.choice("seabed", {{"sand", 0.45}, {"ripples", 0.25}, {"mud", 0.12}, {"rock", 0.04}, {"mixed", 0.12}});
     p.bottom_seed = s.word("seabed_seed");
-    p.feature = s.derived("feature_m", pixel * s.logarithmic("feature_px", 3.5, 26));
-    p.steepness = s.logarithmic("steepness", 0.02, 0.1);
+    p.feature = s.derived("feature_m", pixel * s.logarithmic("feature_px", 2.2, 20));
+    p.steepness = s.logarithmic("steepness", 0.015, 0.09);
     p.direction = s.uniform("ripple_direction_rad", 0, 2 * in::numeric::pi);
     p.disorder = s.uniform("disorder", 0.05, 0.22);
-    p.roughness = s.logarithmic("roughness", 0.004, 0.05);
+    p.roughness = s.logarithmic("roughness", 3e-4, 0.018);
     p.cover = s.uniform("cover", 0.15, 0.75);
+    p.swell = s.uniform_or_0("swell", 0.75, 0.01, 0.05);
+    p.trawls = s.uniform_or_0("trawls", 0.75, 0.3, 2);
 
-    p.tone.drift = static_cast<float>(s.uniform_or_0("tone_drift_db", 0.15, 0.3, 3.5));
+    p.tone.drift = static_cast<float>(s.uniform_or_0("tone_drift_db", 0.4, 0.1, 1.2));
     p.tone.drift_length =
         static_cast<float>(s.derived("tone_drift_length_m", pixel * s.logarithmic("drift_px", 15, 120)));
-    p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.6, 0.3, 1.6));
+    p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.7, 0.2, 1.3));
     p.tone.streak_width = static_cast<float>(s.derived("streak_width_m", pixel * s.uniform("streak_px", 1.2, 5)));
     p.tone.streak_length = static_cast<float>(
         s.derived("streak_length_m", static_cast<double>(p.tone.streak_width) * s.uniform("streak_ratio", 8, 60)));
     p.tone.direction = static_cast<float>(s.uniform("streak_direction_rad", 0, in::numeric::pi));
-    p.tone.patches = static_cast<float>(s.uniform_or_0("tone_patches_db", 0.7, -7, 7));
+    p.tone.patches = static_cast<float>(s.uniform_or_0("tone_patches_db", 0.82, -6, 6));
     p.tone.patch_size = static_cast<float>(s.derived("patch_size_m", pixel * s.logarithmic("patch_px", 15, 70)));
     p.tone.patch_share = static_cast<float>(s.uniform("patch_share", 0.1, 0.6));
     p.tone.seed = s.word("tone_seed");
 
     p.clutter = s.whole("clutter", 1, 9);
-    if (!s.chance("has_clutter", p.class_name == empty_class ? 0.12 : 0.3)) p.clutter = 0;
+    if (!s.chance("has_clutter", p.class_name == empty_class ? 0.1 : 0.3)) p.clutter = 0;
     p.clutter_size = s.derived("clutter_size_m", pixel * s.uniform("clutter_px", 1.2, 4.5));
     p.clutter_seed = s.word("clutter_seed");
 }
@@ -128,16 +131,16 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
                                                         : static_cast<double>(p.sonar.beam);
     p.beam = s.derived("beam_rad", (std::max)(beam * s.uniform("beam_factor", 0.7, 1.5), 0.3 * pixel / slant));
 
-    p.gain.rms = static_cast<float>(s.uniform("gain_error_db", 0, 2));
+    p.gain.rms = static_cast<float>(s.uniform_or_0("gain_error_db", 0.45, 0.1, 0.9));
     p.gain.length = static_cast<float>(s.uniform("gain_error_px", 25, 120));
-    p.gain.slope = static_cast<float>(s.uniform("gain_slope_db", -6, 6));
+    p.gain.slope = static_cast<float>(s.uniform("gain_slope_db", -1.5, 1.5));
     p.gain.seed = s.word("gain_seed");
     p.banding.drift = static_cast<float>(s.uniform_or_0("banding_drift_db", 0.3, 0.1, 1.3));
     p.banding.length = static_cast<float>(s.uniform("banding_px", 3, 30));
     p.banding.jitter = static_cast<float>(s.uniform_or_0("banding_jitter_db", 0.4, 0.05, 0.9));
     p.banding.seed = s.word("banding_seed");
 
-    p.water.noise = static_cast<float>(s.logarithmic("noise_floor", 5e-4, 0.1));
+    p.water.noise = static_cast<float>(s.logarithmic("noise_floor", 3e-4, 0.04));
     p.water.noise_range = static_cast<float>(slant);
     p.water.absorption_per_km = p.sonar.absorption_per_km;
     p.water.volume = static_cast<float>(s.logarithmic("volume", 1e-4, 1e-2));
@@ -147,23 +150,26 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.water.waves = static_cast<float>(0.01 * p.altitude);
     p.water.seed = p.banding.seed;
 
-    p.looks = s.whole("looks", 1, 8);
-    p.grain_across = (std::min)((std::max)(p.sonar.grain_across() / pixel, s.uniform("grain_across_px", 0, 2.2)), 16.0);
+    p.looks = static_cast<int>(s.derived("looks", std::floor(s.logarithmic("looks_drawn", 1.2, 12))));
+    p.grain_across =
+        (std::min)((std::max)(p.sonar.grain_across() / pixel, s.uniform_or_0("grain_across_px", 0.7, 0.3, 1.3)), 16.0);
     p.grain_along =
-        (std::min)((std::max)(p.sonar.grain_along(slant) / pixel, s.uniform("grain_along_px", 0, 2.2)), 16.0);
+        (std::min)((std::max)(p.sonar.grain_along(slant) / pixel, s.uniform_or_0("grain_along_px", 0.4, 0.3, 2)), 16.0);
     p.grain_across = s.derived("correlation_across_px", p.grain_across);
     p.grain_along = s.derived("correlation_along_px", p.grain_along);
-    p.texture = s.uniform_or_0("texture", 0.5, 2, 12);
+    p.texture = s.uniform_or_0("texture", 0.75, 4, 15);
     p.noise_seed = s.word("noise_seed");
 
-    p.display = s.choice("display", {{"amplitude", 0.3}, {"decibels", 0.3}, {"power", 0.1}, {"automatic", 0.3}});
-    p.white = s.logarithmic("white", 1.5, 16);
-    p.exponent = s.uniform("exponent", 0.3, 0.7);
+    p.display = s.choice("display", {{"amplitude", 0.3}, {"decibels", 0.3}, {"power", 0.05}, {"automatic", 0.3}});
+    p.white = s.logarithmic("white", 2, 8);
+    p.exponent = s.uniform("exponent", 0.3, 0.6);
     p.dynamic_range = s.uniform("display_range_factor", 0.55, 1.1) * static_cast<double>(p.sonar.dynamic_range);
     p.dynamic_range = s.derived("display_range_db", p.dynamic_range);
     p.black_share = s.uniform("black_share", 0, 0.02);
     p.white_share = s.uniform("white_share", 0, 0.03);
-    p.turn = s.whole("turn", 0, 7);
+    // Waterfalls run up or down the screen, charts any way.
+    const int turned = s.whole("quarter_turns", 0, 7);
+    p.turn = static_cast<int>(s.derived("turn", s.chance("is_chart", 0.6) ? turned : turned / 2 * 2));
 }
 
 }  // namespace detail
@@ -186,7 +192,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const std::string& 
     }
 
     // The chip is cut around the first target, or as large as one of any size would be.
-    const double fill = s.uniform("fill", 0.28, 0.95), bare = s.logarithmic("bare_chip_m", 6, 160);
+    const double fill = s.uniform("fill", 0.42, 1.05), bare = s.logarithmic("bare_chip_m", 6, 160);
     p.chip = s.derived("chip_m", empty ? bare : detail::extent_of(shapes.front()) / fill);
     const double pixel = p.chip / o.size;
 
@@ -197,12 +203,17 @@ inline sonar_plan sample_image(const options& o, sampler& s, const std::string& 
             fit.push_back({std::string(i.name)});
     if (fit.empty()) fit.push_back({p.chip > 20 ? "side_scan_450" : "side_scan_1800"});
     p.sonar = in::instrument_named(s.choice("sonar", fit));
-    const double reach = (std::max)(static_cast<double>(p.sonar.range), 1.3 * p.chip);
+    // Nobody shows pixels much finer than the beam.
+    const double sharp = p.sonar.is_synthetic_aperture() ? 1e9 : 5 * pixel / static_cast<double>(p.sonar.beam);
+    const double reach = (std::max)((std::min)(static_cast<double>(p.sonar.range), sharp), 1.3 * p.chip);
     const double lead = p.targets.empty() ? 0.5 : p.targets.front().across;
-    p.first_range = s.derived("first_range_m", s.uniform("range_share", 0, 1) * (reach - p.chip));
-    const double slant = p.first_range + lead * p.chip;
-    p.altitude = s.uniform("altitude_share", 0.06, 0.2) * reach;
-    p.altitude = s.derived("altitude_m", (std::max)((std::min)(p.altitude, 0.62 * slant), 0.05 * slant));
+    // As far away as the sonar's range allows, and so high that the target is met at a grazing angle of survey lines,
+    // or of the closer ones that inspect a wreck; the water column is in view where it is meant to be.
+    const double sine = in::numeric::sin_cos(in::numeric::to_radians(s.logarithmic("grazing_deg", 8, 40))).sine;
+    double slant = lead * p.chip + s.uniform("range_share", 0.03, 1) * (reach - p.chip);
+    if (!s.chance("water_in_view", empty ? 0.04 : 0.2)) slant = (std::max)(slant, lead * p.chip / (1 - sine / 0.95));
+    p.first_range = s.derived("first_range_m", slant - lead * p.chip);
+    p.altitude = s.derived("altitude_m", slant * sine);
     p.rig_yaw = s.uniform("rig_yaw_rad", 0, 2 * in::numeric::pi);
     p.place_x = s.uniform("place_x_m", -500, 500);
     p.place_y = s.uniform("place_y_m", -500, 500);

@@ -98,4 +98,25 @@ inline void check_classes(const options& o) {
     }
 }
 
+/// @throws CLI::ValidationError for a `--per-class` that is not CLASS=COUNT of a class that the recipe has
+inline void check_counts(const options& o) {
+    std::vector<std::string> known{"cylinder", "cube", "cone", "sphere"};
+    for (const std::string& mesh : o.meshes) known.push_back(class_of(mesh));
+    if (o.is_sonar())
+        known.insert(known.end(), {"ship", "plane", "truncated_cone", "wedge", "tyre", "pipe", "boulder", "crate",
+                                   "lobster_pot", "empty"});
+    for (const std::string& text : o.per_class) {
+        const std::size_t equals = text.find('=');
+        const std::string name = text.substr(0, equals);
+        std::uint64_t count = 0;
+        const char* const end = text.data() + text.size();
+        const bool is_number = equals != std::string::npos &&
+                               std::from_chars(text.data() + equals + 1, end, count).ptr == end && count >= 1 &&
+                               count <= 1'000'000'000;
+        if (!is_number || std::find(known.begin(), known.end(), name) == known.end())
+            throw CLI::ValidationError(
+                "--per-class", "'" + text + "' is not CLASS=COUNT with a class of the recipe and a count from 1");
+    }
+}
+
 }  // namespace generator

@@ -115,7 +115,7 @@ const std::uint8_t* draw(const double* list) {
             rig.bins = rig.pings = s.size;
             rig.ping_spacing = width / static_cast<float>(s.size);
             auto heard = in::render(scene, rig);
-            if (s.speckle > 0) heard = in::with_speckle(std::move(heard), rig, {.seed = seed});
+            if (s.speckle > 0) heard = in::with_speckle(std::move(heard), {.seed = seed});
             gray = heard.image | in::display{};
             labels = std::move(heard.labels);
         };

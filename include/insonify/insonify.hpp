@@ -45,6 +45,7 @@
 #include <insonify/filter/sweep.hpp>
 #include <insonify/filter/where.hpp>
 #include <insonify/geometry/bounds.hpp>
+#include <insonify/geometry/camera.hpp>
 #include <insonify/geometry/cone.hpp>
 #include <insonify/geometry/cube.hpp>
 #include <insonify/geometry/cylinder.hpp>
@@ -89,6 +90,7 @@
 #include <insonify/raster/fold.hpp>
 #include <insonify/raster/fragment_lanes.hpp>
 #include <insonify/raster/framebuffer.hpp>
+#include <insonify/raster/interpolatable.hpp>
 #include <insonify/raster/placement.hpp>
 #include <insonify/raster/setup.hpp>
 #include <insonify/raster/shader.hpp>

@@ -1749,7 +1749,7 @@ enum class keep_depth {
 /// What depth a draw finds in the target.
 enum class depth_load {
     keep,   ///< what is there: earlier draws occlude this one
-    clear,  ///< nothing: the target's depth is overwritten, without being read
+    clear,  ///< nothing: the target's depth is overwritten, without being read; see framebuffer for its color
 };
 
 /// The depth of an empty pixel.
@@ -1774,6 +1774,8 @@ template <class Pixel>
 struct framebuffer {
     image_view<Pixel> color;
     image_view<float> depth;
+    bool clears_color = false;  ///< whether draws that clear depths write `background` where they show nothing
+    Pixel background{};
 };
 template <>
 struct framebuffer<void> {
@@ -2581,6 +2583,82 @@ class screen_polygon {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/raster/interpolatable.hpp --------------------------------------------------------
+// Whether a type consists of floats alone: what can be interpolated between the vertices of a triangle.
+//
+// An aggregate is looked into: it is initialized from values that convert to float, to vectors of float and to
+// aggregates of those, and from values that convert to any other scalar or class, too. If as many of the first kind fit
+// as of the second, all members are made of floats.
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// For classes that are no aggregates: specialize it as true for your own vector of floats.
+template <class V>
+inline constexpr bool is_vector_of_floats = requires {
+    requires std::is_same_v<typename V::value_type, float>;
+};
+template <>
+inline constexpr bool is_vector_of_floats<float> = true;
+
+namespace detail {
+
+template <class V>
+constexpr bool consists_of_floats();
+
+struct converts_to_floats {
+    template <class T>
+        requires(consists_of_floats<T>())
+    operator T() const;
+};
+struct converts_to_members {
+    template <class T>
+        requires(consists_of_floats<T>() || !std::is_aggregate_v<T>)
+    operator T() const;
+};
+
+template <class Value, std::size_t>
+using repeated = Value;
+template <class V, class Value, std::size_t... I>
+constexpr bool takes(std::index_sequence<I...>) {
+    return requires {
+        V{repeated<Value, I>{}...};
+    };
+}
+/// The largest number of values that initialize an aggregate.
+template <class V, class Value, std::size_t Count>
+constexpr std::size_t most_members() {
+    if constexpr (Count == 0)
+        return 0;
+    else if constexpr (takes<V, Value>(std::make_index_sequence<Count>{}))
+        return Count;
+    else
+        return most_members<V, Value, Count - 1>();
+}
+
+template <class V>
+constexpr bool consists_of_floats() {
+    if constexpr (!std::is_class_v<V> || is_vector_of_floats<V>) {
+        return is_vector_of_floats<V>;
+    } else if constexpr (std::is_empty_v<V>) {
+        return true;
+    } else if constexpr (!std::is_aggregate_v<V> || sizeof(V) % sizeof(float) != 0) {
+        return false;
+    } else {
+        constexpr std::size_t floats = sizeof(V) / sizeof(float);
+        return most_members<V, converts_to_floats, floats>() == most_members<V, converts_to_members, floats>();
+    }
+}
+
+}  // namespace detail
+
+/// Made of floats alone: float, glm::vec2..4, arrays and aggregates of those.
+template <class V>
+concept interpolatable = std::is_trivially_copyable_v<V> && detail::consists_of_floats<V>();
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
 // ------------ insonify/raster/shader.hpp ----------------------------------------------------------------
 // What people bring to a draw: a callable that places vertices, and one that is asked for each visible pixel.
 //
@@ -2605,11 +2683,6 @@ struct placed_vertex {
     glm::vec4 clip;
     Varyings varyings;
 };
-
-/// Anything made of floats alone can be interpolated: float, glm::vec2..4, aggregates of those.
-template <class V>
-concept interpolatable = std::is_trivially_copyable_v<V> && alignof(V) == alignof(float) &&
-                         sizeof(V) % sizeof(float) == 0 && !std::is_integral_v<V> && !std::is_enum_v<V>;
 
 /// `shader(vertex)` gives a clip position, alone (glm::vec4) or with varyings (placed_vertex).
 template <class S>
@@ -2715,8 +2788,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/raster/small.hpp -----------------------------------------------------------------
 // Small triangles, of which a fine mesh is made: several go through the set-up at a time, one per lane, in 32 bits.
 //
-// A triangle is small if it extends less than 2^14 sub-pixels; then differences of its corners have 15 bits and edge
-// functions 30. What is decided here is what setup.hpp decides for triangles of any size, in the same integers.
+// A triangle is small if it extends less than 2^15 sub-pixels, 8 pixels at 12 sub-pixel bits: then edge functions are sums
+// of two products of less than 2^30 each, and fit 32 bits. What is decided here is what setup.hpp decides for triangles of any size, in the same integers.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2778,7 +2851,7 @@ struct corner_lanes {
     INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_place::no_x)); }
     /// Whether all of them are small; of those on the grid.
     INSONIFY_INLINE bool are_small() const {
-        constexpr std::int32_t most = 1 << 14;
+        constexpr std::int32_t most = (1 << 15) - 1;
         return !any(ints(((east - west) | (south - north)) >= most));
     }
     /// Twice the area, positive for clockwise on the screen; of small ones.
@@ -4428,6 +4501,10 @@ draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentSha
                         "the depth image's");
     }
     const auto shade = [&](const auto& triangles, auto& tile, float sign) {
+        if constexpr (requires { target.background; })
+            if (target.clears_color && options.load == depth_load::clear)
+                for (int y = triangles.box.y0; y <= triangles.box.y1; ++y)
+                    std::fill_n(&target.color(triangles.box.x0, y), triangles.box.width(), target.background);
         return detail::shade(m, place, shader, target, triangles, tile, sign);
     };
     return detail::draw_tiles<true, double>(m, place, target.depth, options, ex, detail::no_records, detail::every_tile,
@@ -6337,6 +6414,17 @@ concept collective_occlusion = occlusion<S> &&
 };
 inline constexpr float unknown = -1;  ///< in shares::lit, between screening and testing
 
+/// What may be known of a triangle or a point beforehand.
+enum class known : std::uint8_t { lit, dark, nothing };
+
+/// Collective occlusion that knows whole triangles: `structure.known_triangles(caster, eye, executor)` has an answer
+/// for each triangle of a caster as the camera sees it, or none at all.
+template <class S>
+concept triangle_occlusion = collective_occlusion<S> &&
+    requires(const S& structure, std::uint32_t caster, const glm::dvec3& eye, serial_executor& ex) {
+    { structure.known_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::unfilled_vector<known>>;
+};
+
 }  // namespace shadow
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -6491,6 +6579,11 @@ struct lit_grid {
         x_of = glm::dvec2(y.y, -y.x) / cross(x, y);
         y_of = glm::dvec2(-x.y, x.x) / cross(x, y);
     }
+    /// (X, Y) of a place in the mesh's frame.
+    INSONIFY_INLINE glm::dvec2 steps(const glm::dvec2& p) const {
+        const double dx = p.x - origin.x, dy = p.y - origin.y;
+        return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
+    }
 };
 
 /// u of a grid's vertices, column by column, with nothing around them.
@@ -6635,47 +6728,55 @@ struct horizon_kernel {
 /// Which of a heightfield's own points are lit, dark, or left to an exact test.
 class horizon_bounds {
   public:
-    enum class answer { lit, dark, unknown };
-
     /// @param m       the mesh, a regular grid whose vertices lie within `off` steps of the lattice
     /// @param travel  where the light goes, in the mesh's frame: down
     template <executor E>
     horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, double off, E& ex)
-        : grid_(lattice, travel) {
-        const grid_heights heights(m, grid_, ex);
-        const double relief = grid_.drop * (static_cast<double>(heights.greatest) - static_cast<double>(heights.least));
+        : grid_(lattice, travel), heights_(m, grid_, ex) {
+        const auto greatest = static_cast<double>(heights_.greatest), least = static_cast<double>(heights_.least);
+        const double relief = grid_.drop * (greatest - least);
         const double size =
-            grid_.columns + grid_.drop * (std::max)(numeric::magnitude(static_cast<double>(heights.greatest)),
-                                                    numeric::magnitude(static_cast<double>(heights.least)));
+            grid_.columns + grid_.drop * (std::max)(numeric::magnitude(greatest), numeric::magnitude(least));
         margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
         bounds_.resize(static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_));
         bulk_ranges(ex, static_cast<std::size_t>(strips_), 128, [&](std::size_t from, std::size_t to) {
             insonify::detail::dispatch(
-                horizon_kernel{grid_, heights, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
+                horizon_kernel{grid_, heights_, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
                                static_cast<float>(margin_), bounds_.data()},
                 best_isa());
         });
     }
 
     /// @param p  on the mesh, on a side that faces the light, in the mesh's frame
-    INSONIFY_INLINE answer at(const glm::dvec3& p) const {
-        const double dx = p.x - grid_.origin.x, dy = p.y - grid_.origin.y;
-        const double x = grid_.x_of.x * dx + grid_.x_of.y * dy, y = grid_.y_of.x * dx + grid_.y_of.y * dy;
-        if (!(x >= 0 && x <= grid_.columns - 1)) return answer::unknown;
+    INSONIFY_INLINE known at(const glm::dvec3& p) const {
+        const glm::dvec2 at = grid_.steps(glm::dvec2(p));
+        const double x = at.x, y = at.y;
+        if (!(x >= 0 && x <= grid_.columns - 1)) return known::nothing;
         const auto column = static_cast<int>(x);
         const int strip = static_cast<int>(y - grid_.slope * x - first_strip_);
-        if (strip < 0 || strip >= strips_) return answer::unknown;
-        const horizon_bound& b = bounds_[static_cast<std::size_t>(column) * static_cast<std::size_t>(strips_) +
-                                         static_cast<std::size_t>(strip)];
+        if (strip < 0 || strip >= strips_) return known::nothing;
+        const horizon_bound& b = bound(column, strip);
         const double u = x + grid_.drop * p.z;
-        if (u < static_cast<double>(b.met) - margin_) return answer::dark;
-        return u > static_cast<double>(b.may_meet) + margin_ ? answer::lit : answer::unknown;
+        if (u < static_cast<double>(b.met) - margin_) return known::dark;
+        return u > static_cast<double>(b.may_meet) + margin_ ? known::lit : known::nothing;
+    }
+
+    const lit_grid& grid() const { return grid_; }
+    const grid_heights& heights() const { return heights_; }
+    /// By which u may be off, in columns.
+    double margin() const { return margin_; }
+    /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
+    int first_strip() const { return first_strip_; }
+    const horizon_bound& bound(int column, int strip) const {
+        return bounds_[static_cast<std::size_t>(column) * static_cast<std::size_t>(strips_) +
+                       static_cast<std::size_t>(strip)];
     }
 
   private:
     lit_grid grid_;
+    grid_heights heights_;
     double margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::unfilled_vector<horizon_bound> bounds_;
@@ -6742,6 +6843,174 @@ class light_plane {
     glm::dvec3 rows_[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     glm::dvec3 origin_{0};
     bool is_near_ = false;
+};
+
+}  // namespace shadow::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/horizon_triangles.hpp ----------------------------------------------
+// Whole triangles of a regular grid that are in the light or in the dark, by the bounds of their horizon.
+//
+// Within a cell, u (horizon_bounds.hpp) lies between its values at the corners, and so a triangle whose largest u is
+// below what every ray of its strips has met is dark in all its points; one whose least u is above what any may have
+// met is lit. Pixels that show such a triangle need no point. That holds for its upper side; it is the one that the
+// camera sees if the camera lies above the triangle's plane.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail {
+
+/// Where the ray at a point of a light's plane meets the plane z = 0 of a mesh, in the steps of its grid.
+class ray_feet {
+  public:
+    ray_feet(const light_plane& plane, const affine& placement, const lit_grid& grid) {
+        const auto seen = [&](double x, double y) { return glm::dvec2(plane(transform_point(placement, {x, y, 0}))); };
+        origin_ = seen(0, 0);
+        const glm::dvec2 x = seen(1, 0) - origin_, y = seen(0, 1) - origin_;
+        const double area = x.x * y.y - x.y * y.x;
+        x_of_ = glm::dvec2(y.y, -y.x) / area;
+        y_of_ = glm::dvec2(-x.y, x.x) / area;
+        grid_ = &grid;
+    }
+    glm::dvec2 operator()(const glm::dvec2& at) const {
+        const glm::dvec2 off = at - origin_;
+        return grid_->steps({x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y});
+    }
+
+    /// Bounds of those of a rectangle's points.
+    std::pair<glm::dvec2, glm::dvec2> of(const glm::dvec2& corner, const glm::dvec2& size) const {
+        glm::dvec2 lower = (*this)(corner), upper = lower;
+        for (const glm::dvec2& other : {glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size}) {
+            const glm::dvec2 at = (*this)(corner + other);
+            lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
+            upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
+        }
+        return {lower, upper};
+    }
+
+  private:
+    glm::dvec2 origin_{0}, x_of_{0}, y_of_{0};
+    const lit_grid* grid_ = nullptr;
+};
+
+/// Answers for all triangles of one grid, seen by one camera.
+class horizon_triangles {
+  public:
+    /// @param m    the mesh, of which `horizon` is
+    /// @param eye  the camera, in the mesh's frame
+    horizon_triangles(const mesh_view& m, const regular_grid& lattice, const horizon_bounds& horizon,
+                      const glm::dvec3& travel, const glm::dvec3& eye)
+        : horizon_(horizon), grid_(horizon.grid()), columns_(lattice.columns) {
+        eye_ = grid_.steps(glm::dvec2(eye));
+        eye_u_ = eye_.x + grid_.drop * eye.z;
+        // The sine is u's slope along the light, times the light's own sine, over the length of the facet's normal.
+        const double relief =
+            static_cast<double>(horizon.heights().greatest) - static_cast<double>(horizon.heights().least);
+        const auto square_of = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
+        const double steps_a_metre = numeric::square_root((std::max)(square_of(grid_.x_of), square_of(grid_.y_of)));
+        const double steepest = 1 + 2 * relief * steps_a_metre;
+        const double sine = -travel.z / numeric::square_root(numeric::dot(travel, travel));
+        constexpr double grazed = 0x1p-20;  // a triangle closer to the light's direction is left to points
+        rise_ = horizon.margin() + grazed * steepest / sine;
+        // The first triangle of each cell leaves one corner out; of the two here, `lower` is opposite another.
+        const std::ptrdiff_t corner = corner_of(0, 0);
+        const std::ptrdiff_t apex = grid_.first + (grid_.is_rising ? grid_.along : 0) - corner;
+        const glm::uvec3& t = m.triangles[0];
+        const std::ptrdiff_t opposite = columns_ + 1 - apex;
+        lower_is_first_ = static_cast<std::ptrdiff_t>(t.x) != opposite &&
+                          static_cast<std::ptrdiff_t>(t.y) != opposite && static_cast<std::ptrdiff_t>(t.z) != opposite;
+    }
+
+    /// Writes the answers of some columns of cells, by triangle.
+    void find(int first_column, int last_column, known* into) const {
+        for (int low = 0; low < grid_.rows - 1; low += square)
+            for (int x = first_column; x < last_column; ++x)
+                for (int y = low; y < (std::min)(low + square, grid_.rows - 1); ++y) decide(x, y, into);
+    }
+
+    /// Takes the answers back of cells over which others may cast: where rays through some u and w pass within the
+    /// relief.
+    /// @param lower, upper  where such rays meet the plane z = 0, in the grid's own steps
+    void forget(const glm::dvec2& lower, const glm::dvec2& upper, known* into) const {
+        const auto least = static_cast<double>(horizon_.heights().least),
+                   greatest = static_cast<double>(horizon_.heights().greatest);
+        const auto held = [](double at, int count) {
+            return static_cast<int>((std::min)((std::max)(at, 0.0), static_cast<double>(count)));
+        };
+        const int left = held(lower.x - grid_.drop * greatest - 2, grid_.columns - 1),
+                  right = held(upper.x - grid_.drop * least + 2, grid_.columns - 1);
+        const double up = grid_.slope * grid_.drop;
+        const int bottom = held(lower.y - up * greatest - 2, grid_.rows - 1),
+                  top = held(upper.y - up * least + 2, grid_.rows - 1);
+        for (int x = left; x < right; ++x)
+            for (int y = bottom; y < top; ++y) into[triangle_of(x, y)] = into[triangle_of(x, y) + 1] = known::nothing;
+    }
+
+  private:
+    static constexpr int square = 32;  ///< cells, so that what is read and what is written stays in the cache
+
+    /// The vertex of a cell with the lowest number.
+    std::ptrdiff_t corner_of(int x, int y) const {
+        return grid_.first + (x + (grid_.along < 0 ? 1 : 0)) * grid_.along +
+               (y + (grid_.across < 0 ? 1 : 0)) * grid_.across;
+    }
+    /// The first triangle of a cell.
+    std::size_t triangle_of(int x, int y) const {
+        const std::ptrdiff_t corner = corner_of(x, y);
+        return static_cast<std::size_t>(2 * (corner - corner / columns_));
+    }
+
+    void decide(int x, int y, known* into) const {
+        const float *const here = horizon_.heights().column(x) + y, *const ahead = horizon_.heights().column(x + 1) + y;
+        const float a = here[0], c = here[1], b = ahead[0], d = ahead[1];
+        // The strips that the cell lies in.
+        constexpr double beside = 0x1p-8;
+        const double from = y - horizon_.first_strip() - grid_.slope * x;
+        float met = std::numeric_limits<float>::infinity(), may_meet = -met;
+        const int last = static_cast<int>(from + 1 + beside);
+        for (int strip = static_cast<int>(from - grid_.slope - beside); strip <= last; ++strip) {
+            const horizon_bound& bound = horizon_.bound(x, strip);
+            met = bound.met < met ? bound.met : met;
+            may_meet = bound.may_meet > may_meet ? bound.may_meet : may_meet;
+        }
+        const auto margin = static_cast<float>(horizon_.margin());
+        const auto of = [&](float p, float q, float r, float along_x, float along_y, float base) {
+            const float highest = (std::max)((std::max)(p, q), r), lowest = (std::min)((std::min)(p, q), r);
+            const float rise = along_x + static_cast<float>(grid_.slope) * along_y;
+            const auto dx = static_cast<float>(eye_.x - x), dy = static_cast<float>(eye_.y - y);
+            const float error = 4 * margin * (2 + numeric::magnitude(dx) + numeric::magnitude(dy));
+            const bool is_above = base + along_x * dx + along_y * dy < static_cast<float>(eye_u_) - error;
+            const auto enough = static_cast<float>(rise_);
+            const bool is_facing = rise > enough, is_averted = rise < -enough;
+            if (is_above && is_averted) return known::dark;
+            if ((is_above || is_facing) && highest < met - margin) return known::dark;
+            return is_above && is_facing && lowest > may_meet + margin ? known::lit : known::nothing;
+        };
+        known lower, upper;
+        if (grid_.is_rising) {
+            lower = of(a, b, d, b - a, d - b, a);
+            upper = of(a, d, c, d - c, c - a, a);
+        } else {
+            lower = of(a, b, c, b - a, c - a, a);
+            upper = of(b, d, c, d - c, d - b, b + c - d);
+        }
+        known* const cell = into + triangle_of(x, y);
+        cell[0] = lower_is_first_ ? lower : upper;
+        cell[1] = lower_is_first_ ? upper : lower;
+    }
+
+    const horizon_bounds& horizon_;
+    const lit_grid& grid_;
+    int columns_;
+    glm::dvec2 eye_{0};  ///< in the grid's steps
+    double eye_u_ = 0;
+    double rise_ = 0;  ///< of u along the light, a column, above which a triangle faces it
+    bool lower_is_first_ = true;
 };
 
 }  // namespace shadow::detail
@@ -7367,19 +7636,48 @@ class exact_occlusion {
                 own = at.face_light && mesh < horizons_.size() && horizons_[mesh].bounds ? &horizons_[mesh] : nullptr;
             }
             const glm::dvec3 p = at[i];
-            auto known = detail::horizon_bounds::answer::unknown;
-            if (own != nullptr) known = own->bounds->at(transform_point(own->to_mesh, p));
+            auto answer = known::nothing;
+            if (own != nullptr) answer = own->bounds->at(transform_point(own->to_mesh, p));
             if (near_light_) continue;
             const plane_state& state = planes_.front();
             const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(p))];
             if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
                 into.lit[i] = 1;
-            } else if (occupant == mesh && known != detail::horizon_bounds::answer::unknown) {
-                const bool is_dark = known == detail::horizon_bounds::answer::dark;
+            } else if (occupant == mesh && answer != known::nothing) {
+                const bool is_dark = answer == known::dark;
                 into.lit[i] = is_dark ? 0.0f : 1.0f;
                 if (is_dark) into.caster[i] = mesh;
             }
         }
+    }
+
+    /// What is known of whole triangles of a caster as a camera sees them: an answer for each, or none at all.
+    /// @param eye  the camera
+    template <executor E>
+    insonify::detail::unfilled_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye, E& ex) const {
+        insonify::detail::unfilled_vector<known> answers;
+        if (caster >= horizons_.size() || !horizons_[caster].bounds) return answers;
+        const shadow::caster& c = casters_[caster];
+        const horizon_state& state = horizons_[caster];
+        const detail::horizon_triangles triangles(c.mesh, *c.grid, *state.bounds, state.travel,
+                                                  transform_point(state.to_mesh, eye));
+        answers.resize(c.mesh.triangles.size());
+        bulk_ranges(ex, static_cast<std::size_t>(state.bounds->grid().columns - 1), 32,
+                    [&](std::size_t first, std::size_t last) {
+                        triangles.find(static_cast<int>(first), static_cast<int>(last), answers.data());
+                    });
+        // Where others may cast, too, points decide.
+        const plane_state& plane = planes_.front();
+        const detail::ray_feet feet(plane.plane, c.placement, state.bounds->grid());
+        for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
+            if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
+            const glm::dvec2 size = plane.tiles.tile();
+            const auto columns = static_cast<std::size_t>(plane.tiles.columns);
+            const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
+            const auto [lower, upper] = feet.of(plane.tiles.lower + size * place, size);
+            triangles.forget(lower, upper, answers.data());
+        }
+        return answers;
     }
 
     /// See occlusion.
@@ -7445,6 +7743,7 @@ class exact_occlusion {
     };
     struct horizon_state {
         affine to_mesh;
+        glm::dvec3 travel{0};  ///< of the light, in the mesh's frame
         std::optional<detail::horizon_bounds> bounds;
     };
     using receivers_of = insonify::detail::unfilled_vector<detail::receiver>;
@@ -7482,8 +7781,8 @@ class exact_occlusion {
         horizon_state& state = horizons_.emplace_back();
         if (c.grid == nullptr || c.may_skip != skip::facing_its_own) return;
         state.to_mesh = inverse(c.placement);
-        state.bounds.emplace(c.mesh, *c.grid, transform_direction(state.to_mesh, -frame.to_light()),
-                             shared_mesh_grid_error, ex);
+        state.travel = transform_direction(state.to_mesh, -frame.to_light());
+        state.bounds.emplace(c.mesh, *c.grid, state.travel, shared_mesh_grid_error, ex);
     }
     /// The part of a near light's plane that a box is over.
     static std::pair<glm::dvec2, glm::dvec2> seen_part(const detail::light_plane& plane, const bounding_box& box) {
@@ -8029,6 +8328,146 @@ inline void order_along_curve(mesh& m, const bounding_box& box) {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/geometry/detail/lattice_order.hpp ------------------------------------------------
+// Heightfields over a regular lattice whose vertices or triangles come in another order, as after a mesh optimizer:
+// found by where the vertices lie, and put in the order of the lattice.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// The lattice that one of a mesh's triangles is half a cell of.
+class triangle_lattice {
+  public:
+    /// Of a cell's three edges the longest is its diagonal. The first step goes mostly along x, both upwards.
+    static std::optional<triangle_lattice> of(const mesh& m) {
+        if (m.triangles.size() < 2) return std::nullopt;
+        glm::dvec2 corner[3];
+        for (int i = 0; i < 3; ++i) corner[i] = place(m, m.triangles[0][i]);
+        int right_angle = 0;
+        double longest = 0;
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec2 edge = corner[(i + 2) % 3] - corner[(i + 1) % 3];
+            const double square = edge.x * edge.x + edge.y * edge.y;
+            if (square > longest) longest = square, right_angle = i;
+        }
+        triangle_lattice l;
+        l.origin_ = corner[right_angle];
+        l.right_ = corner[(right_angle + 1) % 3] - l.origin_;
+        l.up_ = corner[(right_angle + 2) % 3] - l.origin_;
+        if (numeric::magnitude(l.up_.x) > numeric::magnitude(l.right_.x)) std::swap(l.right_, l.up_);
+        if (l.right_.x < 0) l.right_ = -l.right_;
+        if (l.up_.y < 0) l.up_ = -l.up_;
+        const double area = l.right_.x * l.up_.y - l.right_.y * l.up_.x;
+        if (!(area > 0)) return std::nullopt;
+        l.x_of_ = glm::dvec2(l.up_.y, -l.up_.x) / area;
+        l.y_of_ = glm::dvec2(-l.right_.y, l.right_.x) / area;
+        return l;
+    }
+
+    /// The steps of a vertex from the triangle's right angle, if it lies within a quarter of one.
+    std::optional<glm::ivec2> steps(const mesh& m, std::uint32_t vertex) const {
+        const glm::dvec2 off = place(m, vertex) - origin_;
+        const glm::dvec2 at{x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y};
+        constexpr double farthest = 1 << 24;
+        glm::ivec2 whole;
+        for (int axis = 0; axis < 2; ++axis) {
+            if (!(numeric::magnitude(at[axis]) < farthest)) return std::nullopt;
+            whole[axis] = static_cast<int>(numeric::floor_to_int(at[axis] + 0.5));
+            if (numeric::magnitude(at[axis] - whole[axis]) > 0.25) return std::nullopt;
+        }
+        return whole;
+    }
+
+  private:
+    static glm::dvec2 place(const mesh& m, std::uint32_t vertex) {
+        return {static_cast<double>(m.positions[vertex].x), static_cast<double>(m.positions[vertex].y)};
+    }
+
+    glm::dvec2 origin_{0}, right_{0}, up_{0}, x_of_{0}, y_of_{0};
+};
+
+/// Renumbers a mesh that is a whole lattice of cells, each cut the same way into two triangles that are
+/// counter-clockwise seen from +z: vertices row by row, triangles cell by cell. Any other mesh stays as it is.
+/// @returns whether it was one
+inline bool order_by_lattice(mesh& m) {
+    const auto lattice = triangle_lattice::of(m);
+    if (!lattice) return false;
+    std::vector<glm::ivec2> at(m.positions.size());
+    glm::ivec2 lowest(0), highest(0);
+    for (std::uint32_t v = 0; v < at.size(); ++v) {
+        const auto steps = lattice->steps(m, v);
+        if (!steps) return false;
+        at[v] = *steps;
+        lowest = {(std::min)(lowest.x, at[v].x), (std::min)(lowest.y, at[v].y)};
+        highest = {(std::max)(highest.x, at[v].x), (std::max)(highest.y, at[v].y)};
+    }
+    const auto columns = static_cast<std::size_t>(highest.x - lowest.x + 1),
+               rows = static_cast<std::size_t>(highest.y - lowest.y + 1);
+    if (columns * rows != at.size() || m.triangles.size() != 2 * (columns - 1) * (rows - 1)) return false;
+
+    constexpr std::uint32_t none = 0xFFFFFFFFu;
+    std::vector<std::uint32_t> vertex_at(at.size(), none);
+    const auto number_of = [&](const glm::ivec2& p) {
+        return static_cast<std::size_t>(p.y - lowest.y) * columns + static_cast<std::size_t>(p.x - lowest.x);
+    };
+    for (std::uint32_t v = 0; v < at.size(); ++v) {
+        std::uint32_t& to = vertex_at[number_of(at[v])];
+        if (to != none) return false;
+        to = v;
+    }
+
+    // Each triangle leaves one corner of its cell out; with a cell's corners numbered x + 2 y, the diagonals leave out
+    // 1 and 2, or 0 and 3.
+    std::vector<bool> is_there(m.triangles.size(), false);
+    std::optional<bool> is_rising;
+    for (const glm::uvec3& t : m.triangles) {
+        const glm::ivec2 a = at[t.x], b = at[t.y], c = at[t.z];
+        const glm::ivec2 corner{(std::min)((std::min)(a.x, b.x), c.x), (std::min)((std::min)(a.y, b.y), c.y)};
+        const glm::ivec2 ab = b - a, ac = c - a;
+        if (ab.x * ac.y - ab.y * ac.x != 1) return false;
+        int left_out = 6;
+        for (const glm::ivec2& p : {a, b, c}) {
+            if (p.x > corner.x + 1 || p.y > corner.y + 1) return false;
+            left_out -= (p.x - corner.x) + 2 * (p.y - corner.y);
+        }
+        const bool rises = left_out == 1 || left_out == 2;
+        if (is_rising.value_or(rises) != rises) return false;
+        is_rising = rises;
+        const std::size_t cell = static_cast<std::size_t>(corner.y - lowest.y) * (columns - 1) +
+                                 static_cast<std::size_t>(corner.x - lowest.x);
+        const std::size_t slot = 2 * cell + (left_out < 2 ? 1 : 0);
+        if (is_there[slot]) return false;
+        is_there[slot] = true;
+    }
+
+    mesh ordered;
+    ordered.positions.reserve(m.positions.size());
+    ordered.normals.reserve(m.normals.size());
+    for (const std::uint32_t v : vertex_at) {
+        ordered.positions.push_back(m.positions[v]);
+        if (!m.normals.empty()) ordered.normals.push_back(m.normals[v]);
+    }
+    ordered.triangles.reserve(m.triangles.size());
+    for (std::size_t y = 0; y + 1 < rows; ++y)
+        for (std::size_t x = 0; x + 1 < columns; ++x) {
+            const auto a = static_cast<std::uint32_t>(y * columns + x), b = a + 1,
+                       c = a + static_cast<std::uint32_t>(columns), d = c + 1;
+            ordered.triangles.emplace_back(a, b, *is_rising ? d : c);
+            ordered.triangles.emplace_back(*is_rising ? a : b, d, c);
+        }
+    m = std::move(ordered);
+    return true;
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/normals.hpp -------------------------------------------------------------
 // Shading normals for meshes that come without.
 //
@@ -8311,7 +8750,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// An immutable mesh: copies refer to the same triangles. A mesh whose triangles follow one another without order, as
-/// those of a shuffled one, is renumbered, triangles and vertices: otherwise it keeps its numbers. Triangles that are
+/// those of a shuffled one, is renumbered, triangles and vertices, and so is a regular grid that comes in another order
+/// than its rows'; otherwise a mesh keeps its numbers. Triangles that are
 /// wound against all of their normals are turned over. What renderers need of it is found once, when it is made: its
 /// bounds, smooth normals if it brings none, whether it is closed or a heightfield, and the regular grid that a
 /// heightfield's vertices lie on, if they do.
@@ -8344,13 +8784,17 @@ class shared_mesh {
         explicit state(mesh m) : shape(std::move(m)) {
             validate(shape);
             box = bounds(shape);
-            if (detail::is_incoherent(shape)) detail::order_along_curve(shape, box);
+            grid = regular_grid_of(shape, serial_executor{}, grid_error);
+            if (!grid && detail::order_by_lattice(shape))
+                grid = regular_grid_of(shape, serial_executor{}, grid_error);
+            else if (!grid && detail::is_incoherent(shape))
+                detail::order_along_curve(shape, box);
             if (shape.normals.empty())
                 shape.normals = smooth_normals(shape);
             else
                 wind_by_normals(shape);
             kind = kind_of(shape);
-            if (kind == surface_kind::heightfield) grid = regular_grid_of(shape, serial_executor{}, grid_error);
+            if (kind != surface_kind::heightfield) grid.reset();
         }
     };
     static std::shared_ptr<const state> empty() { return std::make_shared<const state>(); }
@@ -12390,6 +12834,13 @@ class shadow_pass {
     void cast(const Occlusion& occlusion, E& ex) {
         std::vector<point_finder> finders;
         for (const surface& s : surfaces_) finders.emplace_back(view_, s);
+        known_.resize(surfaces_.size());
+        if constexpr (shadow::triangle_occlusion<Occlusion>)
+            for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+                // Of a mesh much finer than the picture, points are fewer than triangles.
+                const bool is_worth_it = surfaces_[i].mesh.triangles.size() <= 2 * image_.size();
+                if (is_worth_it) known_[i] = occlusion.known_triangles(surfaces_[i].caster, view_.eye(), ex);
+            }
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
         constexpr std::size_t run = 4;  // tiles share their memory
         const std::size_t pixels = static_cast<std::size_t>(tile_) * static_cast<std::size_t>(tile_);
@@ -12402,11 +12853,13 @@ class shadow_pass {
         bulk_ranges(ex, count, run, [&](std::size_t first, std::size_t last) {
             point_arrays arrays(pixels);
             light_arrays light(pixels);
+            std::vector<float> lit(pixels);
             if constexpr (is_collective) pending[first / run] = point_list(rest_of_points, first / run * room, room);
             for (std::size_t i = first; i < last; ++i) {
                 const pixel_box box = tile_box(i);
                 point_list points(arrays, 0, pixels);
-                find_points(finders, box, points);
+                std::fill(lit.begin(), lit.end(), 0.0f);
+                find_points(finders, box, lit, points);
                 const shadow::shares shares = light.part(0, points.size());
                 point_batches(points, shares, targets_).for_each([&](const shadow::points& p, const shadow::shares& s) {
                     if constexpr (is_collective)
@@ -12426,7 +12879,7 @@ class shadow_pass {
                         }
                     }
                 }
-                finish(box, points, shares);
+                finish(box, points, shares, lit);
             }
         });
         if constexpr (is_collective) {
@@ -12472,10 +12925,13 @@ class shadow_pass {
                                           static_cast<std::size_t>(box.x0) + pixel % width);
     }
 
-    /// The points of a tile that matter: where there is light to lose, or all for the sake of labels.
-    void find_points(std::span<const point_finder> finders, const pixel_box& box, point_list& into) const {
+    /// The points of a tile that matter: where there is light to lose, or all for the sake of labels. Pixels of
+    /// triangles of which all is known get their share of light at once.
+    void find_points(std::span<const point_finder> finders, const pixel_box& box, std::span<float> lit,
+                     point_list& into) {
         std::vector<std::vector<shown_pixel>> pixels(surfaces_.size());
         const surface* last = nullptr;
+        const shadow::known* known = nullptr;  // of the triangles of that
         std::vector<shown_pixel>* to = nullptr;
         for (int y = box.y0; y <= box.y1; ++y) {
             const std::uint32_t* const ids = &ids_(box.x0, y);
@@ -12485,11 +12941,21 @@ class shadow_pass {
                 if (id == shadow::invalid_id || !(labelled || direct[x] > 0)) continue;
                 if (last == nullptr || id - last->first_id >= last->mesh.triangles.size()) {
                     last = &surface_of(surfaces_, id);
-                    to = &pixels[static_cast<std::size_t>(last - surfaces_.data())];
+                    const auto number = static_cast<std::size_t>(last - surfaces_.data());
+                    known = known_[number].empty() ? nullptr : known_[number].data();
+                    to = &pixels[number];
                     if (to->empty()) to->reserve(static_cast<std::size_t>(box.width() * box.height()));
                 }
-                to->push_back(
-                    {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y - box.y0), id - last->first_id});
+                const std::uint32_t triangle = id - last->first_id;
+                const auto answer = known != nullptr ? known[triangle] : shadow::known::nothing;
+                if (answer == shadow::known::nothing) {
+                    to->push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y - box.y0), triangle});
+                } else if (answer == shadow::known::lit) {
+                    lit[static_cast<std::size_t>(y - box.y0) * static_cast<std::size_t>(box.width()) +
+                        static_cast<std::size_t>(x)] = 1;
+                } else if constexpr (labelled) {
+                    labels_.shadow(box.x0 + x, y) = name_of(last->caster);
+                }
             }
         }
         for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -12498,9 +12964,9 @@ class shadow_pass {
     }
 
     /// Pixels of a tile from what the light makes of them and how much of it arrives.
-    void finish(const pixel_box& box, const point_list& points, const shadow::shares& light) {
+    /// @param lit  of the pixels that need no point
+    void finish(const pixel_box& box, const point_list& points, const shadow::shares& light, std::span<float> lit) {
         const auto width = static_cast<std::size_t>(box.width());
-        std::vector<float> lit(width * static_cast<std::size_t>(box.height()), 0.0f);
         for (std::size_t i = 0; i < points.facing; ++i) lit[points.pixel(i)] = light.lit[i];
         for (int y = box.y0; y <= box.y1; ++y) {
             const float* const share = lit.data() + static_cast<std::size_t>(y - box.y0) * width;
@@ -12521,9 +12987,11 @@ class shadow_pass {
             const std::uint32_t caster = is_averted && light.caster[i] >= targets_ ? points.caster(i) : light.caster[i];
             // A lit share of 0 without a caster is one that is yet to be tested.
             if (caster == shadow::invalid_id) continue;
-            labels_.shadow.pixels()[pixel_of(points.pixel(i))] =
-                caster < targets_ ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
+            labels_.shadow.pixels()[pixel_of(points.pixel(i))] = name_of(caster);
         }
+    }
+    std::uint16_t name_of(std::uint32_t caster) const {
+        return caster < targets_ ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
     }
 
     const overhead_geometry& view_;
@@ -12532,6 +13000,7 @@ class shadow_pass {
     const image<float>& rest_;
     image<float>& image_;
     Labels& labels_;
+    std::vector<unfilled_vector<shadow::known>> known_;  ///< of the surfaces' triangles, where anything is
     std::uint32_t targets_;
     int tile_;
     isa level_;
@@ -16956,6 +17425,76 @@ filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask,
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/geometry/camera.hpp --------------------------------------------------------------
+// A camera for `draw`: where it stands, what it looks at, and the perspective of its picture.
+//
+// Its clip space is the library's: visible is -w <= x <= w, -w <= y <= w with y up, and 0 <= z <= w. Depth is reversed,
+// z / w = z_near / distance, so that precision does not fall off far away (draw with keep_depth::larger).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// A pinhole camera.
+struct camera {
+    glm::dvec3 eye{0, -5, 2};                                   ///< metres in the world
+    glm::dvec3 target{0, 0, 0};                                 ///< appears in the middle of the picture
+    glm::dvec3 up{0, 0, 1};                                     ///< appears upwards; not along the line of sight
+    float field_of_view = static_cast<float>(numeric::pi / 3);  ///< from the picture's bottom to its top, radians
+    float aspect = 1;                                           ///< width of the picture / its height
+    float z_near = 0.01f;                                       ///< metres; what is nearer is clipped
+};
+
+/// From the world to the camera's frame: x right, y up, z towards the viewer.
+/// @throws invalid_input for an eye at the target, or `up` along the line of sight
+inline affine look_at(const camera& c) {
+    const glm::dvec3 back = detail::unit(c.eye - c.target), right = detail::unit(numeric::cross(c.up, back));
+    const double turned = numeric::dot(right, right);
+    detail::require(turned > 0.5 && numeric::is_finite(turned), "length of up x line of sight", turned, "above 0");
+    const glm::dvec3 up = numeric::cross(back, right);
+    const glm::dmat3 linear(glm::dvec3(right.x, up.x, back.x), glm::dvec3(right.y, up.y, back.y),
+                            glm::dvec3(right.z, up.z, back.z));
+    return {linear, -numeric::product(linear, c.eye)};
+}
+
+/// Projects points of an object to clip space: `clip = view(point)`.
+class camera_view {
+  public:
+    /// @param object_to_world  where the object stands
+    /// @throws invalid_input as look_at, and for a field of view or a z_near that can't be
+    explicit camera_view(const camera& c, const affine& object_to_world = {})
+        : to_camera_(compose(look_at(c), object_to_world)), z_near_(c.z_near) {
+        detail::require(c.field_of_view > 0 && static_cast<double>(c.field_of_view) < numeric::pi,
+                        "camera.field_of_view", c.field_of_view, "above 0 and below pi");
+        detail::require(c.aspect > 0 && numeric::is_finite(c.aspect), "camera.aspect", c.aspect, "above 0");
+        detail::require(c.z_near > 0 && numeric::is_finite(c.z_near), "camera.z_near", c.z_near, "metres above 0");
+        const double scale = 1 / numeric::tan(0.5 * static_cast<double>(c.field_of_view));
+        scale_ = {static_cast<float>(scale / static_cast<double>(c.aspect)), static_cast<float>(scale)};
+    }
+
+    glm::vec4 operator()(const glm::vec3& point) const {
+        const glm::vec3 p(transform_point(to_camera_, glm::dvec3(point)));
+        return {p.x * scale_.x, p.y * scale_.y, z_near_, -p.z};
+    }
+
+  private:
+    affine to_camera_;
+    glm::vec2 scale_{1};
+    float z_near_;
+};
+
+/// A position in OpenGL's clip space, where -w <= z <= w, in the library's: without it all that lies between the near
+/// plane and twice its distance would be clipped.
+constexpr glm::vec4 from_gl_clip(const glm::vec4& p) {
+    return {p.x, p.y, 0.5f * (p.z + p.w), p.w};
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/geometry/cube.hpp ----------------------------------------------------------------
 // Boxes.
 
@@ -21163,8 +21702,9 @@ class name_tally {
   public:
     explicit name_tally(std::size_t bins) : heads_(bins, none) {}
 
+    bool empty() const { return entries_.empty(); }
     void clear() {
-        if (entries_.empty()) return;
+        if (empty()) return;
         heads_.assign(heads_.size(), none);
         entries_.clear();
     }
@@ -21776,8 +22316,9 @@ struct echo_bin {
     float bottom = 0, target = 0;  ///< power
     float lit = 0;                 ///< of the bottom
     float dark_by_seabed = 0, dark_by_target = 0;
-    // Those that have most of the bin; see name_tally.
-    std::uint16_t instance = labels::no_instance, caster = labels::is_lit;
+    float of_seabed = 0;  ///< of the first type in the bin; name_tally has the others
+    // Those that have most of the bin, in the end.
+    std::uint16_t instance = labels::no_instance, caster = labels::by_seabed;
     std::uint8_t seabed = labels::no_seabed;
 };
 
@@ -21893,15 +22434,22 @@ class ping_listener {
         profile_.resize(end - first_point_);
         lowest_ = 1e30, highest_ = -1e30;
         const glm::vec2 across(p.across()), along(p.along());
+        const double altitude = p.position().z;
         for (std::size_t i = 0; i < profile_.size(); ++i) {
-            const double x = place_of(i);
             bottom_vertex v;
-            double depth = i > 0 ? profile_[i - 1].down : 0;
-            // Of a pitched fan the place depends on the depth, which slopes below 1 / tan(pitch) make converge.
-            for (int step = p.is_level() ? 0 : -4; step <= 0; ++step) {
-                const glm::dvec2 at = p.is_level() ? p.world(x, 0) : p.below(x, tiles_.clamped(p, depth));
+            double depth;
+            if (p.is_level()) {
+                const glm::dvec2 at = p.world(place_of(i), 0);
                 v = tiles_.at(at.x, at.y);
-                depth = (p.position().z - static_cast<double>(v.height)) / p.cosine_pitch();
+                depth = altitude - static_cast<double>(v.height);
+            } else {
+                // The place depends on the depth; slopes below 1 / tan(pitch) make the steps converge.
+                depth = i > 0 ? profile_[i - 1].down : 0;
+                for (int step = 0; step < 5; ++step) {
+                    const glm::dvec2 at = p.below(place_of(i), tiles_.clamped(p, depth));
+                    v = tiles_.at(at.x, at.y);
+                    depth = (altitude - static_cast<double>(v.height)) / p.cosine_pitch();
+                }
             }
             const auto height = static_cast<double>(v.height);
             profile_[i] = {depth, v.slope_x * across.x + v.slope_y * across.y,
@@ -22004,13 +22552,18 @@ class ping_listener {
 
     /// Gives each bin the names that have most of it.
     void name_bins() {
-        for (std::size_t b = 0; b < bins_.size(); ++b) {
-            echo_bin& bin = bins_[b];
-            bin.instance = echoing_.largest(b, labels::no_instance).name;
-            bin.seabed = static_cast<std::uint8_t>(types_.largest(b, labels::no_seabed).name);
-            const auto [caster, length] = casting_.largest(b, labels::by_seabed);
-            bin.caster = length >= bin.dark_by_seabed ? caster : labels::by_seabed;
-        }
+        if (!types_.empty())
+            for (std::size_t b = 0; b < bins_.size(); ++b) {
+                const auto [type, length] = types_.largest(b, labels::no_seabed);
+                if (length > bins_[b].of_seabed) bins_[b].seabed = static_cast<std::uint8_t>(type);
+            }
+        if (some_target_)
+            for (std::size_t b = 0; b < bins_.size(); ++b) {
+                echo_bin& bin = bins_[b];
+                bin.instance = echoing_.largest(b, labels::no_instance).name;
+                const auto [caster, length] = casting_.largest(b, labels::by_seabed);
+                bin.caster = length >= bin.dark_by_seabed ? caster : labels::by_seabed;
+            }
         echoing_.clear(), casting_.clear(), types_.clear();
     }
 
@@ -22039,7 +22592,11 @@ class ping_listener {
                        bin.dark_by_seabed += length;
                    else
                        bin.dark_by_target += length, casting_.add(number, caster, length);
-                   types_.add(number, type, length);
+                   if (bin.seabed == labels::no_seabed) bin.seabed = type;
+                   if (bin.seabed == type)
+                       bin.of_seabed += length;
+                   else
+                       types_.add(number, type, length);
                });
     }
 
@@ -22648,6 +23205,24 @@ recording<Labels> record(const scene& s, std::span<const ping> track, const side
     return out;
 }
 
+/// Records into memory of the caller's, for pings that come a few at a time: row i of `into` becomes ping i.
+/// @param into     rig.bins columns, a row per ping; it may be a part of a larger image
+/// The other parameters and errors are those of `record`; it also throws invalid_input for a view of another size,
+/// which is then untouched.
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+record_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
+                         const side_scan_rig<Axis>& rig, const record_options<Labels, Law, Equation>& options = {},
+                         E&& ex = {}) {
+    detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
+    detail::require(static_cast<std::size_t>(into.height()) == track.size(), "into.height()", into.height(),
+                    "that of the pings");
+    const auto heard = record(s, track, rig, options.without_labels(), ex);
+    for (int y = 0; y < into.height(); ++y)
+        std::copy(heard.image.row(y).begin(), heard.image.row(y).end(), into.row(y).begin());
+    return heard.stats;
+}
+
 /// Draws a scene as a side-scan sonar on a straight track hears it, or as a map of what it hears: see side_scan_rig.
 /// Row i is ping i. The other parameters are those of `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
@@ -23149,7 +23724,7 @@ template <across_track Axis, executor_argument E = serial_executor>
 recording<labels> with_tone(recording<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     const detail::tone_sampler level(tone);
     if (tone.is_none()) return r;
-    const ping_numbers numbers = numbers_of(rig);
+    const ping_numbers numbers = r.rows;
     const double altitude = static_cast<double>(rig.altitude), first = static_cast<double>(rig.first_range);
     bulk_ranges(ex, static_cast<std::size_t>(r.image.height()), 16, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {

@@ -25,6 +25,12 @@ double least_ms(const Fn& work) {
     return least;
 }
 
+/// Ripples as a user would write them: a model of one's own around the same rows.
+struct own_ripples {
+    static constexpr sb::type_properties kind{sb::own_type(0), "own ripples", 0.5f, {}};
+    sb::ripples_sampler prepare() const { return sb::ripples{}.prepare(); }
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -39,6 +45,7 @@ int main(int argc, char** argv) {
     };
     time("flat", sb::flat{});
     time("ripples", sb::ripples{});
+    time("own", own_ripples{});
     time("mud", sb::mud{});
     time("rock", sb::rock{});
     time("blend", sb::blend{});

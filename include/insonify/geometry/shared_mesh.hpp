@@ -3,6 +3,7 @@
 
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/detail/coherent_order.hpp>
+#include <insonify/geometry/detail/lattice_order.hpp>
 #include <insonify/geometry/normals.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/surface_kind.hpp>
@@ -15,7 +16,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 /// An immutable mesh: copies refer to the same triangles. A mesh whose triangles follow one another without order, as
-/// those of a shuffled one, is renumbered, triangles and vertices: otherwise it keeps its numbers. Triangles that are
+/// those of a shuffled one, is renumbered, triangles and vertices, and so is a regular grid that comes in another order
+/// than its rows'; otherwise a mesh keeps its numbers. Triangles that are
 /// wound against all of their normals are turned over. What renderers need of it is found once, when it is made: its
 /// bounds, smooth normals if it brings none, whether it is closed or a heightfield, and the regular grid that a
 /// heightfield's vertices lie on, if they do.
@@ -48,13 +50,17 @@ class shared_mesh {
         explicit state(mesh m) : shape(std::move(m)) {
             validate(shape);
             box = bounds(shape);
-            if (detail::is_incoherent(shape)) detail::order_along_curve(shape, box);
+            grid = regular_grid_of(shape, serial_executor{}, grid_error);
+            if (!grid && detail::order_by_lattice(shape))
+                grid = regular_grid_of(shape, serial_executor{}, grid_error);
+            else if (!grid && detail::is_incoherent(shape))
+                detail::order_along_curve(shape, box);
             if (shape.normals.empty())
                 shape.normals = smooth_normals(shape);
             else
                 wind_by_normals(shape);
             kind = kind_of(shape);
-            if (kind == surface_kind::heightfield) grid = regular_grid_of(shape, serial_executor{}, grid_error);
+            if (kind != surface_kind::heightfield) grid.reset();
         }
     };
     static std::shared_ptr<const state> empty() { return std::make_shared<const state>(); }

@@ -221,6 +221,10 @@ draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentSha
                         "the depth image's");
     }
     const auto shade = [&](const auto& triangles, auto& tile, float sign) {
+        if constexpr (requires { target.background; })
+            if (target.clears_color && options.load == depth_load::clear)
+                for (int y = triangles.box.y0; y <= triangles.box.y1; ++y)
+                    std::fill_n(&target.color(triangles.box.x0, y), triangles.box.width(), target.background);
         return detail::shade(m, place, shader, target, triangles, tile, sign);
     };
     return detail::draw_tiles<true, double>(m, place, target.depth, options, ex, detail::no_records, detail::every_tile,

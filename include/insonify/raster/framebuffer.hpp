@@ -16,7 +16,7 @@ enum class keep_depth {
 /// What depth a draw finds in the target.
 enum class depth_load {
     keep,   ///< what is there: earlier draws occlude this one
-    clear,  ///< nothing: the target's depth is overwritten, without being read
+    clear,  ///< nothing: the target's depth is overwritten, without being read; see framebuffer for its color
 };
 
 /// The depth of an empty pixel.
@@ -41,6 +41,8 @@ template <class Pixel>
 struct framebuffer {
     image_view<Pixel> color;
     image_view<float> depth;
+    bool clears_color = false;  ///< whether draws that clear depths write `background` where they show nothing
+    Pixel background{};
 };
 template <>
 struct framebuffer<void> {

@@ -6,6 +6,7 @@
 
 #include <insonify/core/error.hpp>
 #include <insonify/core/portable.hpp>
+#include <insonify/raster/interpolatable.hpp>
 
 #include <array>
 #include <concepts>
@@ -34,11 +35,6 @@ struct placed_vertex {
     glm::vec4 clip;
     Varyings varyings;
 };
-
-/// Anything made of floats alone can be interpolated: float, glm::vec2..4, aggregates of those.
-template <class V>
-concept interpolatable = std::is_trivially_copyable_v<V> && alignof(V) == alignof(float) &&
-                         sizeof(V) % sizeof(float) == 0 && !std::is_integral_v<V> && !std::is_enum_v<V>;
 
 /// `shader(vertex)` gives a clip position, alone (glm::vec4) or with varyings (placed_vertex).
 template <class S>

@@ -1,7 +1,7 @@
 // Small triangles, of which a fine mesh is made: several go through the set-up at a time, one per lane, in 32 bits.
 //
-// A triangle is small if it extends less than 2^14 sub-pixels; then differences of its corners have 15 bits and edge
-// functions 30. What is decided here is what setup.hpp decides for triangles of any size, in the same integers.
+// A triangle is small if it extends less than 2^15 sub-pixels, 8 pixels at 12 sub-pixel bits: then edge functions are sums
+// of two products of less than 2^30 each, and fit 32 bits. What is decided here is what setup.hpp decides for triangles of any size, in the same integers.
 #pragma once
 
 #include <insonify/core/lanes.hpp>
@@ -69,7 +69,7 @@ struct corner_lanes {
     INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_place::no_x)); }
     /// Whether all of them are small; of those on the grid.
     INSONIFY_INLINE bool are_small() const {
-        constexpr std::int32_t most = 1 << 14;
+        constexpr std::int32_t most = (1 << 15) - 1;
         return !any(ints(((east - west) | (south - north)) >= most));
     }
     /// Twice the area, positive for clockwise on the screen; of small ones.

@@ -10,7 +10,7 @@
 #pragma once
 
 #include <insonify/shadow/detail/blocking.hpp>
-#include <insonify/shadow/detail/horizon_bounds.hpp>
+#include <insonify/shadow/detail/horizon_triangles.hpp>
 #include <insonify/shadow/detail/occlusion_kernel.hpp>
 
 #include <array>
@@ -78,19 +78,48 @@ class exact_occlusion {
                 own = at.face_light && mesh < horizons_.size() && horizons_[mesh].bounds ? &horizons_[mesh] : nullptr;
             }
             const glm::dvec3 p = at[i];
-            auto known = detail::horizon_bounds::answer::unknown;
-            if (own != nullptr) known = own->bounds->at(transform_point(own->to_mesh, p));
+            auto answer = known::nothing;
+            if (own != nullptr) answer = own->bounds->at(transform_point(own->to_mesh, p));
             if (near_light_) continue;
             const plane_state& state = planes_.front();
             const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(p))];
             if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
                 into.lit[i] = 1;
-            } else if (occupant == mesh && known != detail::horizon_bounds::answer::unknown) {
-                const bool is_dark = known == detail::horizon_bounds::answer::dark;
+            } else if (occupant == mesh && answer != known::nothing) {
+                const bool is_dark = answer == known::dark;
                 into.lit[i] = is_dark ? 0.0f : 1.0f;
                 if (is_dark) into.caster[i] = mesh;
             }
         }
+    }
+
+    /// What is known of whole triangles of a caster as a camera sees them: an answer for each, or none at all.
+    /// @param eye  the camera
+    template <executor E>
+    insonify::detail::unfilled_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye, E& ex) const {
+        insonify::detail::unfilled_vector<known> answers;
+        if (caster >= horizons_.size() || !horizons_[caster].bounds) return answers;
+        const shadow::caster& c = casters_[caster];
+        const horizon_state& state = horizons_[caster];
+        const detail::horizon_triangles triangles(c.mesh, *c.grid, *state.bounds, state.travel,
+                                                  transform_point(state.to_mesh, eye));
+        answers.resize(c.mesh.triangles.size());
+        bulk_ranges(ex, static_cast<std::size_t>(state.bounds->grid().columns - 1), 32,
+                    [&](std::size_t first, std::size_t last) {
+                        triangles.find(static_cast<int>(first), static_cast<int>(last), answers.data());
+                    });
+        // Where others may cast, too, points decide.
+        const plane_state& plane = planes_.front();
+        const detail::ray_feet feet(plane.plane, c.placement, state.bounds->grid());
+        for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
+            if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
+            const glm::dvec2 size = plane.tiles.tile();
+            const auto columns = static_cast<std::size_t>(plane.tiles.columns);
+            const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
+            const auto [lower, upper] = feet.of(plane.tiles.lower + size * place, size);
+            triangles.forget(lower, upper, answers.data());
+        }
+        return answers;
     }
 
     /// See occlusion.
@@ -156,6 +185,7 @@ class exact_occlusion {
     };
     struct horizon_state {
         affine to_mesh;
+        glm::dvec3 travel{0};  ///< of the light, in the mesh's frame
         std::optional<detail::horizon_bounds> bounds;
     };
     using receivers_of = insonify::detail::unfilled_vector<detail::receiver>;
@@ -193,8 +223,8 @@ class exact_occlusion {
         horizon_state& state = horizons_.emplace_back();
         if (c.grid == nullptr || c.may_skip != skip::facing_its_own) return;
         state.to_mesh = inverse(c.placement);
-        state.bounds.emplace(c.mesh, *c.grid, transform_direction(state.to_mesh, -frame.to_light()),
-                             shared_mesh_grid_error, ex);
+        state.travel = transform_direction(state.to_mesh, -frame.to_light());
+        state.bounds.emplace(c.mesh, *c.grid, state.travel, shared_mesh_grid_error, ex);
     }
     /// The part of a near light's plane that a box is over.
     static std::pair<glm::dvec2, glm::dvec2> seen_part(const detail::light_plane& plane, const bounding_box& box) {

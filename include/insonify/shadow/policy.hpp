@@ -6,6 +6,7 @@
 #pragma once
 
 #include <insonify/core/executor.hpp>
+#include <insonify/core/unfilled.hpp>
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/transform.hpp>
@@ -121,6 +122,17 @@ concept collective_occlusion = occlusion<S> &&
     structure.test(all_at, all_into, ex);
 };
 inline constexpr float unknown = -1;  ///< in shares::lit, between screening and testing
+
+/// What may be known of a triangle or a point beforehand.
+enum class known : std::uint8_t { lit, dark, nothing };
+
+/// Collective occlusion that knows whole triangles: `structure.known_triangles(caster, eye, executor)` has an answer
+/// for each triangle of a caster as the camera sees it, or none at all.
+template <class S>
+concept triangle_occlusion = collective_occlusion<S> &&
+    requires(const S& structure, std::uint32_t caster, const glm::dvec3& eye, serial_executor& ex) {
+    { structure.known_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::unfilled_vector<known>>;
+};
 
 }  // namespace shadow
 }  // namespace INSONIFY_ABI

@@ -15,8 +15,9 @@ class name_tally {
   public:
     explicit name_tally(std::size_t bins) : heads_(bins, none) {}
 
+    bool empty() const { return entries_.empty(); }
     void clear() {
-        if (entries_.empty()) return;
+        if (empty()) return;
         heads_.assign(heads_.size(), none);
         entries_.clear();
     }

@@ -24,8 +24,9 @@ struct echo_bin {
     float bottom = 0, target = 0;  ///< power
     float lit = 0;                 ///< of the bottom
     float dark_by_seabed = 0, dark_by_target = 0;
-    // Those that have most of the bin; see name_tally.
-    std::uint16_t instance = labels::no_instance, caster = labels::is_lit;
+    float of_seabed = 0;  ///< of the first type in the bin; name_tally has the others
+    // Those that have most of the bin, in the end.
+    std::uint16_t instance = labels::no_instance, caster = labels::by_seabed;
     std::uint8_t seabed = labels::no_seabed;
 };
 
@@ -141,15 +142,22 @@ class ping_listener {
         profile_.resize(end - first_point_);
         lowest_ = 1e30, highest_ = -1e30;
         const glm::vec2 across(p.across()), along(p.along());
+        const double altitude = p.position().z;
         for (std::size_t i = 0; i < profile_.size(); ++i) {
-            const double x = place_of(i);
             bottom_vertex v;
-            double depth = i > 0 ? profile_[i - 1].down : 0;
-            // Of a pitched fan the place depends on the depth, which slopes below 1 / tan(pitch) make converge.
-            for (int step = p.is_level() ? 0 : -4; step <= 0; ++step) {
-                const glm::dvec2 at = p.is_level() ? p.world(x, 0) : p.below(x, tiles_.clamped(p, depth));
+            double depth;
+            if (p.is_level()) {
+                const glm::dvec2 at = p.world(place_of(i), 0);
                 v = tiles_.at(at.x, at.y);
-                depth = (p.position().z - static_cast<double>(v.height)) / p.cosine_pitch();
+                depth = altitude - static_cast<double>(v.height);
+            } else {
+                // The place depends on the depth; slopes below 1 / tan(pitch) make the steps converge.
+                depth = i > 0 ? profile_[i - 1].down : 0;
+                for (int step = 0; step < 5; ++step) {
+                    const glm::dvec2 at = p.below(place_of(i), tiles_.clamped(p, depth));
+                    v = tiles_.at(at.x, at.y);
+                    depth = (altitude - static_cast<double>(v.height)) / p.cosine_pitch();
+                }
             }
             const auto height = static_cast<double>(v.height);
             profile_[i] = {depth, v.slope_x * across.x + v.slope_y * across.y,
@@ -252,13 +260,18 @@ class ping_listener {
 
     /// Gives each bin the names that have most of it.
     void name_bins() {
-        for (std::size_t b = 0; b < bins_.size(); ++b) {
-            echo_bin& bin = bins_[b];
-            bin.instance = echoing_.largest(b, labels::no_instance).name;
-            bin.seabed = static_cast<std::uint8_t>(types_.largest(b, labels::no_seabed).name);
-            const auto [caster, length] = casting_.largest(b, labels::by_seabed);
-            bin.caster = length >= bin.dark_by_seabed ? caster : labels::by_seabed;
-        }
+        if (!types_.empty())
+            for (std::size_t b = 0; b < bins_.size(); ++b) {
+                const auto [type, length] = types_.largest(b, labels::no_seabed);
+                if (length > bins_[b].of_seabed) bins_[b].seabed = static_cast<std::uint8_t>(type);
+            }
+        if (some_target_)
+            for (std::size_t b = 0; b < bins_.size(); ++b) {
+                echo_bin& bin = bins_[b];
+                bin.instance = echoing_.largest(b, labels::no_instance).name;
+                const auto [caster, length] = casting_.largest(b, labels::by_seabed);
+                bin.caster = length >= bin.dark_by_seabed ? caster : labels::by_seabed;
+            }
         echoing_.clear(), casting_.clear(), types_.clear();
     }
 
@@ -287,7 +300,11 @@ class ping_listener {
                        bin.dark_by_seabed += length;
                    else
                        bin.dark_by_target += length, casting_.add(number, caster, length);
-                   types_.add(number, type, length);
+                   if (bin.seabed == labels::no_seabed) bin.seabed = type;
+                   if (bin.seabed == type)
+                       bin.of_seabed += length;
+                   else
+                       types_.add(number, type, length);
                });
     }
 

@@ -53,6 +53,13 @@ class shadow_pass {
     void cast(const Occlusion& occlusion, E& ex) {
         std::vector<point_finder> finders;
         for (const surface& s : surfaces_) finders.emplace_back(view_, s);
+        known_.resize(surfaces_.size());
+        if constexpr (shadow::triangle_occlusion<Occlusion>)
+            for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+                // Of a mesh much finer than the picture, points are fewer than triangles.
+                const bool is_worth_it = surfaces_[i].mesh.triangles.size() <= 2 * image_.size();
+                if (is_worth_it) known_[i] = occlusion.known_triangles(surfaces_[i].caster, view_.eye(), ex);
+            }
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
         constexpr std::size_t run = 4;  // tiles share their memory
         const std::size_t pixels = static_cast<std::size_t>(tile_) * static_cast<std::size_t>(tile_);
@@ -65,11 +72,13 @@ class shadow_pass {
         bulk_ranges(ex, count, run, [&](std::size_t first, std::size_t last) {
             point_arrays arrays(pixels);
             light_arrays light(pixels);
+            std::vector<float> lit(pixels);
             if constexpr (is_collective) pending[first / run] = point_list(rest_of_points, first / run * room, room);
             for (std::size_t i = first; i < last; ++i) {
                 const pixel_box box = tile_box(i);
                 point_list points(arrays, 0, pixels);
-                find_points(finders, box, points);
+                std::fill(lit.begin(), lit.end(), 0.0f);
+                find_points(finders, box, lit, points);
                 const shadow::shares shares = light.part(0, points.size());
                 point_batches(points, shares, targets_).for_each([&](const shadow::points& p, const shadow::shares& s) {
                     if constexpr (is_collective)
@@ -89,7 +98,7 @@ class shadow_pass {
                         }
                     }
                 }
-                finish(box, points, shares);
+                finish(box, points, shares, lit);
             }
         });
         if constexpr (is_collective) {
@@ -135,10 +144,13 @@ class shadow_pass {
                                           static_cast<std::size_t>(box.x0) + pixel % width);
     }
 
-    /// The points of a tile that matter: where there is light to lose, or all for the sake of labels.
-    void find_points(std::span<const point_finder> finders, const pixel_box& box, point_list& into) const {
+    /// The points of a tile that matter: where there is light to lose, or all for the sake of labels. Pixels of
+    /// triangles of which all is known get their share of light at once.
+    void find_points(std::span<const point_finder> finders, const pixel_box& box, std::span<float> lit,
+                     point_list& into) {
         std::vector<std::vector<shown_pixel>> pixels(surfaces_.size());
         const surface* last = nullptr;
+        const shadow::known* known = nullptr;  // of the triangles of that
         std::vector<shown_pixel>* to = nullptr;
         for (int y = box.y0; y <= box.y1; ++y) {
             const std::uint32_t* const ids = &ids_(box.x0, y);
@@ -148,11 +160,21 @@ class shadow_pass {
                 if (id == shadow::invalid_id || !(labelled || direct[x] > 0)) continue;
                 if (last == nullptr || id - last->first_id >= last->mesh.triangles.size()) {
                     last = &surface_of(surfaces_, id);
-                    to = &pixels[static_cast<std::size_t>(last - surfaces_.data())];
+                    const auto number = static_cast<std::size_t>(last - surfaces_.data());
+                    known = known_[number].empty() ? nullptr : known_[number].data();
+                    to = &pixels[number];
                     if (to->empty()) to->reserve(static_cast<std::size_t>(box.width() * box.height()));
                 }
-                to->push_back(
-                    {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y - box.y0), id - last->first_id});
+                const std::uint32_t triangle = id - last->first_id;
+                const auto answer = known != nullptr ? known[triangle] : shadow::known::nothing;
+                if (answer == shadow::known::nothing) {
+                    to->push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y - box.y0), triangle});
+                } else if (answer == shadow::known::lit) {
+                    lit[static_cast<std::size_t>(y - box.y0) * static_cast<std::size_t>(box.width()) +
+                        static_cast<std::size_t>(x)] = 1;
+                } else if constexpr (labelled) {
+                    labels_.shadow(box.x0 + x, y) = name_of(last->caster);
+                }
             }
         }
         for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -161,9 +183,9 @@ class shadow_pass {
     }
 
     /// Pixels of a tile from what the light makes of them and how much of it arrives.
-    void finish(const pixel_box& box, const point_list& points, const shadow::shares& light) {
+    /// @param lit  of the pixels that need no point
+    void finish(const pixel_box& box, const point_list& points, const shadow::shares& light, std::span<float> lit) {
         const auto width = static_cast<std::size_t>(box.width());
-        std::vector<float> lit(width * static_cast<std::size_t>(box.height()), 0.0f);
         for (std::size_t i = 0; i < points.facing; ++i) lit[points.pixel(i)] = light.lit[i];
         for (int y = box.y0; y <= box.y1; ++y) {
             const float* const share = lit.data() + static_cast<std::size_t>(y - box.y0) * width;
@@ -184,9 +206,11 @@ class shadow_pass {
             const std::uint32_t caster = is_averted && light.caster[i] >= targets_ ? points.caster(i) : light.caster[i];
             // A lit share of 0 without a caster is one that is yet to be tested.
             if (caster == shadow::invalid_id) continue;
-            labels_.shadow.pixels()[pixel_of(points.pixel(i))] =
-                caster < targets_ ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
+            labels_.shadow.pixels()[pixel_of(points.pixel(i))] = name_of(caster);
         }
+    }
+    std::uint16_t name_of(std::uint32_t caster) const {
+        return caster < targets_ ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
     }
 
     const overhead_geometry& view_;
@@ -195,6 +219,7 @@ class shadow_pass {
     const image<float>& rest_;
     image<float>& image_;
     Labels& labels_;
+    std::vector<unfilled_vector<shadow::known>> known_;  ///< of the surfaces' triangles, where anything is
     std::uint32_t targets_;
     int tile_;
     isa level_;

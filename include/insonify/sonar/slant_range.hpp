@@ -304,6 +304,24 @@ recording<Labels> record(const scene& s, std::span<const ping> track, const side
     return out;
 }
 
+/// Records into memory of the caller's, for pings that come a few at a time: row i of `into` becomes ping i.
+/// @param into     rig.bins columns, a row per ping; it may be a part of a larger image
+/// The other parameters and errors are those of `record`; it also throws invalid_input for a view of another size,
+/// which is then untouched.
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+record_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
+                         const side_scan_rig<Axis>& rig, const record_options<Labels, Law, Equation>& options = {},
+                         E&& ex = {}) {
+    detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
+    detail::require(static_cast<std::size_t>(into.height()) == track.size(), "into.height()", into.height(),
+                    "that of the pings");
+    const auto heard = record(s, track, rig, options.without_labels(), ex);
+    for (int y = 0; y < into.height(); ++y)
+        std::copy(heard.image.row(y).begin(), heard.image.row(y).end(), into.row(y).begin());
+    return heard.stats;
+}
+
 /// Draws a scene as a side-scan sonar on a straight track hears it, or as a map of what it hears: see side_scan_rig.
 /// Row i is ping i. The other parameters are those of `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,

@@ -320,3 +320,22 @@ TEST_CASE("An attitude that can't be is refused by name") {
     CHECK_THROWS_WITH(with({.roll = std::nan("")}), ContainsSubstring("ping.roll is nan"));
     CHECK_NOTHROW(with({.yaw = 9, .pitch = -1.3, .roll = 7}));
 }
+
+TEST_CASE("record_into writes rows of the caller's and nothing beside them, and refuses views of another size") {
+    in::scene s;
+    s.seabed = in::seabed::ripples{};
+    const in::side_scan rig{.pings = 6, .range = 20, .bins = 50};
+    const auto track = in::track_of(rig);
+    const auto expected = in::record(s, std::span<const in::ping>(track), rig);
+    in::image<float> mine(60, 8, -1.0f);
+    const auto stats = in::record_into(mine.view().part(5, 1, 50, 6), s, track, rig);
+    CHECK(stats.seabed_vertices == expected.stats.seabed_vertices);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 60; ++x) {
+            const bool inside = x >= 5 && x < 55 && y >= 1 && y < 7;
+            REQUIRE(mine(x, y) == (inside ? expected.image(x - 5, y - 1) : -1.0f));
+        }
+    CHECK_THROWS_WITH(in::record_into(mine.view(), s, track, rig), ContainsSubstring("into.width() is 60"));
+    CHECK_THROWS_WITH(in::record_into(mine.view().part(0, 0, 50, 8), s, track, rig),
+                      ContainsSubstring("into.height() is 8"));
+}

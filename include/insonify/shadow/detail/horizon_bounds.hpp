@@ -17,6 +17,7 @@
 #include <insonify/core/unfilled.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/transform.hpp>
+#include <insonify/shadow/policy.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -67,6 +68,11 @@ struct lit_grid {
         drop = travel_x / -travel.z;
         x_of = glm::dvec2(y.y, -y.x) / cross(x, y);
         y_of = glm::dvec2(-x.y, x.x) / cross(x, y);
+    }
+    /// (X, Y) of a place in the mesh's frame.
+    INSONIFY_INLINE glm::dvec2 steps(const glm::dvec2& p) const {
+        const double dx = p.x - origin.x, dy = p.y - origin.y;
+        return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
     }
 };
 
@@ -212,47 +218,55 @@ struct horizon_kernel {
 /// Which of a heightfield's own points are lit, dark, or left to an exact test.
 class horizon_bounds {
   public:
-    enum class answer { lit, dark, unknown };
-
     /// @param m       the mesh, a regular grid whose vertices lie within `off` steps of the lattice
     /// @param travel  where the light goes, in the mesh's frame: down
     template <executor E>
     horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, double off, E& ex)
-        : grid_(lattice, travel) {
-        const grid_heights heights(m, grid_, ex);
-        const double relief = grid_.drop * (static_cast<double>(heights.greatest) - static_cast<double>(heights.least));
+        : grid_(lattice, travel), heights_(m, grid_, ex) {
+        const auto greatest = static_cast<double>(heights_.greatest), least = static_cast<double>(heights_.least);
+        const double relief = grid_.drop * (greatest - least);
         const double size =
-            grid_.columns + grid_.drop * (std::max)(numeric::magnitude(static_cast<double>(heights.greatest)),
-                                                    numeric::magnitude(static_cast<double>(heights.least)));
+            grid_.columns + grid_.drop * (std::max)(numeric::magnitude(greatest), numeric::magnitude(least));
         margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
         bounds_.resize(static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_));
         bulk_ranges(ex, static_cast<std::size_t>(strips_), 128, [&](std::size_t from, std::size_t to) {
             insonify::detail::dispatch(
-                horizon_kernel{grid_, heights, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
+                horizon_kernel{grid_, heights_, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
                                static_cast<float>(margin_), bounds_.data()},
                 best_isa());
         });
     }
 
     /// @param p  on the mesh, on a side that faces the light, in the mesh's frame
-    INSONIFY_INLINE answer at(const glm::dvec3& p) const {
-        const double dx = p.x - grid_.origin.x, dy = p.y - grid_.origin.y;
-        const double x = grid_.x_of.x * dx + grid_.x_of.y * dy, y = grid_.y_of.x * dx + grid_.y_of.y * dy;
-        if (!(x >= 0 && x <= grid_.columns - 1)) return answer::unknown;
+    INSONIFY_INLINE known at(const glm::dvec3& p) const {
+        const glm::dvec2 at = grid_.steps(glm::dvec2(p));
+        const double x = at.x, y = at.y;
+        if (!(x >= 0 && x <= grid_.columns - 1)) return known::nothing;
         const auto column = static_cast<int>(x);
         const int strip = static_cast<int>(y - grid_.slope * x - first_strip_);
-        if (strip < 0 || strip >= strips_) return answer::unknown;
-        const horizon_bound& b = bounds_[static_cast<std::size_t>(column) * static_cast<std::size_t>(strips_) +
-                                         static_cast<std::size_t>(strip)];
+        if (strip < 0 || strip >= strips_) return known::nothing;
+        const horizon_bound& b = bound(column, strip);
         const double u = x + grid_.drop * p.z;
-        if (u < static_cast<double>(b.met) - margin_) return answer::dark;
-        return u > static_cast<double>(b.may_meet) + margin_ ? answer::lit : answer::unknown;
+        if (u < static_cast<double>(b.met) - margin_) return known::dark;
+        return u > static_cast<double>(b.may_meet) + margin_ ? known::lit : known::nothing;
+    }
+
+    const lit_grid& grid() const { return grid_; }
+    const grid_heights& heights() const { return heights_; }
+    /// By which u may be off, in columns.
+    double margin() const { return margin_; }
+    /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
+    int first_strip() const { return first_strip_; }
+    const horizon_bound& bound(int column, int strip) const {
+        return bounds_[static_cast<std::size_t>(column) * static_cast<std::size_t>(strips_) +
+                       static_cast<std::size_t>(strip)];
     }
 
   private:
     lit_grid grid_;
+    grid_heights heights_;
     double margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
     insonify::detail::unfilled_vector<horizon_bound> bounds_;

@@ -1,0 +1,28 @@
+// Depth alone, no shading compiled: how far away a scanner above a seabed sees each pixel; depth_alone writes
+// depth.png.
+#include <insonify/insonify.hpp>
+#include <insonify/io/png.hpp>
+
+#include <cstdio>
+
+namespace in = insonify;
+
+int main() {
+    const in::seabed::rock rubble{.relief = 0.4f, .seed = 3};
+    const auto field = in::seabed::sample(rubble, in::seabed::grid_over({-4, -4}, {4, 4}, 0.02));
+    const in::mesh bottom = in::seabed::tessellate(field);
+
+    in::camera scanner{.eye = {-3, -7, 5}, .z_near = 0.1f};
+    const in::camera_view view(scanner, {glm::dmat3(1), glm::dvec3(field.origin, 0)});
+    in::image<float> depth(512, 512);
+    const auto stats = in::draw(bottom, [&](const in::vertex& v) { return view(v.position); }, in::depth_target{depth},
+                                {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+
+    // Depth is z_near / distance, and empty_depth where nothing is.
+    float nearest = 0;
+    for (const float d : depth.pixels()) nearest = (std::max)(nearest, d);
+    std::printf("%llu triangles, the nearest point is %.2f m away\n", static_cast<unsigned long long>(stats.triangles),
+                0.1 / static_cast<double>(nearest));
+    const auto shade = [=](float d) { return d > 0 ? 0.2f / nearest * d * 4 : 0.0f; };
+    in::write_png("depth.png", depth | shade);
+}

@@ -1,0 +1,38 @@
+// An unbounded seabed of one's own, with its label, brightness and speckle, in both kinds of picture: own_seabed.
+#include <insonify/insonify.hpp>
+#include <insonify/io/png.hpp>
+
+#include <cmath>
+#include <cstdio>
+
+namespace in = insonify;
+
+/// Long sand waves without end.
+struct sand_waves {
+    static constexpr in::seabed::type_properties kind{in::seabed::own_type(0), "sand waves", 0.55f, {.texture = 12}};
+    double height = 0.3, length = 6;  ///< metres
+
+    /// Heights along a row; waves that the grid can't carry fade out.
+    void row(const in::seabed::scanline& line, std::span<float> heights) const {
+        const double amplitude = 0.5 * height * static_cast<double>(in::seabed::carried(length, line.grid_spacing));
+        for (std::size_t i = 0; i < heights.size(); ++i) {
+            const double turns = (line.x(i) + 0.3 * std::sin(0.4 * line.y)) / length;
+            heights[i] = static_cast<float>(amplitude * in::numeric::sin_cos_turns(turns).sine);
+        }
+    }
+    in::seabed::height_range range() const { return {-0.5 * height, 0.5 * height}; }
+};
+
+int main() {
+    in::scene scene;  // a million metres away is as good as here; patches of ripples lie between the waves
+    scene.seabed = in::seabed::blend{.first = sand_waves{}, .second = in::seabed::ripples{.seed = 2}, .patch = 15};
+    scene.add(in::cube{.size = glm::vec3(0.5f)}, {.position = {1e6 + 9, 5, 0.4}}, "cube");
+
+    const auto above = in::render(scene, in::overhead{.position = {1e6, 0}, .size = {512, 512}});
+    in::write_png("waves.png", above.image | in::equalize{} | in::colormap::copper);
+    const in::side_scan sonar{.position = {1e6, 0}, .pings = 300, .range = 25, .bins = 500};
+    const auto swath = in::with_speckle(in::render(scene, sonar));
+    in::write_png("waves_swath.png", swath.image | in::display{} | in::colormap::copper);
+    for (const auto& t : above.labels.legend)
+        std::printf("label %d: %s\n", static_cast<int>(t.label), std::string(t.name).c_str());
+}

@@ -1,0 +1,39 @@
+// Rows of a survey into a caller's buffer, a few pings at a time, as a simulator hands them out: survey_rows.
+#include <insonify/insonify.hpp>
+
+#include <cstdio>
+#include <vector>
+
+namespace in = insonify;
+using namespace in::literals;
+
+int main() {
+    in::scene scene;
+    scene.seabed = in::seabed::ripples{.seed = 6};
+    scene.add(in::cylinder{.radius = 0.3f, .length = 2}, {.position = {12, 6, 0.3}}, "cylinder");
+
+    const in::side_scan sonar{.ping_spacing = 0.1f, .range = 30, .bins = 600};
+    const in::sonar_equation equation{in::transmission_loss{}, in::absorption{}, in::vertical_beam{},
+                                      in::noise_floor{1e-9f}, in::level_gain{}};
+    const auto options = in::record_options<>{}.with(equation).without_labels();
+
+    // The caller's memory: 120 rows of 640 floats, of which the last 40 are its own.
+    std::vector<float> buffer(120 * 640, -1.0f);
+    const in::image_view<float> rows(buffer.data(), 640, 120);
+    for (int first = 0; first < 120; first += 8) {
+        std::vector<in::ping> pings;
+        for (int i = first; i < first + 8; ++i) {
+            const double t = 0.1 * i;  // a vehicle that rolls, pitches, yaws and heaves on its way
+            pings.push_back({.position = {0.2 * t, t, 5 + 0.1 * (i % 16) / 16},
+                             .yaw = 0.01 * (i % 8),
+                             .pitch = 0.02 * (i % 5 - 2),
+                             .roll = 0.03 * (i % 7 - 3)});
+        }
+        in::record_into(rows.part(0, first, 600, 8), scene, pings, sonar, options);
+    }
+    float loudest = 0;
+    for (const float v : buffer) loudest = (std::max)(loudest, v);
+    std::printf("loudest echo %.2f; the caller's columns are %s\n", static_cast<double>(loudest),
+                buffer[639] == -1.0f ? "untouched" : "overwritten");
+    return loudest > 0 && buffer[639] == -1.0f ? 0 : 1;
+}

@@ -1,0 +1,77 @@
+// A camera for `draw`: where it stands, what it looks at, and the perspective of its picture.
+//
+// Its clip space is the library's: visible is -w <= x <= w, -w <= y <= w with y up, and 0 <= z <= w. Depth is reversed,
+// z / w = z_near / distance, so that precision does not fall off far away (draw with keep_depth::larger).
+#pragma once
+
+#include <insonify/core/linear.hpp>
+#include <insonify/core/numeric.hpp>
+#include <insonify/geometry/transform.hpp>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// A pinhole camera.
+struct camera {
+    glm::dvec3 eye{0, -5, 2};                                   ///< metres in the world
+    glm::dvec3 target{0, 0, 0};                                 ///< appears in the middle of the picture
+    glm::dvec3 up{0, 0, 1};                                     ///< appears upwards; not along the line of sight
+    float field_of_view = static_cast<float>(numeric::pi / 3);  ///< from the picture's bottom to its top, radians
+    float aspect = 1;                                           ///< width of the picture / its height
+    float z_near = 0.01f;                                       ///< metres; what is nearer is clipped
+};
+
+/// From the world to the camera's frame: x right, y up, z towards the viewer.
+/// @throws invalid_input for an eye at the target, or `up` along the line of sight
+inline affine look_at(const camera& c) {
+    const glm::dvec3 back = detail::unit(c.eye - c.target), right = detail::unit(numeric::cross(c.up, back));
+    const double turned = numeric::dot(right, right);
+    detail::require(turned > 0.5 && numeric::is_finite(turned), "length of up x line of sight", turned, "above 0");
+    const glm::dvec3 up = numeric::cross(back, right);
+    const glm::dmat3 linear(glm::dvec3(right.x, up.x, back.x), glm::dvec3(right.y, up.y, back.y),
+                            glm::dvec3(right.z, up.z, back.z));
+    return {linear, -numeric::product(linear, c.eye)};
+}
+
+/// Projects points of an object to clip space: `clip = view(point)`.
+class camera_view {
+  public:
+    /// @param object_to_world  where the object stands
+    /// @throws invalid_input as look_at, and for a field of view or a z_near that can't be
+    explicit camera_view(const camera& c, const affine& object_to_world = {})
+        : to_camera_(compose(look_at(c), object_to_world)), z_near_(c.z_near) {
+        detail::require(c.field_of_view > 0 && static_cast<double>(c.field_of_view) < numeric::pi,
+                        "camera.field_of_view", c.field_of_view, "above 0 and below pi");
+        detail::require(c.aspect > 0 && numeric::is_finite(c.aspect), "camera.aspect", c.aspect, "above 0");
+        detail::require(c.z_near > 0 && numeric::is_finite(c.z_near), "camera.z_near", c.z_near, "metres above 0");
+        const double scale = 1 / numeric::tan(0.5 * static_cast<double>(c.field_of_view));
+        scale_ = {static_cast<float>(scale / static_cast<double>(c.aspect)), static_cast<float>(scale)};
+    }
+
+    glm::vec4 operator()(const glm::vec3& point) const {
+        const glm::vec3 p(transform_point(to_camera_, glm::dvec3(point)));
+        return {p.x * scale_.x, p.y * scale_.y, z_near_, -p.z};
+    }
+
+  private:
+    affine to_camera_;
+    glm::vec2 scale_{1};
+    float z_near_;
+};
+
+/// A position in OpenGL's clip space, where -w <= z <= w, in the library's: without it all that lies between the near
+/// plane and twice its distance would be clipped.
+constexpr glm::vec4 from_gl_clip(const glm::vec4& p) {
+    return {p.x, p.y, 0.5f * (p.z + p.w), p.w};
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,70 @@
+// What may be interpolated between vertices: floats, and what consists of them.
+#include <insonify/core/image.hpp>
+#include <insonify/raster/draw.hpp>
+
+#include <glm/mat3x3.hpp>
+
+#include "../../catch.hpp"
+
+namespace in = insonify;
+
+namespace {
+
+struct pair {
+    float u, v;
+};
+struct mixed {
+    glm::vec3 normal;
+    pair texture;
+    float shares[3];
+    glm::mat3 frame;
+};
+struct nothing {};
+struct counters {
+    int a, b;
+};
+struct half {
+    float weight;
+    int count;
+};
+struct hidden {
+    pair texture;
+    half other;
+};
+struct tail {
+    glm::vec2 texture;
+    std::uint32_t ids[2];
+};
+struct rgba {
+    std::uint8_t r, g, b, a;
+};
+struct own_vector {
+    own_vector() = default;
+    own_vector(float a, float b) : x(a), y(b) {}
+    float x, y;
+};
+
+static_assert(in::interpolatable<float> && in::interpolatable<pair> && in::interpolatable<mixed>);
+static_assert(in::interpolatable<nothing> && in::interpolatable<in::no_varyings>);
+static_assert(in::interpolatable<glm::vec4> && !in::interpolatable<glm::ivec2> && !in::interpolatable<glm::dvec2>);
+static_assert(!in::interpolatable<int> && !in::interpolatable<double> && !in::interpolatable<const float*>);
+static_assert(!in::interpolatable<counters> && !in::interpolatable<half> && !in::interpolatable<hidden>);
+static_assert(!in::interpolatable<tail> && !in::interpolatable<rgba> && !in::interpolatable<own_vector>);
+
+}  // namespace
+
+TEST_CASE("A draw that clears writes the background where it shows nothing, and leaves colors alone without one") {
+    const in::mesh m{.positions = {{-1, -1, 0.5f}, {0, -1, 0.5f}, {-1, 0, 0.5f}}, .triangles = {{0, 1, 2}}};
+    const auto place = [](const in::vertex& v) { return glm::vec4(v.position, 1); };
+    const auto one = [](const auto&) { return 1; };
+    for (const bool has_background : {true, false})
+        for (const auto load : {in::depth_load::clear, in::depth_load::keep}) {
+            in::image<int> color(100, 90, 7);
+            in::image<float> depth(100, 90, in::empty_depth(in::keep_depth::smaller));
+            in::framebuffer<int> target{color, depth};
+            if (has_background) target.clears_color = true, target.background = 3;
+            in::draw(m, place, one, target, {.load = load});
+            CHECK(color(2, 87) == 1);
+            CHECK(color(99, 0) == (has_background && load == in::depth_load::clear ? 3 : 7));
+        }
+}
