@@ -80,18 +80,9 @@ json configuration_of(const options& o, const std::vector<input>& inputs) {
             {"noise", o.noise},
             {"colormap", o.colormap},
             {"formats", o.formats},
+            {"categories", category_names(o)},
             {"demo", o.demo},
             {"inputs", files}};
-}
-
-std::vector<std::string> category_names(const json& config) {
-    auto names = config.at("targets").get<std::vector<std::string>>();
-    if (config.value("recipe", "published") == "sonar") {
-        std::erase(names, "empty");
-        names.push_back("clutter");
-    }
-    for (const json& name : config.at("meshes")) names.push_back(name.get<std::string>());
-    return names;
 }
 
 json shards_of(const options& o) {

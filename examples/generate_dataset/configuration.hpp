@@ -12,9 +12,6 @@ using json = nlohmann::ordered_json;
 /// Recipe, seed, version, and the contents of all inputs.
 json configuration_of(const options& o, const std::vector<input>& inputs);
 
-/// What COCO's categories are, but for shadows.
-std::vector<std::string> category_names(const json& config);
-
 /// Which images a set that is made by shards shall have.
 json shards_of(const options& o);
 

@@ -19,7 +19,7 @@ constexpr const char* page_head = R"page(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>Data set</title><style>
 body{margin:0;font:14px/1.4 system-ui,sans-serif;background:#181818;color:#ddd;display:flex;height:100vh}
 aside{width:19em;padding:1em;overflow-y:auto;background:#222;box-sizing:border-box;flex:none}
-main{flex:1;overflow-y:auto;overflow-anchor:none;position:relative}
+main{flex:1;overflow-y:scroll;overflow-anchor:none;position:relative}
 h1{font-size:1.1em;margin:0 0 .5em;overflow-wrap:anywhere}h2{font-size:.9em;margin:1em 0 0;font-weight:normal}
 label{display:block;margin:.4em 0}select,input{width:100%;box-sizing:border-box}label.in-line input{width:auto}
 .pair{display:flex;gap:.4em}#grid{position:relative}

@@ -128,7 +128,7 @@ std::uint64_t write_once(const fs::path& root, bool preview, staging& into) {
         category_ids[name] = category_ids.size() + 1;
         categories.push_back({{"id", category_ids[name]}, {"name", name}, {"supercategory", kind}});
     };
-    for (const std::string& name : category_names(config)) add_category(name, "target");
+    for (const auto& name : config.at("categories").get<std::vector<std::string>>()) add_category(name, "target");
     add_category("shadow", "shadow");
 
     // The images come first and the annotations after all of them, but each record is read once.
