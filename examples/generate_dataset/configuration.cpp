@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Of the folder and of what is drawn into it: raised with each change of either.
-constexpr int format = 2;
+constexpr int format = 3;
 
 std::string version() {
     const auto text = [](int number) { return std::to_string(number); };
@@ -76,8 +76,11 @@ json configuration_of(const options& o, const std::vector<input>& inputs) {
             {"reflectivity", o.reflectivity},
             {"intensity", o.intensity},
             {"sky", o.sky},
+            {"match", o.match},
             {"noise", o.noise},
             {"colormap", o.colormap},
+            {"formats", o.formats},
+            {"categories", category_names(o)},
             {"demo", o.demo},
             {"inputs", files}};
 }

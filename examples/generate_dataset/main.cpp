@@ -117,8 +117,7 @@ int generate(const generator::options& o, const generator::stock& shared, insoni
         std::printf("%s, shard %llu of %llu: %llu images", o.out.c_str(), number(o.shard.number), number(o.shard.of),
                     number(bar.done()));
     else
-        std::printf("%s: %llu images", o.out.c_str(),
-                    number(generator::write_tables(root, generator::category_names(o), into)));
+        std::printf("%s: %llu images", o.out.c_str(), number(generator::write_tables(root, o.preview, into)));
     std::printf(", %llu of them new, %.2f images/s\n", number(made), static_cast<double>(made) / bar.elapsed());
     if (stop_signal != 0 && bar.done() < work.size()) {
         std::fprintf(stderr, "Stopped; the same command goes on from here.\n");

@@ -72,12 +72,14 @@ void check_complete(const fs::path& root, const json& shards) {
 int main(int argc, char** argv) try {
     std::string out;
     std::vector<std::string> folders;
+    bool preview = false;
     CLI::App app{
         "Joins the shards of a data set: checks that all images are there, and writes the tables. Afterwards the "
         "folder "
         "has\nthe same bytes as one that was made without shards.",
         "merge_dataset"};
     app.add_option("out", out, "Folder of the joined set; that of the shards, if they all wrote to one")->required();
+    app.add_flag("--preview", preview, "Write preview.html, a page to look through the set");
     app.add_option("folders", folders, "Folders of the shards, if they wrote to several");
     CLI11_PARSE(app, argc, argv);
 
@@ -90,9 +92,7 @@ int main(int argc, char** argv) try {
         const json config = generator::pinned(root, "config.json");
         if (config.is_null()) throw io_error(out + ": holds no data set; name the folders of its shards, too");
         if (const json shards = generator::pinned(root, "shards.json"); !shards.is_null()) check_complete(root, shards);
-        auto classes = config.at("targets").get<std::vector<std::string>>();
-        for (const json& name : config.at("meshes")) classes.push_back(name.get<std::string>());
-        images = generator::write_tables(root, classes, into);
+        images = generator::write_tables(root, preview, into);
     }
     fs::remove(root / "shards.json");
     fs::remove_all(root / ".partial");

@@ -1,8 +1,10 @@
 #include "options.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "config_text.hpp"
+#include "formats.hpp"
 #include "layout.hpp"
 #include "plan.hpp"
 #include "values.hpp"
@@ -42,9 +44,8 @@ void check_geometry(const options& o) {
                                                      " m, end beyond 100000 m; take less of one of them");
 }
 
-}  // namespace
-
-options parse(int argc, char** argv) {
+options parsed(int argc, const char* const* argv,
+               const std::function<void(const CLI::App&, const CLI::ParseError&)>& refuse) {
     options o;
     CLI::App app{
         "Makes labelled side-scan sonar images: for every image a target on a seabed, camera and light posed,\n"
@@ -54,11 +55,13 @@ options parse(int argc, char** argv) {
         "generate_dataset"};
     app.footer(
         "A range is low:high, or one number. Examples:\n"
-        "  generate_dataset --out out/a --count 400 --size 512 --noise speckle:0.1\n"
-        "  generate_dataset --out out/b --first 200 --count 200 --reference real_images/ --colormap copper\n"
-        "  generate_dataset --out out/s --mode slant_range --chip 5 --pixels 128 --count 400\n"
+        "  generate_dataset --out out/a --count 4000\n"
+        "  generate_dataset --out out/k --per-class ship=600,plane=600,truncated_cone=200,empty=1400\n"
         "  generate_dataset --out out/l --count 1000000 --shard 3/8\n"
-        "  generate_dataset --out out/c --targets cylinder --mesh wreck=wreck.obj --seabeds mud,mixed");
+        "  generate_dataset --out out/p --recipe published --count 400 --size 512 --noise speckle:0.1\n"
+        "  generate_dataset --out out/b --recipe published --reference real_images/ --colormap copper\n"
+        "  generate_dataset --out out/s --recipe published --mode slant_range --chip 5 --pixels 128 --count 400\n"
+        "  generate_dataset --out out/c --recipe published --targets cylinder --mesh wreck=wreck.obj --seabeds mud");
     app.formatter(std::make_shared<plain_formatter>());
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.set_config("--config", "",
@@ -97,11 +100,18 @@ options parse(int argc, char** argv) {
     app.add_option("--input-limit", input_limit, "Largest file taken as an input, MiB (1024)")
         ->check(whole_number(1, 1 << 20))
         ->group(what);
+    app.add_option("--format", o.formats,
+                   "Beside PNG of 8 bits: png16, npy, pfm (what an image shows, 16 bits or float), and webdataset\n"
+                   "(tar files of a thousand samples each)")
+        ->delimiter(',')
+        ->check(CLI::IsMember(std::vector<std::string>(std::begin(format_names), std::end(format_names))))
+        ->group(what);
+    app.add_flag("--preview", o.preview, "Write preview.html, a page to look through the set")->group(what);
     app.add_flag("--demo", o.demo, "All targets on all seabeds, plain and with a reference")->group(what);
 
     app.add_option("--recipe", o.recipe,
                    "sonar: wrecks, aeroplanes and bare bottoms as side-scan sonars show them;\n"
-                   "published: the paper's camera, light and primitives")
+                   "published: the paper's primitives, camera and light, or a sonar's modes over them (sonar)")
         ->check(CLI::IsMember({"sonar", "published"}))
         ->group(what);
 
@@ -172,6 +182,11 @@ options parse(int argc, char** argv) {
         ->check(CLI::ExistingPath)
         ->group(look);
     app.add_option(
+           "--match", o.match,
+           "masked: shadows take the reference's darkest part, the rest the rest; whole: all pixels as one (masked)")
+        ->check(CLI::IsMember({"masked", "whole"}))
+        ->group(look);
+    app.add_option(
            "--noise", o.noise,
            "none, or a chain: speckle:0.1,gaussian:0.01,poisson:255,rayleigh; seabed, of a sonar's modes alone,\n"
            "is speckle that depends on the type of bottom (speckle:0.1; a sonar's: seabed)")
@@ -185,9 +200,24 @@ options parse(int argc, char** argv) {
         app.parse(argc, argv);
         const auto given = [&](const char* name) { return !app.get_option(name)->empty(); };
         if (o.is_sonar()) {
+            // What only the other recipe has is refused, not left out in silence.
+            for (const char* const name :
+                 {"--demo",     "--mesh",   "--seabeds",   "--heightmap", "--target-size",  "--aspect",
+                  "--tilt",     "--burial", "--mode",      "--chip",      "--altitude",     "--grazing",
+                  "--distance", "--beam",   "--intensity", "--sky",       "--reflectivity", "--reference",
+                  "--match",    "--noise",  "--colormap"})
+                if (given(name))
+                    throw CLI::ValidationError(name, "belongs to --recipe published; the recipe sonar draws its own");
             if (!given("--size")) o.size = 128;
             if (!given("--targets")) o.targets = {"ship", "plane"};
-        } else if (!o.is_overhead()) {
+        } else {
+            for (const char* const name : {"--empty", "--visible-share"})
+                if (given(name)) throw CLI::ValidationError(name, "belongs to --recipe sonar");
+            for (const std::string& target : o.targets)
+                if (target != "cylinder" && target != "cube" && target != "cone" && target != "sphere")
+                    throw CLI::ValidationError("--targets", "'" + target + "' belongs to --recipe sonar");
+        }
+        if (!o.is_sonar() && !o.is_overhead()) {
             if (!given("--size")) o.size = 128;
             if (o.chip == 0) o.chip = 5;
             if (!given("--noise")) o.noise = {"seabed"};
@@ -212,6 +242,12 @@ options parse(int argc, char** argv) {
                 throw CLI::ValidationError("--noise", "'seabed' is for the sonar's modes: --mode slant_range");
         check_classes(o);
         check_counts(o);
+        std::vector<std::string> formats;
+        for (const char* const name : format_names)
+            if (std::find(o.formats.begin(), o.formats.end(), name) != o.formats.end()) formats.push_back(name);
+        o.formats = formats;
+        if (o.preview && !shard.empty())
+            throw CLI::ValidationError("--preview", "a shard is no whole set; merge it with tools/merge --preview");
         const bool needs_map = std::find(o.seabeds.begin(), o.seabeds.end(), "heightmap") != o.seabeds.end();
         if (needs_map && o.heightmap.empty())
             throw CLI::ValidationError("--seabeds", "heightmap needs --heightmap FILE");
@@ -236,10 +272,26 @@ options parse(int argc, char** argv) {
         o.input_limit = input_limit << 20;
         check_geometry(o);
     } catch (const CLI::ParseError& error) {
-        std::exit(app.exit(error) == 0 ? 0 : 2);
+        refuse(app, error);
+        throw;
     }
     if (o.demo && app.get_option("--noise")->empty() && o.is_overhead()) o.noise = {"speckle:0.05"};
     return o;
+}
+
+}  // namespace
+
+options parse(int argc, const char* const* argv) {
+    return parsed(argc, argv,
+                  [](const CLI::App& app, const CLI::ParseError& error) { std::exit(app.exit(error) == 0 ? 0 : 2); });
+}
+
+options parse_quietly(int argc, const char* const* argv) {
+    try {
+        return parsed(argc, argv, [](const CLI::App&, const CLI::ParseError&) {});
+    } catch (const CLI::ParseError& error) {
+        throw insonify::invalid_input(error.what());
+    }
 }
 
 }  // namespace generator

@@ -20,13 +20,13 @@ struct options {
     std::string out;
     std::uint64_t first = 0, count = 24;
     generator::shard shard;
-    bool verify = false;
+    bool verify = false, preview = false;
     int threads = 0;
     std::uint64_t input_limit = examples::usual_input_limit;  ///< bytes
 
     // What decides pixels: pinned in the folder's config.json.
 
-    std::string recipe = "published";
+    std::string recipe = "sonar";  ///< or "published"
     std::uint64_t seed = 1;
     int size = 2048;
     double visible_share = 0.1;          ///< of a target's outline, recipe sonar
@@ -44,8 +44,10 @@ struct options {
     range altitude{3.5, 5}, grazing{6, 6}, distance{2, 9}, beam{0.2, 0.5};
     double reflectivity = 0.9, intensity = 4, sky = 0.05;
     std::vector<std::string> references;
+    std::string match = "masked";
     std::vector<std::string> noise{"speckle:0.1"};
     std::string colormap = "gray";
+    std::vector<std::string> formats;  ///< beside PNG of 8 bits, in the order of `format_names`
     bool demo = false;
 
     bool is_overhead() const { return mode == "overhead"; }
@@ -62,6 +64,10 @@ struct noise_step {
 std::vector<noise_step> noise_steps(const options& o);
 
 /// Reads the command line. Prints help or an error and exits where there is nothing to generate.
-options parse(int argc, char** argv);
+options parse(int argc, const char* const* argv);
+
+/// The same without printing or exiting.
+/// @throws invalid_input for anything that is no valid command line, --help too
+options parse_quietly(int argc, const char* const* argv);
 
 }  // namespace generator

@@ -3,6 +3,7 @@
 
 #include "../common/png_bytes.hpp"
 #include "draw.hpp"
+#include "formats.hpp"
 #include "record.hpp"
 #include "run_lengths.hpp"
 #include "sonar_pictures.hpp"
@@ -113,6 +114,7 @@ std::vector<file> files_of(const options& o, const plan& p, const stock& shared)
     json record{{"id", p.index}};
     record["files"] = {entry_of("image", files[0]), entry_of("target_mask", files[1]),
                        entry_of("shadow_mask", files[2]), entry_of("seabed_mask", files[3])};
+    add_formats(o.formats, p.index, d.values, files, record);
     record["size"] = o.size;
     record["annotations"] = {annotation(p.class_name, "target_mask", label.box, label.area, target),
                              annotation("shadow", "shadow_mask", label.shadow_box, label.shadow_area, shadow)};

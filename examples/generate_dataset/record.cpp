@@ -74,9 +74,11 @@ json parse_record(const std::string& text, const std::string& name) {
     if (!record.is_object())
         throw insonify::io_error(name + ": is torn or changed; the command that made the image makes it again");
     // A record names no path outside of its folder.
-    for (const json& entry : record.value("files", json::array())) {
-        const std::string path = entry.value("path", "");
-        if (!(path.starts_with("images/") || path.starts_with("masks/")) || path.find("..") != std::string::npos)
+    for (const json& entry : record.contains("files") ? record["files"] : json::array()) {
+        const bool named = entry.is_object() && entry.contains("path") && entry["path"].is_string();
+        const std::string path = named ? entry["path"].get<std::string>() : "";
+        if (!(path.starts_with("images/") || path.starts_with("masks/") || path.starts_with("values/")) ||
+            path.find("..") != std::string::npos)
             throw insonify::io_error(name + ": names the file '" + path + "', which is none of a data set; remove it");
     }
     return record;

@@ -7,6 +7,7 @@ namespace generator {
 
 struct sonar_picture {
     in::labels labels;
+    in::image<float> values;  ///< what is shown, before 8 bits
     in::image<std::uint8_t> gray;
     facts known{};                  ///< of the first target, before the picture is turned
     std::vector<in::pose> poses;    ///< of the targets
@@ -41,7 +42,7 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
                                          .bandwidth = 0.2f},
                               .surface = rough((std::max)(p.feature, 3 * pixel), 0.3 * p.roughness),
                               .seed = p.bottom_seed};
-    const sb::trawl_marks trawls{.density = of(4 * p.trawls / p.chip),
+    const sb::trawl_marks trawls{.density = of((std::min)(4 * p.trawls / p.chip, 0.08 / pixel)),
                                  .depth = of(0.25 * pixel),
                                  .width = of(2.5 * pixel),
                                  .length = of(2 * p.chip)};
@@ -199,9 +200,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
     for (in::speckle_law& l : speckle.bottom) l = {.looks = p.looks, .texture = static_cast<float>(p.texture)};
     heard = in::with_speckle(std::move(heard), speckle, ex);
     heard.image = in::apply(std::move(heard.image), p.banding, ex);
-    const auto show = [&](const auto& display) {
-        out.gray = in::apply(std::move(heard.image), display | in::to_uint8, ex);
-    };
+    const auto show = [&](const auto& display) { out.values = in::apply(std::move(heard.image), display, ex); };
     const auto white = static_cast<float>(p.white);
     if (p.display == "decibels")
         show(in::decibel_display{.white = white, .range = static_cast<float>(p.dynamic_range)});
@@ -214,12 +213,13 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
         show(in::display{.white = white, .exponent = p.display == "power" ? 1.0f : static_cast<float>(p.exponent)});
     out.labels = std::move(heard.labels);
     if (p.turn != 0) {
-        out.gray = turned(out.gray, p.turn);
+        out.values = turned(out.values, p.turn);
         out.labels.instance = turned(out.labels.instance, p.turn);
         out.labels.shadow = turned(out.labels.shadow, p.turn);
         out.labels.seabed = turned(out.labels.seabed, p.turn);
         in::describe_targets(out.labels, scene.targets);
     }
+    out.gray = in::apply(out.values, in::to_uint8, ex);
     return out;
 }
 

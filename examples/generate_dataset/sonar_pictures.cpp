@@ -2,6 +2,7 @@
 #include "sonar_pictures.hpp"
 
 #include "../common/png_bytes.hpp"
+#include "formats.hpp"
 #include "record.hpp"
 #include "run_lengths.hpp"
 #include "sonar_draw.hpp"
@@ -80,6 +81,7 @@ std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const st
     json record{{"id", index}};
     record["files"] = {entry_of("image", files[0]), entry_of("target_mask", files[1]),
                        entry_of("shadow_mask", files[2]), entry_of("seabed_mask", files[3])};
+    add_formats(o.formats, index, d.values, files, record);
     record["size"] = o.size;
     record["annotations"] = annotations;
     json parameters{{"recipe", "sonar"}, {"seed", o.seed}, {"attempt", attempt}};

@@ -197,6 +197,7 @@ bool staging::put_first(const file& f) {
 }
 
 staged_file staging::open(const std::string& path) {
+    make_folder((root_ / path).parent_path());
     return {temporary_name(), (root_ / path).string()};
 }
 

@@ -2,10 +2,18 @@
 
 #include <insonify/io/file.hpp>
 
+#include <algorithm>
 #include <map>
+#include <memory>
+#include <set>
 #include <sstream>
 
+#include "card.hpp"
 #include "checksum.hpp"
+#include "configuration.hpp"
+#include "csv.hpp"
+#include "pack.hpp"
+#include "preview.hpp"
 #include "record.hpp"
 
 namespace generator {
@@ -61,26 +69,66 @@ std::string line_of(const json& record, bool names) {
     return line + "\r\n";
 }
 
-}  // namespace
+/// The tar files of a set: one for each block of a thousand ids.
+class sample_packs {
+  public:
+    sample_packs(const fs::path& root, staging& into) : root_(root), into_(into) {}
 
-std::string csv_cell(std::string_view text) {
-    if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + '"';
-}
+    void add(std::uint64_t index, const std::string& text, const json& record, std::size_t category) {
+        if (block_ != block_of(index)) close();
+        if (!tar_) {
+            block_ = block_of(index);
+            table_ = std::make_unique<table>(into_, "webdataset/" + block_ + ".tar");
+            tar_ = std::make_unique<tar_pack>([this](std::string_view bytes) { table_->write(bytes); });
+        }
+        const std::string id = id_of(index);
+        bool image = true;
+        for (const json& entry : record.at("files")) {
+            const std::string path = entry.at("path").get<std::string>(), of = entry.at("of").get<std::string>();
+            const std::string bytes = insonify::read_file((root_ / path).string());
+            if (sha256(bytes) != entry.at("sha256"))
+                throw insonify::io_error((root_ / path).string() + ": is damaged; run the command again");
+            // An extension is all that follows the first dot: 000000007.target_mask.png
+            const std::string extension = path.substr(path.rfind('.'));
+            tar_->add(id + (image || extension != ".png" ? extension : "." + of + extension), bytes);
+            if (image) tar_->add(id + ".cls", std::to_string(category));
+            image = false;
+        }
+        tar_->add(id + ".json", text);
+    }
+    /// Puts the last tar in its place. @returns lines of SHA256SUMS
+    std::string close() {
+        if (tar_) {
+            tar_->close();
+            sums_ += table_->close();
+        }
+        tar_.reset(), table_.reset();
+        return sums_;
+    }
 
-namespace {
+  private:
+    const fs::path& root_;
+    staging& into_;
+    std::string block_, sums_;
+    std::unique_ptr<table> table_;
+    std::unique_ptr<tar_pack> tar_;
+};
 
-std::uint64_t write_once(const fs::path& root, const std::vector<std::string>& classes, staging& into) {
-    table coco(into, "annotations.json"), manifest(into, "manifest.csv");
+std::uint64_t write_once(const fs::path& root, bool preview, staging& into) {
+    const json config = pinned(root, "config.json");
+    const auto formats = config.value("formats", std::vector<std::string>());
+    const bool packs = std::find(formats.begin(), formats.end(), "webdataset") != formats.end();
+    table coco(into, "annotations.json"), manifest(into, "manifest.csv"), readme(into, "README.md");
+    sample_packs samples(root, into);
+    data_card card;
+    preview_page page;
     json categories = json::array();
     std::map<std::string, std::size_t> category_ids;
     const auto add_category = [&](const std::string& name, const char* kind) {
         category_ids[name] = category_ids.size() + 1;
         categories.push_back({{"id", category_ids[name]}, {"name", name}, {"supercategory", kind}});
     };
-    for (const std::string& name : classes) add_category(name, "target");
+    for (const auto& name : config.at("categories").get<std::vector<std::string>>()) add_category(name, "target");
     add_category("shadow", "shadow");
 
     // The images come first and the annotations after all of them, but each record is read once.
@@ -90,11 +138,20 @@ std::uint64_t write_once(const fs::path& root, const std::vector<std::string>& c
                ",\"images\":[\n");
     for_each_record(root, [&](const std::string& path, std::uint64_t index) {
         const std::string name = (root / path).string();
-        const json record = parse_record(insonify::read_file(name), name);
+        const std::string text = insonify::read_file(name);
+        const json record = parse_record(text, name);
         if (record.at("id") != index)
             throw insonify::io_error(name + ": is the record of image " + record.at("id").dump() + "; remove it");
         if (images == 0) manifest.write(line_of(record, true));
         manifest.write(line_of(record, false));
+        card.add(record);
+        if (preview) page.add(record);
+        if (packs) {
+            // As a target's category; an image without one is 0.
+            const std::string image = record.at("files").at(0).at("path").get<std::string>();
+            const auto category = category_ids.find(image.substr(7, image.find('/', 7) - 7));
+            samples.add(index, text, record, category == category_ids.end() ? 0 : category->second);
+        }
         coco.write((images == 0 ? "" : ",\n") + json{{"id", record.at("id")},
                                                      {"file_name", record.at("files").at(0).at("path")},
                                                      {"width", record.at("size")},
@@ -118,19 +175,23 @@ std::uint64_t write_once(const fs::path& root, const std::vector<std::string>& c
     coco.write("\n],\"annotations\":[\n");
     annotations.read_back([&](std::string_view bytes) { coco.write(bytes); });
     coco.write("\n]}\n");
+    readme.write(card.text(config));
 
-    std::string sums = coco.close();
+    std::string sums = readme.close() + coco.close();
     sums += sha256(insonify::read_file((root / "config.json").string())) + "  config.json\n";
     sums += manifest.close();
+    sums += samples.close();
+    // The page is for people: it is none of what a run has to leave behind.
+    if (preview) into.put({{{"preview.html", page.text(root.filename().string())}}});
     into.put({{{"SHA256SUMS", sums}}});
     return images;
 }
 
 }  // namespace
 
-std::uint64_t write_tables(const fs::path& root, const std::vector<std::string>& classes, staging& into) {
+std::uint64_t write_tables(const fs::path& root, bool preview, staging& into) {
     std::uint64_t images = 0;
-    into.until_kept([&] { images = write_once(root, classes, into); });
+    into.until_kept([&] { images = write_once(root, preview, into); });
     return images;
 }
 
@@ -138,8 +199,13 @@ std::vector<std::string> table_faults(const fs::path& root) {
     std::vector<std::string> faults;
     if (!fs::exists(root / "SHA256SUMS")) return {"SHA256SUMS: is missing"};
     std::istringstream lines(insonify::read_file((root / "SHA256SUMS").string()));
-    std::size_t checked = 0;
-    for (std::string sum, name; lines >> sum >> name; ++checked) {
+    std::set<std::string> missing{"README.md", "annotations.json", "config.json", "manifest.csv"};
+    const std::string config = pinned(root, "config.json").value("formats", json()).dump();
+    if (config.find("webdataset") != std::string::npos && fs::is_directory(root / "records"))
+        for (const auto& block : fs::directory_iterator(root / "records"))
+            missing.insert("webdataset/" + block.path().filename().string() + ".tar");
+    for (std::string sum, name; lines >> sum >> name;) {
+        missing.erase(name);
         std::FILE* const file = std::fopen((root / name).string().c_str(), "rb");
         sha256_sum found;
         std::vector<char> bytes(1 << 20);
@@ -154,7 +220,7 @@ std::vector<std::string> table_faults(const fs::path& root) {
             faults.push_back(name + ": SHA-256 is " + digits + ", was " + sum);
         if (file != nullptr) std::fclose(file);
     }
-    if (checked != 3) faults.push_back("SHA256SUMS: names " + std::to_string(checked) + " files, expected 3");
+    for (const std::string& name : missing) faults.push_back("SHA256SUMS: does not name " + name);
     return faults;
 }
 

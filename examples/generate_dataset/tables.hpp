@@ -1,9 +1,9 @@
-// annotations.json (COCO) and manifest.csv of all records in a folder, and SHA256SUMS of both: written as a stream, so
-// that a million images take no more memory than a hundred.
+// What is made of all records in a folder: annotations.json (COCO), manifest.csv, README.md, tar files of WebDataset
+// where the configuration says so, and SHA256SUMS of them. Written as a stream: a million images take the memory of a
+// hundred.
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "staging.hpp"
@@ -11,13 +11,11 @@
 namespace generator {
 
 /// @throws io_error if a record is torn, or a table can't be written
+/// @param preview  writes preview.html, too
 /// @returns how many images the tables list
-std::uint64_t write_tables(const std::filesystem::path& root, const std::vector<std::string>& classes, staging& into);
+std::uint64_t write_tables(const std::filesystem::path& root, bool preview, staging& into);
 
 /// What is wrong with the tables and config.json, by SHA256SUMS.
 std::vector<std::string> table_faults(const std::filesystem::path& root);
-
-/// A cell of a CSV table (RFC 4180): quoted where it must be.
-std::string csv_cell(std::string_view text);
 
 }  // namespace generator

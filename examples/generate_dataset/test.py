@@ -4,6 +4,7 @@
 INSONIFY_KILLS: how many runs are killed in the middle (8).
 """
 
+import ast
 import csv
 import errno
 import hashlib
@@ -18,16 +19,24 @@ import struct
 import signal
 import subprocess
 import sys
+import tarfile
 import tempfile
 import time
 import unittest
+import zlib
 
 GENERATOR, MERGE = sys.argv.pop(1), sys.argv.pop(1)
 KILLS = int(os.environ.get("INSONIFY_KILLS", "8"))
-SMALL = ["--size", "96", "--count", "8", "--seed", "5", "--noise", "speckle:0.1,poisson:200"]
+SMALL = ["--recipe", "published", "--size", "96", "--count", "8", "--seed", "5", "--noise", "speckle:0.1,poisson:200"]
+
+
+def with_recipe(options):
+    """Of the two recipes, most tests are of the published one, which has inputs and modes."""
+    return list(options) if "--recipe" in options else ["--recipe", "published", *options]
 
 
 def run(*options, expect=0, program=GENERATOR, **environment):
+    options = with_recipe(options) if program == GENERATOR else options
     result = subprocess.run([program, *map(str, options)], capture_output=True, text=True, timeout=300,
                             env=os.environ | environment)
     assert expect in (None, result.returncode), f"exit {result.returncode}, expected {expect}:\n{result.stdout}{result.stderr}"
@@ -36,7 +45,7 @@ def run(*options, expect=0, program=GENERATOR, **environment):
 
 def refusal(*options):
     """What a run says that is refused, with an exit code of 1 or 2, before it has made anything."""
-    result = subprocess.run([GENERATOR, *map(str, options)], capture_output=True, text=True, timeout=20)
+    result = subprocess.run([GENERATOR, *map(str, with_recipe(options))], capture_output=True, text=True, timeout=20)
     assert result.returncode in (1, 2), result
     return result.stdout + result.stderr
 
@@ -47,12 +56,70 @@ def digest(folder):
             for path in sorted(pathlib.Path(folder).rglob("*")) if path.is_file() and path.name != ".lock"}
 
 
+def read_png(path):
+    """Gray samples of a PNG of 8 bits without interlacing."""
+    data = path.read_bytes()
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IHDR":
+            width, height = struct.unpack(">II", data[at + 8:at + 16])
+        if kind == b"IDAT":
+            packed += data[at + 8:at + 8 + size]
+        at += size + 12
+    raw = zlib.decompress(packed)
+    out, before = [], [0] * width
+    for y in range(height):
+        kind, line = raw[y * (width + 1)], list(raw[y * (width + 1) + 1:(y + 1) * (width + 1)])
+        for x in range(width):
+            left, corner = (line[x - 1], before[x - 1]) if x else (0, 0)
+            p = left + before[x] - corner
+            paeth = min((abs(p - left), 0, left), (abs(p - before[x]), 1, before[x]), (abs(p - corner), 2, corner))[2]
+            line[x] = (line[x] + (0, left, before[x], (left + before[x]) // 2, paeth)[kind]) & 255
+        out += line
+        before = line
+    return out
+
+
 def pgm(path, maxval=255, name="P5"):
     """Writes a picture of 40 x 40 with many gray values."""
     size = 2 if maxval > 255 else 1
     samples = b"".join((maxval * (x * y % 97) // 97).to_bytes(size, "big") for y in range(40) for x in range(40))
     path.write_bytes(b"P5 40 40 %d\n" % maxval + samples)
     return path
+
+
+def read_png(data):
+    """Gray values of a PNG without filters, of 8 or 16 bits; each chunk's checksum is checked."""
+    assert data.startswith(b"\x89PNG\r\n\x1a\n")
+    at, packed, kinds = 8, b"", []
+    while at < len(data):
+        size, = struct.unpack(">I", data[at:at + 4])
+        kind, body = data[at + 4:at + 8], data[at + 8:at + 8 + size]
+        assert struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0] == zlib.crc32(kind + body)
+        kinds.append(kind)
+        if kind == b"IHDR":
+            width, height, depth, color = struct.unpack(">IIBB", body[:10])
+        if kind == b"IDAT":
+            packed += body
+        at += 12 + size
+    assert kinds[0] == b"IHDR" and kinds[-1] == b"IEND" and color == 0
+    raw, stride = zlib.decompress(packed), 1 + width * depth // 8
+    assert len(raw) == stride * height and not any(raw[::stride])
+    rows = b"".join(raw[y * stride + 1:(y + 1) * stride] for y in range(height))
+    return list(rows) if depth == 8 else list(struct.unpack(f">{width * height}H", rows))
+
+
+def read_npy(data):
+    """Values of an array of float32 as NumPy's format 1.0 has it."""
+    assert data[:8] == b"\x93NUMPY\x01\x00"
+    size, = struct.unpack("<H", data[8:10])
+    header = ast.literal_eval(data[10:10 + size].decode("latin1"))
+    assert (10 + size) % 64 == 0 and data[9 + size:10 + size] == b"\n"
+    assert header["descr"] == "<f4" and header["fortran_order"] is False
+    height, width = header["shape"]
+    assert len(data) == 10 + size + 4 * width * height
+    return list(struct.unpack(f"<{width * height}f", data[10 + size:]))
 
 
 class Generator(unittest.TestCase):
@@ -72,6 +139,79 @@ class Generator(unittest.TestCase):
         for first, count in (5, 3), (0, 2), (2, 3):
             run("--out", self.folder / "parts", *SMALL, "--first", first, "--count", count)
         self.assertEqual(digest(self.folder / "whole"), digest(self.folder / "parts"))
+
+    def test_every_format_holds_the_same_picture(self):
+        out, formats = self.folder / "a", "webdataset,npy,png16,pfm"
+        run("--out", out, *SMALL, "--format", formats, "--threads", 2)
+        run("--out", self.folder / "b", *SMALL, "--format", formats, "--threads", 1)
+        self.assertEqual(digest(out), digest(self.folder / "b"))
+        self.assertIn("0 faults", run("--out", out, *SMALL, "--format", formats, "--verify"))
+        for row in csv.DictReader((out / "manifest.csv").read_text().splitlines()):
+            values = read_npy((out / row["npy"]).read_bytes())
+            picture = read_png((out / row["file"]).read_bytes())
+            deep = read_png((out / row["png16"]).read_bytes())
+            level = (out / row["pfm"]).read_bytes()
+            self.assertTrue(level.startswith(b"Pf\n96 96\n-1"))
+            rows = struct.unpack(f"<{96 * 96}f", level[-4 * 96 * 96:])
+            self.assertEqual(values, [v for y in reversed(range(96)) for v in rows[96 * y:96 * y + 96]])
+            for value, eight, sixteen in zip(values, picture, deep, strict=True):
+                value = min(max(value, 0.0), 1.0)
+                self.assertLessEqual(abs(value * 255 - eight), 0.5001)
+                self.assertLessEqual(abs(value * 65535 - sixteen), 0.51)
+
+    def test_a_tar_is_a_webdataset(self):
+        out = self.folder / "a"
+        options = ["--out", out, "--size", 16, "--count", 30, "--first", 985, "--format", "webdataset,npy"]
+        run(*options)
+        categories = {c["id"]: c["name"] for c in json.loads((out / "annotations.json").read_text())["categories"]}
+        extensions = [".png", ".cls", ".target_mask.png", ".shadow_mask.png", ".seabed_mask.png", ".npy", ".json"]
+        self.assertEqual(sorted(path.name for path in (out / "webdataset").iterdir()), ["000000.tar", "000001.tar"])
+        index = 985
+        for path in sorted((out / "webdataset").iterdir()):
+            with tarfile.open(path, "r:") as tar:
+                members = tar.getmembers()
+                # A sample's members follow one another, as a reader of a stream needs it.
+                self.assertEqual(len(members) % len(extensions), 0)
+                for at in range(0, len(members), len(extensions)):
+                    sample = members[at:at + len(extensions)]
+                    self.assertEqual([m.name for m in sample], [f"{index:09}{e}" for e in extensions])
+                    bytes_of = {m.name[9:]: tar.extractfile(m).read() for m in sample}
+                    record = json.loads(bytes_of[".json"])
+                    self.assertEqual(record["id"], index)
+                    self.assertEqual(categories[int(bytes_of[".cls"])], record["parameters"]["class"])
+                    for entry, extension in zip(record["files"], [e for e in extensions if e not in (".cls", ".json")],
+                                                strict=True):
+                        self.assertEqual(hashlib.sha256(bytes_of[extension]).hexdigest(), entry["sha256"])
+                    self.assertTrue(all(m.isreg() and m.mtime == 0 and m.uid == 0 for m in sample))
+                    index += 1
+            self.assertEqual(path.stat().st_size % 512, 0)
+        self.assertEqual(index, 985 + 30)
+        subprocess.run(["sha256sum", "--quiet", "-c", "SHA256SUMS"], cwd=out, check=True)
+        tar = out / "webdataset" / "000001.tar"
+        tar.write_bytes(tar.read_bytes()[:-1024])
+        self.assertIn("webdataset/000001.tar: SHA-256 is", run(*options, "--verify", expect=1))
+        run(*options)
+        self.assertIn(" 0 faults", run(*options, "--verify"))
+
+    def test_a_set_comes_with_a_card(self):
+        out = self.folder / "a"
+        run("--out", out, *SMALL, "--reference", pgm(self.folder / "r|f.pgm"))
+        card = (out / "README.md").read_text()
+        for text in ("8 images of 96 x 96 pixels", "seed 5", "insonify ", "| class | cone 2, cube 2, cylinder 2, sphere 2 |",
+                     "| noise | [\"speckle:0.1\",\"poisson:200\"] |".replace("[", "\\["), "r\\|f.pgm", "| altitude_m | 8 |"):
+            self.assertIn(text, card)
+        for image in re.findall(r"!\[[^]]*\]\(([^)]*)\)", card):
+            self.assertTrue((out / image).exists(), image)
+        self.assertIn("README.md", (out / "SHA256SUMS").read_text())
+
+    def test_the_sonar_recipe_is_joined_from_shards(self):
+        options = ["--recipe", "sonar", "--count", 6, "--size", 64]
+        run("--out", self.folder / "whole", *options)
+        for k in range(2):
+            run("--out", self.folder / "a", *options, "--shard", f"{k}/2")
+        run(self.folder / "a", "--preview", program=MERGE)
+        (self.folder / "a" / "preview.html").unlink()
+        self.assertEqual(digest(self.folder / "whole"), digest(self.folder / "a"))
 
     def test_a_killed_run_goes_on_to_the_same_bytes(self):
         run("--out", self.folder / "whole", *SMALL)
@@ -196,6 +336,68 @@ class Generator(unittest.TestCase):
             self.assertEqual(digest(self.folder / f"{mode}1"), digest(self.folder / f"{mode}3"))
             for kind in "target", "shadow", "seabed":
                 self.assertEqual(len(list((self.folder / f"{mode}1" / "masks").rglob(f"*_{kind}.png"))), 6)
+
+    def read_manifest(self, folder):
+        return list(csv.DictReader((folder / "manifest.csv").read_text().splitlines()))
+
+    def test_the_sonar_recipe_makes_empty_images_and_labels_what_is_there(self):
+        out = self.folder / "a"
+        options = ["--recipe", "sonar", "--pixels", 64, "--count", 24]
+        run("--out", out, *options, "--threads", 1)
+        run("--out", self.folder / "b", *options, "--threads", 3)
+        self.assertEqual(digest(out), digest(self.folder / "b"))
+        self.assertIn("24 images checked, 0 faults", run("--out", out, *options, "--verify"))
+        rows = self.read_manifest(out)
+        self.assertEqual([row["class"] for row in rows].count("empty"), 12)
+        self.assertEqual({row["class"] for row in rows}, {"ship", "plane", "empty"})
+        coco = json.loads((out / "annotations.json").read_text())
+        names = {category["id"]: category["name"] for category in coco["categories"]}
+        self.assertEqual(sorted(names.values()), ["clutter", "plane", "shadow", "ship"])
+        for row in rows:
+            found = [names[a["category_id"]] for a in coco["annotations"] if a["image_id"] == int(row["index"])]
+            if row["class"] == "empty":
+                self.assertFalse({"ship", "plane"} & set(found))
+                self.assertEqual(row["target_area_px"], "0")
+            else:
+                self.assertIn(row["class"], found)
+                self.assertGreaterEqual(float(row["visible_share"]), 0.1)
+                self.assertIn(row["target_is_cut"], ("true", "false"))
+            # Whatever was sampled is in the row.
+            for column in ("sonar", "display", "looks", "noise_floor", "tone_drift_db", "grazing_deg", "port", "beam_rad",
+                           "feature_m", "first_range_m", "rig_yaw_rad", "noise_seed"):
+                self.assertNotEqual(row[column], "", column)
+
+    def test_counts_by_class_are_kept(self):
+        counts = {"truncated_cone": 3, "empty": 2, "crate": 1}
+        run("--recipe", "sonar", "--out", self.folder / "a", "--pixels", 32, "--visible-share", 0, "--per-class",
+            ",".join(f"{name}={count}" for name, count in counts.items()))
+        rows = self.read_manifest(self.folder / "a")
+        self.assertEqual({name: [row["class"] for row in rows].count(name) for name in counts}, counts)
+        self.assertIn("is not CLASS=COUNT", refusal("--recipe", "sonar", "--out", "x", "--per-class", "submarine=3"))
+        self.assertIn("is not CLASS=COUNT", refusal("--recipe", "sonar", "--out", "x", "--per-class", "ship=0"))
+
+    def test_options_of_the_other_recipe_are_refused(self):
+        self.assertIn("belongs to --recipe published", refusal("--recipe", "sonar", "--out", "x", "--mode", "overhead"))
+        self.assertIn("belongs to --recipe sonar", refusal("--out", "x", "--empty", "0.5"))
+        self.assertIn("belongs to --recipe sonar", refusal("--out", "x", "--targets", "ship"))
+
+    def test_masked_matching_keeps_shadows_dark(self):
+        reference = pgm(self.folder / "r.pgm")
+        dark = {}
+        for match in ("masked", "whole"):
+            out = self.folder / match
+            run("--out", out, "--mode", "slant_range", "--pixels", 96, "--count", 4, "--reference", reference, "--match",
+                match)
+            dark[match] = self.gray_of_shadows(out)
+        self.assertLess(dark["masked"], dark["whole"])
+
+    def gray_of_shadows(self, folder):
+        """The mean gray of targets' shadows."""
+        inside = []
+        for picture in sorted((folder / "images").rglob("*.png")):
+            mask = folder / "masks" / picture.parent.name / f"{picture.stem}_shadow.png"
+            inside += [gray for gray, is_dark in zip(read_png(picture), read_png(mask)) if is_dark]
+        return sum(inside) / len(inside)
 
     def test_options_come_from_a_file_too(self):
         (self.folder / "set.toml").write_text('size = 64\ncount = 2\nseed = 9\ntargets = ["cone"]\n')

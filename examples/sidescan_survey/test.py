@@ -117,7 +117,11 @@ class Survey(unittest.TestCase):
         self.assertLess(abs(float(track[-1]["y_m"]) - 10), 2.5)
         (self.folder / "points.csv").write_text("here,there\n")
         self.assertIn("is not x,y", run(*out, "--waypoints", self.folder / "points.csv", expect=1))
-        self.assertIn("can't be read", run(*out, "--waypoints", self.folder / "nowhere", expect=1))
+        for text in "0,0\n1,2,3\n", "0,0\nnan,1\n", "0,0\n1e9,1\n", "0,0\n1;1\n", "0,0\n1\n2,2\n":
+            (self.folder / "points.csv").write_text(text)
+            self.assertIn("line 2 is not x,y", run(*out, "--waypoints", self.folder / "points.csv", expect=1))
+        self.assertIn("does not exist", run(*out, "--waypoints", self.folder / "nowhere", expect=1))
+        self.assertIn("a folder, pipe or device", run(*out, "--waypoints", "/dev/zero", expect=1))
         self.assertIn("lava", run(*out, "--bottom", "lava", expect=2))
 
 

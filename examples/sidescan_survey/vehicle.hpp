@@ -4,8 +4,13 @@
 #include <insonify/sonar/side_scan.hpp>
 
 #include <algorithm>
-#include <fstream>
+#include <charconv>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include "../common/input_file.hpp"
 
 namespace survey {
 
@@ -38,21 +43,43 @@ inline std::vector<glm::dvec2> lawnmower(double length, double width, double bet
     return points;
 }
 
-/// Way-points from a file of lines "x,y".
-/// @throws io_error for a file that can't be read or a line that isn't two numbers
-inline std::vector<glm::dvec2> read_waypoints(const std::string& path) {
-    std::ifstream file(path);
-    if (!file) throw in::io_error(path + ": can't be read");
+/// Way-points from lines "x,y" in metres; empty lines and those that begin with # are passed over.
+/// @throws io_error that names the line that isn't two numbers
+inline std::vector<glm::dvec2> parse_waypoints(std::string_view text, const std::string& name) {
     std::vector<glm::dvec2> points;
-    for (std::string line; std::getline(file, line);) {
+    for (std::size_t number = 1; !text.empty(); ++number) {
+        const std::size_t end = (std::min)(text.find('\n'), text.size());
+        std::string_view line = text.substr(0, end);
+        text.remove_prefix((std::min)(end + 1, text.size()));
+        const auto skip_blanks = [&] { line.remove_prefix((std::min)(line.find_first_not_of(" \t\r"), line.size())); };
+        skip_blanks();
         if (line.empty() || line[0] == '#') continue;
-        double x = 0, y = 0;
-        if (std::sscanf(line.c_str(), "%lf,%lf", &x, &y) != 2)
-            throw in::io_error(path + ": \"" + line + "\" is not x,y");
+        const auto refuse = [&] {
+            throw in::io_error(name + ": line " + std::to_string(number) + " is not x,y: two numbers of at most 1e7 m");
+        };
+        const auto coordinate = [&] {
+            double value = 0;
+            const auto [rest, status] = std::from_chars(line.data(), line.data() + line.size(), value);
+            if (status != std::errc{} || !(value >= -1e7 && value <= 1e7)) refuse();
+            line.remove_prefix(static_cast<std::size_t>(rest - line.data()));
+            skip_blanks();
+            return value;
+        };
+        const double x = coordinate();
+        if (!line.starts_with(',')) refuse();
+        line.remove_prefix(1);
+        skip_blanks();
+        const double y = coordinate();
+        if (!line.empty()) refuse();
         points.emplace_back(x, y);
     }
-    if (points.size() < 2) throw in::io_error(path + ": two way-points are needed at least");
+    if (points.size() < 2) throw in::io_error(name + ": two way-points are needed at least");
     return points;
+}
+
+/// @throws io_error for a file that can't be read or a line that isn't two numbers
+inline std::vector<glm::dvec2> read_waypoints(const std::string& path) {
+    return parse_waypoints(examples::read_input(path), path);
 }
 
 /// Goes along a list of way-points, a ping at a time; what it remembers doesn't grow.

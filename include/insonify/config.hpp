@@ -7,9 +7,12 @@
 //                             picture, all of it comes from operator new
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
 //     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return
+//     INSONIFY_COMPILED       the compiled form: this unit calls the code that one unit of the program compiles,
+//     INSONIFY_IMPLEMENTATION which defines this one; see compiled.hpp
 //
 // All symbols live in an inline namespace that names the version and whatever changes the code behind a symbol, so
-// that two translation units compiled with different flags never share one by accident.
+// that two translation units compiled with different flags never share one by accident. Units of the compiled form
+// share theirs whatever their flags.
 #pragma once
 
 #include <insonify/version.hpp>
@@ -66,6 +69,24 @@
 #else
 #define INSONIFY_ARITHMETIC_BEGIN
 #define INSONIFY_ARITHMETIC_END
+#endif
+
+// The compiled form: heavy functions are declared everywhere and defined in one unit. Header-only, they are inline.
+#if defined(INSONIFY_IMPLEMENTATION)
+#if !defined(INSONIFY_COMPILED)
+#define INSONIFY_COMPILED
+#endif
+#if defined(__GNUC__) && !defined(__OPTIMIZE__)
+#warning "INSONIFY_IMPLEMENTATION without optimization: everything will be drawn slowly. Compile this unit with -O2."
+#endif
+#define INSONIFY_BODIES 1
+#define INSONIFY_FUNCTION
+#elif defined(INSONIFY_COMPILED)
+#define INSONIFY_BODIES 0
+#define INSONIFY_FUNCTION
+#else
+#define INSONIFY_BODIES 1
+#define INSONIFY_FUNCTION inline
 #endif
 
 // Run-time dispatch to wider instruction sets: x86-64 with GNU attributes, and only where kernels are optimized. Other
@@ -129,13 +150,15 @@
 #define INSONIFY_JOIN_RAW(a, b) a##b
 #define INSONIFY_JOIN(a, b) INSONIFY_JOIN_RAW(a, b)
 
-#if defined(__cpp_exceptions)
+#if defined(__cpp_exceptions) || defined(INSONIFY_COMPILED)
 #define INSONIFY_TAG_EXCEPTIONS
 #else
 #define INSONIFY_TAG_EXCEPTIONS _noexcept
 #endif
 
-#if !INSONIFY_SIMD
+#if defined(INSONIFY_COMPILED)
+#define INSONIFY_TAG_SIMD _compiled
+#elif !INSONIFY_SIMD
 #define INSONIFY_TAG_SIMD _scalar
 #elif !INSONIFY_DISPATCH
 #define INSONIFY_TAG_SIMD _plain
@@ -147,7 +170,7 @@
 #define INSONIFY_TAG_SIMD _base
 #endif
 
-#if defined(NDEBUG)
+#if defined(NDEBUG) || defined(INSONIFY_COMPILED)
 #define INSONIFY_TAG_ASSERT
 #else
 #define INSONIFY_TAG_ASSERT _checked

@@ -21,8 +21,11 @@ enum class isa {
     avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
 };
 
-/// The widest instruction set that this compiler built and this processor runs.
-inline isa best_isa() {
+/// The widest instruction set that the library's kernels were compiled for and this processor runs.
+INSONIFY_FUNCTION isa best_isa();
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION isa best_isa() {
 #if INSONIFY_DISPATCH
     static const isa best = [] {
         if (!__builtin_cpu_supports("avx2")) return isa::baseline;
@@ -37,6 +40,7 @@ inline isa best_isa() {
     return isa::scalar;
 #endif
 }
+#endif
 
 namespace detail {
 

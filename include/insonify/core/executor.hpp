@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <type_traits>
 
 namespace insonify::inline INSONIFY_ABI {
 
@@ -27,6 +28,32 @@ struct serial_executor {
 /// Lets a temporary stand for the default: `Executor&& ex = serial_executor{}`.
 template <class E>
 concept executor_argument = executor<std::remove_reference_t<E>>;
+
+/// Any executor by reference, an executor itself: what takes one is compiled once for all of them, at the price of one
+/// indirect call per run. The executor has to outlive it.
+class executor_ref {
+  public:
+    template <executor E>
+        requires(!std::same_as<std::remove_const_t<E>, executor_ref>)
+    executor_ref(E& ex)
+        : executor_(&ex), bulk_([](const void* to, std::size_t count, call_type call, const void* fn) {
+              const_cast<E*>(static_cast<const E*>(to))->bulk(count, [=](std::size_t i) { call(fn, i); });
+          }) {}
+
+    template <std::invocable<std::size_t> Fn>
+    void bulk(std::size_t count, Fn&& fn) const {
+        using function = std::remove_reference_t<Fn>;
+        bulk_(
+            executor_, count,
+            [](const void* to, std::size_t i) { (*const_cast<function*>(static_cast<const function*>(to)))(i); }, &fn);
+    }
+
+  private:
+    using call_type = void (*)(const void* fn, std::size_t i);
+
+    const void* executor_;
+    void (*bulk_)(const void* to, std::size_t count, call_type call, const void* fn);
+};
 
 /// Splits [0, count) into runs of `grain` and calls `fn(first, last)` for each. The split depends on the arguments
 /// alone, so whatever is summed per run comes out the same on any executor.

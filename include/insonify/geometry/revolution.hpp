@@ -94,7 +94,10 @@ int round_segments_for(float radius, float deviation, const RingsOf& rings_of) {
 /// @param segments  around the axis, 3 to 2^20
 /// @throws invalid_input for another number of segments, more than 2^28 vertices, or a point that is not finite or
 ///         beyond the axis
-inline mesh revolve(std::span<const outline_point> outline, int segments, axis around = axis::z) {
+INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segments, axis around = axis::z);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segments, axis around) {
     detail::require(segments >= 3 && segments <= (1 << 20), "segments", segments, "3 to 2^20");
     const auto count = static_cast<std::uint32_t>(segments);
     detail::require(outline.size() <= (std::size_t{1} << 28) / count, "outline.size()", outline.size(),
@@ -153,6 +156,7 @@ inline mesh revolve(std::span<const outline_point> outline, int segments, axis a
     }
     return out;
 }
+#endif
 
 }  // namespace insonify::inline INSONIFY_ABI
 

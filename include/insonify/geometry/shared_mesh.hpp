@@ -1,10 +1,13 @@
 // An immutable mesh shared by many objects, with the properties that renderers need.
 #pragma once
 
-#include <insonify/geometry/bounds.hpp>
+#include <insonify/config.hpp>
+#if INSONIFY_BODIES
 #include <insonify/geometry/detail/coherent_order.hpp>
 #include <insonify/geometry/detail/lattice_order.hpp>
 #include <insonify/geometry/normals.hpp>
+#endif
+#include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/surface_kind.hpp>
 
@@ -26,7 +29,7 @@ class shared_mesh {
     /// No triangles.
     shared_mesh() : state_(empty()) {}
     /// @throws invalid_input for indices or normals that don't match the positions
-    shared_mesh(mesh m) : state_(std::make_shared<const state>(std::move(m))) {}
+    shared_mesh(mesh m) : state_(made_of(std::move(m))) {}
 
     const mesh& operator*() const { return state_->shape; }
     const mesh* operator->() const { return &state_->shape; }
@@ -45,28 +48,34 @@ class shared_mesh {
         bounding_box box;
         surface_kind kind = surface_kind::open;
         std::optional<regular_grid> grid;
-
-        state() = default;
-        explicit state(mesh m) : shape(std::move(m)) {
-            validate(shape);
-            box = bounds(shape);
-            grid = regular_grid_of(shape, serial_executor{}, grid_error);
-            if (!grid && detail::order_by_lattice(shape))
-                grid = regular_grid_of(shape, serial_executor{}, grid_error);
-            else if (!grid && detail::is_incoherent(shape))
-                detail::order_along_curve(shape, box);
-            if (shape.normals.empty())
-                shape.normals = smooth_normals(shape);
-            else
-                wind_by_normals(shape);
-            kind = kind_of(shape);
-            if (kind != surface_kind::heightfield) grid.reset();
-        }
     };
+    static std::shared_ptr<const state> made_of(mesh m);
     static std::shared_ptr<const state> empty() { return std::make_shared<const state>(); }
 
     std::shared_ptr<const state> state_;
 };
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION std::shared_ptr<const shared_mesh::state> shared_mesh::made_of(mesh m) {
+    const auto made = std::make_shared<state>();
+    state& s = *made;
+    s.shape = std::move(m);
+    validate(s.shape);
+    s.box = bounds(s.shape);
+    s.grid = regular_grid_of(s.shape, serial_executor{}, grid_error);
+    if (!s.grid && detail::order_by_lattice(s.shape))
+        s.grid = regular_grid_of(s.shape, serial_executor{}, grid_error);
+    else if (!s.grid && detail::is_incoherent(s.shape))
+        detail::order_along_curve(s.shape, s.box);
+    if (s.shape.normals.empty())
+        s.shape.normals = smooth_normals(s.shape);
+    else
+        wind_by_normals(s.shape);
+    s.kind = kind_of(s.shape);
+    if (s.kind != surface_kind::heightfield) s.grid.reset();
+    return made;
+}
+#endif
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -4,7 +4,9 @@
 
 #include <insonify/core/numeric.hpp>
 #include <insonify/geometry/mesh.hpp>
+#if INSONIFY_BODIES
 #include <insonify/geometry/topology.hpp>
+#endif
 
 #include <algorithm>
 #include <cstdint>
@@ -21,6 +23,12 @@ enum class surface_kind {
                   ///< outside crosses as many triangles from behind as from the front, whatever the surface intersects
     heightfield,  ///< z over a convex part of the xy plane, all triangles counter-clockwise from above
 };
+
+/// Finds out what a mesh is. Linear in its triangles, but for sorting positions.
+/// @param m  its indices have positions
+INSONIFY_FUNCTION surface_kind kind_of(const mesh& m);
+
+#if INSONIFY_BODIES
 
 namespace detail {
 
@@ -91,7 +99,7 @@ inline bool is_convex_loop(const mesh& m, const std::vector<std::pair<std::uint3
 
 /// Classifies a mesh, in linear time but for sorting positions.
 /// @param m  its indices have positions
-inline surface_kind kind_of(const mesh& m) {
+INSONIFY_FUNCTION surface_kind kind_of(const mesh& m) {
     if (m.triangles.empty()) return surface_kind::open;
     bool is_finite = true, is_upward = true;
     for (const glm::uvec3& t : m.triangles) {
@@ -106,6 +114,8 @@ inline surface_kind kind_of(const mesh& m) {
     if (edges.empty()) return surface_kind::closed;
     return is_upward && detail::is_convex_loop(m, edges) ? surface_kind::heightfield : surface_kind::open;
 }
+
+#endif
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

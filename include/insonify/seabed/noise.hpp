@@ -187,9 +187,7 @@ class power_law_noise {
     }
 
     /// Adds the relief along a stretch to its values, metres.
-    void add(const detail::stretch& part, detail::stretch_values& values, isa level = best_isa()) const {
-        if (!octaves_.empty()) detail::dispatch(kernel{*this, part, values.data()}, level);
-    }
+    void add(const detail::stretch& part, detail::stretch_values& values, isa level = best_isa()) const;
 
     /// What is added is never above this, nor below its negative, metres.
     double most() const {
@@ -225,6 +223,13 @@ class power_law_noise {
     std::vector<octave> octaves_;
     double slope_ = 0;
 };
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION void power_law_noise::add(const detail::stretch& part, detail::stretch_values& values,
+                                            isa level) const {
+    if (!octaves_.empty()) detail::dispatch(kernel{*this, part, values.data()}, level);
+}
+#endif
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 

@@ -104,10 +104,7 @@ class ripple_train {
     }
 
     /// Adds the relief along a stretch to its values, metres.
-    void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
-        if (half_height_ > 0 && carried(wavelength_, part.grid_spacing) > 0)
-            dispatch(kernel{*this, part, values.data()}, level);
-    }
+    void add(const stretch& part, stretch_values& values, isa level = best_isa()) const;
 
     /// What is added is never above this, nor below its negative, metres: the profile is within [-1, 1] of half the
     /// height, but for the carrier's error of 2e-6, which the sharpest crests multiply by 19.
@@ -301,6 +298,13 @@ class ripple_train {
     double step_ = 1, wavelength_;
     float half_height_, sharpness_;
 };
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION void ripple_train::add(const stretch& part, stretch_values& values, isa level) const {
+    if (half_height_ > 0 && carried(wavelength_, part.grid_spacing) > 0)
+        dispatch(kernel{*this, part, values.data()}, level);
+}
+#endif
 
 }  // namespace detail
 }  // namespace insonify::inline INSONIFY_ABI::seabed

@@ -67,12 +67,7 @@ class rock_sampler {
         }
     }
 
-    void row(const scanline& line, std::span<float> heights) const {
-        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
-            if (relief_ > 0) detail::dispatch(kernel{*this, part, values.data()}, best_isa());
-            surface_.add(part, values);
-        });
-    }
+    void row(const scanline& line, std::span<float> heights) const;
 
     height_range range() const {
         double blocks = 0;
@@ -149,6 +144,15 @@ inline rock_sampler rock::prepare() const {
 inline float rock::operator()(double x, double y) const {
     return height_at(prepare(), x, y);
 }
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION void rock_sampler::row(const scanline& line, std::span<float> heights) const {
+    detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
+        if (relief_ > 0) detail::dispatch(kernel{*this, part, values.data()}, best_isa());
+        surface_.add(part, values);
+    });
+}
+#endif
 
 }  // namespace insonify::inline INSONIFY_ABI::seabed
 

@@ -374,15 +374,11 @@ class exact_occlusion {
     std::vector<horizon_state> horizons_;  ///< of the casters, under parallel light
 };
 
-/// Hard shadows, exact for every point: the default.
-struct exact {
-    /// See casting_policy.
-    template <executor E>
-    exact_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
-                          E& ex) const {
-        return {casters, light, bounds.box, ex};
-    }
-};
+template <executor E>
+exact_occlusion exact::build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
+                             E& ex) const {
+    return {casters, light, bounds.box, ex};
+}
 
 }  // namespace shadow
 }  // namespace INSONIFY_ABI

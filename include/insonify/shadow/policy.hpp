@@ -96,6 +96,16 @@ concept casting_policy = requires(const P& policy, std::span<const caster> caste
     { policy.build(casters, light, bounds, ex) } -> occlusion;
 };
 
+class exact_occlusion;
+
+/// Hard shadows, exact for every point: the default. See exact.hpp, which makes it a model of casting_policy.
+struct exact {
+    /// See casting_policy.
+    template <executor E>
+    exact_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
+                          E& ex) const;
+};
+
 /// No shadows: nothing is built, tested or compiled.
 struct none {};
 

@@ -1,7 +1,7 @@
 // The result of every kind of picture: the image, its labels, which pings its rows are, and what was drawn.
 #pragma once
 
-#include <insonify/raster/assembly.hpp>
+#include <insonify/raster/draw_stats.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/side_scan.hpp>
 

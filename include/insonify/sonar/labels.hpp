@@ -83,7 +83,10 @@ inline class_map classes_of(const labels& l) {
 }
 
 /// Fills in labels::targets from the images.
-inline void describe_targets(labels& l, const std::vector<target>& targets) {
+INSONIFY_FUNCTION void describe_targets(labels& l, const std::vector<target>& targets);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION void describe_targets(labels& l, const std::vector<target>& targets) {
     struct extent {
         int x0 = (std::numeric_limits<int>::max)(), y0 = x0, x1 = -1, y1 = -1;
         std::int64_t area = 0;
@@ -114,6 +117,7 @@ inline void describe_targets(labels& l, const std::vector<target>& targets) {
                              shaded.box(), seen.area, shaded.area});
     }
 }
+#endif
 
 }  // namespace insonify::inline INSONIFY_ABI
 

@@ -3,7 +3,8 @@
 
 #include <insonify/geometry/shared_mesh.hpp>
 #include <insonify/geometry/transform.hpp>
-#include <insonify/seabed/models.hpp>
+#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/flat.hpp>
 #include <insonify/sonar/sediment.hpp>
 
 #include <array>

@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""preview.html of a data set in headless Chromium: preview_test.py <generate_dataset>
+
+INSONIFY_PREVIEW: how many images the set has (300; tools/test --full: 10000). Exit 77: no Chromium here.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests"))
+from browser import Browser, chromium_program
+
+COUNT = int(os.environ.get("INSONIFY_PREVIEW", "300"))
+DRIVER = """
+(async () => {
+  const faults = [], $ = id => document.getElementById(id);
+  const pause = ms => new Promise(done => setTimeout(done, ms));
+  const expect = (what, holds) => { if (!holds) faults.push(what); };
+  const set = (id, value) => { $(id).value = value; $(id).dispatchEvent(new Event("input")); };
+  const cells = () => [...document.querySelectorAll(".cell")];
+  const loaded = async () => {
+    for (let i = 0; i < 400; ++i) {
+      const images = [...document.querySelectorAll(".cell img")];
+      if (images.length && images.every(i => i.complete)) return images.every(i => i.naturalWidth > 0);
+      await pause(25);
+    }
+    return false;
+  };
+  const count = () => Number($("count").textContent.split(" ")[0]);
+  expect("all images are shown: " + count(), count() === COUNT);
+  expect("only cells in view are in the page: " + cells().length, cells().length > 0 && cells().length < 200);
+  expect("thumbnails load", await loaded());
+  const classes = [...$("class").options].map(o => o.value).filter(Boolean);
+  let sum = 0;
+  for (const name of classes) {
+    set("class", name);
+    sum += count();
+    expect("a class shows itself alone", cells().every(c => c.title.includes("class: " + name)));
+  }
+  expect("classes add up: " + sum, sum === COUNT && classes.length === 4);
+  set("class", "");
+  sum = 0;
+  for (const o of [...$("bottom").options].slice(1)) { set("bottom", o.value); sum += count(); }
+  expect("bottoms add up: " + sum, sum === COUNT);
+  set("bottom", "");
+  const column = names.indexOf("slant_range_m"), values = rows.map(r => r[3 + column]).sort((a, b) => a - b);
+  set("column", column);
+  const middle = values[values.length >> 1];
+  set("low", middle);
+  expect("from the median on is half: " + count(), count() === values.filter(v => v >= middle).length);
+  set("high", middle - 1);
+  expect("an empty range shows nothing", count() === 0 && cells().length === 0);
+  set("low", ""), set("high", "");
+  const first = cells()[0];
+  first.dispatchEvent(new MouseEvent("mouseenter"));
+  expect("masks come on hover", first.querySelectorAll(".tint img").length === 2 && await loaded());
+  $("main").scrollTop = $("main").scrollHeight;
+  await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
+  await pause(200);
+  expect("the last image is reached", cells().some(c => c.textContent.startsWith(rows[rows.length - 1][0])));
+  expect("its thumbnail loads", await loaded());
+  expect("few cells remain: " + cells().length, cells().length < 200);
+  const charts = document.querySelectorAll(".bars");
+  expect("there are histograms: " + charts.length, charts.length > 10);
+  for (const bars of charts)
+    expect("a histogram counts all", [...bars.children].reduce((n, b) => n + Number(b.title), 0) <= COUNT);
+  const start = performance.now();
+  for (const name of classes) set("class", name);
+  return JSON.stringify({faults, filter_ms: (performance.now() - start) / classes.length});
+})()
+""".replace("COUNT", str(COUNT))
+
+
+def main():
+    chromium = chromium_program()
+    if chromium is None:
+        print("Without Chromium: the preview is not opened.")
+        sys.exit(77)
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        out = pathlib.Path(folder) / "a <set> & more"
+        subprocess.run([sys.argv[1], "--out", out, "--size", "32", "--count", str(COUNT), "--preview"], check=True)
+        page = out / "preview.html"
+        browser = Browser(chromium, str(pathlib.Path(folder) / "profile"))
+        try:
+            start = time.monotonic()
+            session = browser.open(page.as_uri())
+            opened = time.monotonic() - start
+            answer = browser.call("Runtime.evaluate", session, expression=DRIVER, awaitPromise=True)
+            if "value" not in answer.get("result", {}):
+                raise RuntimeError(json.dumps(answer)[:500])
+            found = json.loads(answer["result"]["value"])
+            print(f"{COUNT} images: {page.stat().st_size / 1e6:.2f} MB, opened in {opened:.1f} s, a filter takes "
+                  f"{found['filter_ms']:.0f} ms")
+        finally:
+            browser.process.kill()
+            browser.process.wait()
+    faults = list(browser.complaints()) + found["faults"]
+    print("\n".join(faults) or "no fault")
+    sys.exit(1 if faults else 0)
+
+
+main()
