@@ -154,6 +154,12 @@ TEST_CASE("Normals turned inwards, all or some, cost no energy") {
     inward = to_mesh(in::sphere{});
     for (glm::vec3& n : inward.normals) n *= -1.0f;
     CHECK(total(inward) == Approx(whole).epsilon(1e-3));
+    // Of each triangle's normals some point to its back: it is not wound anew.
+    in::mesh wall = plate(0, -1, 1);
+    wall.normals.assign(4, {-1, 0, 0});
+    const double expected = total(wall);
+    for (const std::size_t i : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) wall.normals[i].x = 1;
+    CHECK(total(wall) == Approx(expected).epsilon(0.01));
 }
 
 TEST_CASE("Normals that are zero, NaN or infinite count as none: the facet's are taken") {
