@@ -76,6 +76,7 @@ json configuration_of(const options& o, const std::vector<input>& inputs) {
             {"reflectivity", o.reflectivity},
             {"intensity", o.intensity},
             {"sky", o.sky},
+            {"match", o.match},
             {"noise", o.noise},
             {"colormap", o.colormap},
             {"formats", o.formats},

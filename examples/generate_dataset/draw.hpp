@@ -4,6 +4,7 @@
 #include <insonify/insonify.hpp>
 
 #include "facts.hpp"
+#include "masked_match.hpp"
 #include "plan.hpp"
 #include "stock.hpp"
 
@@ -142,7 +143,10 @@ inline drawn draw(const options& o, const plan& p, const stock& shared, auto& ex
         : o.mode == "ground_range" ? recording_of<in::across_track::ground_range>(o, p, shared, scene, result, ex)
                                    : photograph(o, p, shared, scene, result, ex);
     const auto add = [&](const auto& filter) { look = in::apply(std::move(look), filter, ex); };
-    if (p.referenced) add(shared.reference(p.reference));
+    if (p.referenced && o.match == "masked")
+        look = match_masked(std::move(look), shadows_of(result.labels), shared.reference(p.reference));
+    else if (p.referenced)
+        add(in::match_histogram(shared.reference(p.reference)));
     for (const noise_step& step : noise_steps(o)) {
         const auto strength = static_cast<float>(step.strength);
         if (step.kind == "speckle") add(in::speckle{.variance = strength, .seed = p.noise_seed});

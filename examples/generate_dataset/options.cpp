@@ -180,6 +180,11 @@ options parsed(int argc, const char* const* argv,
         ->check(CLI::ExistingPath)
         ->group(look);
     app.add_option(
+           "--match", o.match,
+           "masked: shadows take the reference's darkest part, the rest the rest; whole: all pixels as one (masked)")
+        ->check(CLI::IsMember({"masked", "whole"}))
+        ->group(look);
+    app.add_option(
            "--noise", o.noise,
            "none, or a chain: speckle:0.1,gaussian:0.01,poisson:255,rayleigh; seabed, of a sonar's modes alone,\n"
            "is speckle that depends on the type of bottom (speckle:0.1; a sonar's: seabed)")
@@ -219,13 +224,13 @@ options parsed(int argc, const char* const* argv,
             if (step.kind == "seabed" && o.is_overhead())
                 throw CLI::ValidationError("--noise", "'seabed' is for the sonar's modes: --mode slant_range");
         check_classes(o);
+        check_counts(o);
         std::vector<std::string> formats;
         for (const char* const name : format_names)
             if (std::find(o.formats.begin(), o.formats.end(), name) != o.formats.end()) formats.push_back(name);
         o.formats = formats;
         if (o.preview && !shard.empty())
             throw CLI::ValidationError("--preview", "a shard is no whole set; merge it with tools/merge --preview");
-        check_counts(o);
         const bool needs_map = std::find(o.seabeds.begin(), o.seabeds.end(), "heightmap") != o.seabeds.end();
         if (needs_map && o.heightmap.empty())
             throw CLI::ValidationError("--seabeds", "heightmap needs --heightmap FILE");

@@ -44,6 +44,7 @@ struct options {
     range altitude{3.5, 5}, grazing{6, 6}, distance{2, 9}, beam{0.2, 0.5};
     double reflectivity = 0.9, intensity = 4, sky = 0.05;
     std::vector<std::string> references;
+    std::string match = "masked";
     std::vector<std::string> noise{"speckle:0.1"};
     std::string colormap = "gray";
     std::vector<std::string> formats;  ///< beside PNG of 8 bits, in the order of `format_names`

@@ -74,7 +74,7 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
     o.roll = s.derived(name("roll_rad"),
                        on_side ? s.uniform(name("list_rad"), 0.9, 1.8) : s.uniform(name("list_rad"), -0.3, 0.3));
     o.burial = s.uniform_or_0(name("burial"), 0.3, 0.02, 0.55);
-    o.reflectivity = s.logarithmic(name("reflectivity"), 0.4, 7);
+    o.reflectivity = s.logarithmic(name("reflectivity"), 0.5, 10);
     o.across = s.uniform(name("across"), 0.28, 0.6);
     o.along = s.uniform(name("along"), 0.34, 0.66);
     o.scour = s.uniform_or_0(name("scour"), 0.5, 0.03, 0.25);
@@ -98,12 +98,12 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel) {
     p.steepness = s.logarithmic("steepness", 0.015, 0.09);
     p.direction = s.uniform("ripple_direction_rad", 0, 2 * in::numeric::pi);
     p.disorder = s.uniform("disorder", 0.05, 0.22);
-    p.roughness = s.logarithmic("roughness", 3e-4, 0.018);
+    p.roughness = s.logarithmic("roughness", 2e-4, 0.04);
     p.cover = s.uniform("cover", 0.15, 0.75);
-    p.swell = s.uniform_or_0("swell", 0.75, 0.01, 0.05);
+    p.swell = s.uniform_or_0("swell", 0.65, 0.01, 0.06);
     p.trawls = s.uniform_or_0("trawls", 0.75, 0.3, 2);
 
-    p.tone.drift = static_cast<float>(s.uniform_or_0("tone_drift_db", 0.4, 0.1, 1.2));
+    p.tone.drift = static_cast<float>(s.logarithmic("tone_drift_db", 0.05, 2.8));
     p.tone.drift_length =
         static_cast<float>(s.derived("tone_drift_length_m", pixel * s.logarithmic("drift_px", 15, 120)));
     p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.7, 0.2, 1.3));
@@ -111,7 +111,7 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel) {
     p.tone.streak_length = static_cast<float>(
         s.derived("streak_length_m", static_cast<double>(p.tone.streak_width) * s.uniform("streak_ratio", 8, 60)));
     p.tone.direction = static_cast<float>(s.uniform("streak_direction_rad", 0, in::numeric::pi));
-    p.tone.patches = static_cast<float>(s.uniform_or_0("tone_patches_db", 0.82, -6, 6));
+    p.tone.patches = static_cast<float>(s.uniform_or_0("tone_patches_db", 0.78, -6, 6));
     p.tone.patch_size = static_cast<float>(s.derived("patch_size_m", pixel * s.logarithmic("patch_px", 15, 70)));
     p.tone.patch_share = static_cast<float>(s.uniform("patch_share", 0.1, 0.6));
     p.tone.seed = s.word("tone_seed");
@@ -131,9 +131,9 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
                                                         : static_cast<double>(p.sonar.beam);
     p.beam = s.derived("beam_rad", (std::max)(beam * s.uniform("beam_factor", 0.7, 1.5), 0.3 * pixel / slant));
 
-    p.gain.rms = static_cast<float>(s.uniform_or_0("gain_error_db", 0.45, 0.1, 0.9));
+    p.gain.rms = static_cast<float>(s.logarithmic("gain_error_db", 0.05, 1.8));
     p.gain.length = static_cast<float>(s.uniform("gain_error_px", 25, 120));
-    p.gain.slope = static_cast<float>(s.uniform("gain_slope_db", -1.5, 1.5));
+    p.gain.slope = static_cast<float>(s.uniform("gain_slope_db", -2.2, 2.2));
     p.gain.seed = s.word("gain_seed");
     p.banding.drift = static_cast<float>(s.uniform_or_0("banding_drift_db", 0.3, 0.1, 1.3));
     p.banding.length = static_cast<float>(s.uniform("banding_px", 3, 30));
@@ -150,7 +150,7 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.water.waves = static_cast<float>(0.01 * p.altitude);
     p.water.seed = p.banding.seed;
 
-    p.looks = static_cast<int>(s.derived("looks", std::floor(s.logarithmic("looks_drawn", 1.2, 12))));
+    p.looks = static_cast<int>(s.derived("looks", std::floor(s.logarithmic("looks_drawn", 1.2, 17))));
     p.grain_across =
         (std::min)((std::max)(p.sonar.grain_across() / pixel, s.uniform_or_0("grain_across_px", 0.7, 0.3, 1.3)), 16.0);
     p.grain_along =
@@ -160,9 +160,9 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.texture = s.uniform_or_0("texture", 0.75, 4, 15);
     p.noise_seed = s.word("noise_seed");
 
-    p.display = s.choice("display", {{"amplitude", 0.3}, {"decibels", 0.3}, {"power", 0.05}, {"automatic", 0.3}});
+    p.display = s.choice("display", {{"amplitude", 0.45}, {"decibels", 0.17}, {"power", 0.05}, {"automatic", 0.33}});
     p.white = s.logarithmic("white", 2, 8);
-    p.exponent = s.uniform("exponent", 0.3, 0.6);
+    p.exponent = s.uniform("exponent", 0.28, 0.58);
     p.dynamic_range = s.uniform("display_range_factor", 0.55, 1.1) * static_cast<double>(p.sonar.dynamic_range);
     p.dynamic_range = s.derived("display_range_db", p.dynamic_range);
     p.black_share = s.uniform("black_share", 0, 0.02);
@@ -192,7 +192,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const std::string& 
     }
 
     // The chip is cut around the first target, or as large as one of any size would be.
-    const double fill = s.uniform("fill", 0.42, 1.05), bare = s.logarithmic("bare_chip_m", 6, 160);
+    const double fill = s.logarithmic("fill", 0.34, 1.1), bare = s.logarithmic("bare_chip_m", 6, 160);
     p.chip = s.derived("chip_m", empty ? bare : detail::extent_of(shapes.front()) / fill);
     const double pixel = p.chip / o.size;
 

@@ -34,17 +34,18 @@ class stock {
         }
         for (const std::string& path : picture_paths(o.references)) {
             names_.push_back(std::filesystem::path(path).filename().string());
-            references_.push_back(in::match_histogram(with_values(reader.read_picture("--reference", path), path)));
+            references_.push_back(
+                in::distribution_of(with_values(reader.read_picture("--reference", path), path)));
         }
         inputs_ = std::move(reader).list();
         if (references_.empty() && o.demo) {
             names_.push_back("");
-            references_.push_back(in::match_histogram(made_up_reference()));
+            references_.push_back(in::distribution_of(made_up_reference()));
         }
     }
 
     std::size_t references() const { return references_.size(); }
-    const in::match_histogram& reference(std::size_t i) const { return references_[i]; }
+    const in::distribution& reference(std::size_t i) const { return references_[i]; }
     const std::string& reference_name(std::size_t i) const { return names_[i]; }
     const in::seabed::heightfield& heightmap() const { return heightmap_; }
     const std::vector<input>& inputs() const { return inputs_; }
@@ -94,7 +95,7 @@ class stock {
 
     std::map<std::string, in::mesh> meshes_;
     in::seabed::heightfield heightmap_;
-    std::vector<in::match_histogram> references_;
+    std::vector<in::distribution> references_;
     std::vector<std::string> names_;  ///< of the references
     std::vector<input> inputs_;
 };

@@ -142,6 +142,7 @@
 #include <insonify/sonar/bottom_tiles.hpp>
 #include <insonify/sonar/bottom_tone.hpp>
 #include <insonify/sonar/display.hpp>
+#include <insonify/sonar/frame.hpp>
 #include <insonify/sonar/instruments.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/light_pass.hpp>

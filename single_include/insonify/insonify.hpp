@@ -1405,7 +1405,7 @@ using unfilled_vector = std::vector<T, unfilled_allocator<T>>;
 }  // namespace insonify::inline INSONIFY_ABI::detail
 
 // ------------ insonify/geometry/mesh.hpp ----------------------------------------------------------------
-// Triangles as plain data: what builders and importers make, and what everything downstream draws.
+// Indexed triangle meshes as plain data, and views of them.
 
 #include <glm/vec3.hpp>
 
@@ -1418,7 +1418,7 @@ struct mesh {
     std::vector<glm::uvec3> triangles{};
 };
 
-/// A mesh to look at: somebody else's buffers, who has to keep them meanwhile.
+/// A view of a mesh in memory of the caller's, which has to outlive it.
 struct mesh_view {
     std::span<const glm::vec3> positions;
     std::span<const glm::vec3> normals;  ///< see mesh
@@ -1432,7 +1432,7 @@ struct mesh_view {
 
 namespace detail {
 
-/// A mesh that is made in every picture.
+/// A mesh with uninitialized storage, for meshes that are rebuilt in every picture.
 struct unfilled_mesh {
     unfilled_vector<glm::vec3> positions, normals;
     unfilled_vector<glm::uvec3> triangles;
@@ -4629,7 +4629,7 @@ auto map_pixels(const image<T>& source, Fn&& fn) {
 }  // namespace insonify::inline INSONIFY_ABI
 
 // ------------ insonify/seabed/type.hpp ------------------------------------------------------------------
-// Labels of the sea floor, and what belongs to a label: its name, its brightness and its speckle.
+// Labels of the sea floor and their properties: name, brightness and speckle.
 //
 // A label is one byte. The library's own are the rows of registry.hpp; those from `own_type(0)` on are free for users'
 // seabeds, which bring the properties of their labels along (see model.hpp).
@@ -4689,7 +4689,7 @@ constexpr std::size_t index_of(type t) {
     return static_cast<std::size_t>(t);
 }
 
-/// What belongs to a label.
+/// The properties of a label.
 struct type_properties {
     type label = type::sand;
     std::string_view name;       ///< for manifests and messages; a string literal, or text that outlives its users
@@ -4815,7 +4815,7 @@ static_assert(
     }(),
     "the label of a row is its index");
 
-/// What belongs to a label of the library; those of sand for any other, but for the name, which is empty.
+/// The properties of a label of the library; of any other label those of sand, without a name.
 constexpr type_properties properties_of(type t) {
     if (index_of(t) < type_count) return built_in_types[index_of(t)];
     return {t, "", built_in_types[0].reflectivity, built_in_types[0].speckle};
@@ -5110,14 +5110,14 @@ class heightfield_sampler;
 ///
 /// Between vertices the surface is the one that is drawn: each cell is cut from vertex (i, j) to (i + 1, j + 1) into
 /// two plane triangles. Outside, it goes on as at the nearest edge. A vertex that is NaN or infinite is no data:
-/// queries on its triangles answer NaN, and they are left out of the drawn mesh.
+/// queries on its triangles return NaN, and they are left out of the drawn mesh.
 struct heightfield {
     image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
     image<type> types{};          ///< one per vertex, or none: then everything is `fallback`
     glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
     double spacing = 1;           ///< metres between vertices, > 0
     type fallback = type::sand;
-    /// What belongs to labels of users' own; the library's are in its registry.
+    /// Properties of users' own labels; those of the library's are in its registry.
     std::vector<type_properties> own_types{};
 
     /// Height of the drawn surface at a world position, metres; it and the next two expect a valid heightfield.
@@ -5139,7 +5139,7 @@ struct heightfield {
 
     float operator()(double x, double y) const { return height_at(x, y); }
 
-    /// The heightfield as a recipe, by reference: it has to outlive the sampler.
+    /// The sampler refers to the heightfield, which has to outlive it.
     /// @throws invalid_input as `validate`
     heightfield_sampler prepare() const;
     std::optional<type> only_type() const { return types.empty() ? std::optional(fallback) : std::nullopt; }
@@ -5758,7 +5758,7 @@ class needed_vertices {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/adaptive.hpp --------------------------------------------------------------
-// The surface of a heightfield by as few triangles as somebody can tell from all of them.
+// Adaptive tessellation: the surface of a heightfield by few triangles, within a tolerance of all of them.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -5829,7 +5829,7 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
 
     const int size = needed.size();
     const auto rows = static_cast<std::size_t>(heights.height()), columns = static_cast<std::size_t>(heights.width());
-    // The hierarchy's own corners, which are nobody's middle.
+    // The corners of the hierarchy's root, which are no triangle's middle vertex.
     const auto is_corner = [=](std::size_t x, std::size_t y) {
         const auto end = static_cast<std::size_t>(size);
         return (x == 0 || x == end) && (y == 0 || y == end);
@@ -5906,8 +5906,7 @@ struct grid {
     glm::dvec2 origin{0.0, 0.0};
     double spacing = 0.02;
     int width = 2, height = 2;  ///< vertices, at least 2
-    bool band_limited =
-        false;  ///< relief that the spacing can't carry fades out, instead of turning up as other relief
+    bool band_limited = false;  ///< relief that the spacing can't carry fades out instead of aliasing
     glm::ivec2 first{0, 0};
 };
 
@@ -5967,8 +5966,8 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/regular_grid.hpp --------------------------------------------------------
-// Meshes that are a heightfield over a regular grid, as seabeds mostly are: found out by looking, so that whoever gives
-// one need not say so, and nobody gets another result for saying so wrongly.
+// Detects meshes that are a heightfield over a regular grid, as seabeds mostly are. The mesh itself is inspected, so
+// that callers need no flag and a wrong flag cannot change a result.
 
 #include <atomic>
 
@@ -7961,7 +7960,7 @@ struct material {
 };
 
 /// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. One that
-/// has `in_lanes` too is asked for several pixels at a time, by reference.
+/// has `in_lanes` too computes several pixels at a time, by reference.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
@@ -8005,217 +8004,6 @@ struct facet_backscatter {
 };
 
 }  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/rig.hpp --------------------------------------------------------------------
-// The paper's rig: a camera that looks straight down, and a parallel light low over the sea floor that turns with it.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// Camera and light over a point of the sea floor. Image up is forward, image right is starboard; the light comes from
-/// the left, so ranges and shadows grow to the right, as on a starboard channel.
-///
-/// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky x share of the
-/// sky that the surface looks at + ambient), cut at 1.
-struct overhead {
-    glm::dvec2 position{0, 0};                                      ///< of the camera over the datum, metres
-    float altitude = 10;                                            ///< above the datum, metres
-    float yaw = 0;                                                  ///< of camera and light together, radians
-    float field_of_view = static_cast<float>(2 * numeric::pi / 3);  ///< across the picture, radians
-    glm::ivec2 size{2048, 2048};                           ///< pixels: width (across track), height (along track)
-    float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
-    float light_azimuth = 0;  ///< where the light travels, from image right towards image up, radians
-    /// Of the light from the datum below the camera, to which grazing and azimuth belong, metres. Infinitely far, its
-    /// rays are parallel; from nearby they spread, and only `shadow::exact` and `penumbra` can say where they end. They
-    /// don't weaken on their way.
-    float light_distance = std::numeric_limits<float>::infinity();
-    float intensity = 4;  ///< of the light on a surface that faces it
-    float sky = 0.05f;    ///< light from everywhere, which no shadow stops; 0 for none
-    float ambient = 0;    ///< light that reaches every surface alike, whatever its slope; 0 for none
-};
-
-/// @throws invalid_input for a value that can't be right
-inline void validate(const overhead& rig) {
-    using detail::require;
-    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "overhead.position",
-            rig.position.x + rig.position.y, "finite coordinates");
-    require(rig.altitude > 0 && numeric::is_finite(rig.altitude), "overhead.altitude", rig.altitude, "above 0");
-    require(numeric::is_finite(rig.yaw), "overhead.yaw", rig.yaw, "a finite angle");
-    require(rig.field_of_view > 0 && static_cast<double>(rig.field_of_view) < numeric::to_radians(179.9),
-            "overhead.field_of_view", rig.field_of_view, "above 0 and below 179.9 degrees, in radians");
-    require(rig.size.x > 0 && rig.size.x <= 32768, "overhead.size.x", rig.size.x, "1 to 32768");
-    require(rig.size.y > 0 && rig.size.y <= 32768, "overhead.size.y", rig.size.y, "1 to 32768");
-    require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-6, "overhead.grazing",
-            rig.grazing, "above 0 and at most pi / 2");
-    require(numeric::is_finite(rig.light_azimuth), "overhead.light_azimuth", rig.light_azimuth, "a finite angle");
-    require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
-    require(rig.intensity >= 0 && numeric::is_finite(rig.intensity), "overhead.intensity", rig.intensity, "0 or more");
-    require(rig.sky >= 0 && numeric::is_finite(rig.sky), "overhead.sky", rig.sky, "0 or more");
-    require(rig.ambient >= 0 && numeric::is_finite(rig.ambient), "overhead.ambient", rig.ambient, "0 or more");
-}
-
-/// What follows from a rig. Everything is drawn in the rig's own frame (origin on the datum below the camera, x to the
-/// right, y forward, z up), so coordinates stay small however far the rig is from the world's origin.
-class overhead_geometry {
-  public:
-    /// @throws invalid_input as validate does
-    explicit overhead_geometry(const overhead& rig)
-        : rig_((validate(rig), rig)),
-          tangent_(numeric::tan(0.5 * static_cast<double>(rig.field_of_view))),
-          light_({static_cast<double>(rig.light_azimuth), static_cast<double>(rig.grazing)}) {
-        clip_scale_ = glm::vec2(1 / tangent_, static_cast<double>(rig.size.x) / rig.size.y / tangent_);
-        const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
-        right_ = {cosine, sine};
-        rig_from_world_.linear = {{cosine, -sine, 0}, {sine, cosine, 0}, {0, 0, 1}};
-        rig_from_world_.offset = -numeric::product(rig_from_world_.linear, glm::dvec3(rig.position, 0));
-    }
-
-    const overhead& rig() const { return rig_; }
-    const shadow::light_frame& light() const { return light_; }
-    /// From the datum below the camera to a point of the light, over the distance to its middle; `beside` that, across
-    /// and up, in the same measure.
-    glm::dvec3 toward_light(const glm::dvec2& beside) const {
-        const glm::dvec3& middle = light_.to_light();
-        const glm::dvec3 across(-light_.travel().y, light_.travel().x, 0), up = numeric::cross(middle, across);
-        return middle + beside.x * across + beside.y * up;
-    }
-    bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
-    /// Where a point of a light that isn't infinitely far stands.
-    glm::dvec3 light_position(const glm::dvec2& beside = {0, 0}) const {
-        return static_cast<double>(rig_.light_distance) * toward_light(beside);
-    }
-
-    /// From world to rig frame. Applied to an object's own map first, it takes large coordinates away exactly.
-    affine rig_from(const affine& world_from_object) const {
-        const glm::dvec3 relative = world_from_object.offset - glm::dvec3(rig_.position, 0);
-        return {numeric::product(rig_from_world_.linear, world_from_object.linear),
-                numeric::product(rig_from_world_.linear, relative)};
-    }
-
-    /// Half of what the picture shows at a height above the datum, metres.
-    glm::dvec2 half_extent(double height) const {
-        const double half_width = (static_cast<double>(rig_.altitude) - height) * tangent_;
-        return {half_width, half_width * rig_.size.y / rig_.size.x};
-    }
-    /// Metres on level ground at the datum from one pixel to the next.
-    double ground_sampling() const { return 2 * half_extent(0).x / rig_.size.x; }
-
-    /// The picture's corners at a height, from the rig's position and along the world's axes.
-    glm::dvec2 corner(double height, int right, int up) const {
-        const glm::dvec2 half = half_extent(height);
-        const glm::dvec2 p{right * half.x, up * half.y};
-        return {p.x * right_.x - p.y * right_.y, p.x * right_.y + p.y * right_.x};
-    }
-
-    /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
-    glm::vec4 clip(const glm::vec3& p) const {
-        return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
-    }
-    /// The same of three coordinates in lanes.
-    template <class Floats>
-    INSONIFY_INLINE void clip(Floats (&into)[4], const Floats* p) const {
-        into[0] = p[0] * clip_scale_.x;
-        into[1] = p[1] * clip_scale_.y;
-        into[2] = Floats{} + 1e-3f * rig_.altitude;
-        into[3] = rig_.altitude - p[2];
-    }
-
-    glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
-    /// Metres from one pixel to the next, 1 m below the camera.
-    double ray_step() const { return 2 * tangent_ / rig_.size.x; }
-    /// From the camera through a pixel's centre to 1 m below it.
-    glm::dvec3 ray(int x, int y) const {
-        const double step = ray_step();
-        return {step * (x + 0.5 - 0.5 * rig_.size.x), step * (0.5 * rig_.size.y - y - 0.5), -1};
-    }
-
-    /// Where a point of the rig frame appears, in continuous pixels.
-    glm::dvec2 pixel(const glm::dvec3& p) const {
-        const double scale = 0.5 * rig_.size.x / (tangent_ * (static_cast<double>(rig_.altitude) - p.z));
-        return {0.5 * rig_.size.x + scale * p.x, 0.5 * rig_.size.y - scale * p.y};
-    }
-
-  private:
-    overhead rig_;
-    double tangent_;
-    glm::vec2 clip_scale_;
-    shadow::light_frame light_;
-    glm::dvec2 right_;
-    affine rig_from_world_;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/seabed_reach.hpp -----------------------------------------------------------
-// How far beyond the picture the seabed has to be there, so that whatever can throw a shadow into it does.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-/// A rectangle along the world's axes around the rig's position, metres.
-struct ground_box {
-    glm::dvec2 first{0}, last{0};
-
-    void include(const glm::dvec2& p) {
-        first = {(std::min)(first.x, p.x), (std::min)(first.y, p.y)};
-        last = {(std::max)(last.x, p.x), (std::max)(last.y, p.y)};
-    }
-};
-
-/// All of the bottom that the picture may show.
-inline ground_box shown_ground(const overhead_geometry& view, const seabed::height_range& range) {
-    ground_box box;
-    for (const int right : {-1, 1})
-        for (const int up : {-1, 1})
-            for (const double height : {range.lowest, range.highest}) box.include(view.corner(height, right, up));
-    return box;
-}
-
-/// The same, longer towards the light by as much as can throw a shadow into it, at most `longest` metres.
-///
-/// A shadow falls from a point of the bottom to a lower one along a ray of the light. On its way up from the lower one,
-/// a ray comes to the highest point that there may be within (highest - lowest) cot(elevation) metres, or, of light
-/// from nearby, within the same share of its way to the light; beyond that it meets nothing. Of a light that isn't a
-/// point, this is asked of the corners of a square around it: the way is a quotient of linear functions of the place on
-/// it, so it is longest in one of them.
-/// @param radius  of the light over its distance
-inline ground_box casting_ground(const overhead_geometry& view, const seabed::height_range& range, double radius,
-                                 double longest) {
-    const ground_box shown = shown_ground(view, range);
-    ground_box all = shown;
-    const double relief = range.highest - range.lowest;
-    const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
-    const auto held = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
-    for (const double across : {-radius, radius})
-        for (const double up : {-radius, radius}) {
-            const glm::dvec2 beside{across, up};
-            const glm::dvec3 toward = numeric::product(to_world, view.toward_light(beside));
-            const glm::dvec3 source = numeric::product(to_world, view.light_position(beside));
-            for (int axis = 0; axis < 2; ++axis) {
-                for (const double from : {shown.first[axis], shown.last[axis]}) {
-                    double way;
-                    if (view.has_near_light()) {
-                        const double share = source.z > range.highest ? relief / (source.z - range.lowest) : 1;
-                        way = share * (source[axis] - from);
-                    } else {
-                        way = toward.z > 0 ? relief / toward.z * toward[axis] : longest * (toward[axis] < 0 ? -1 : 1);
-                    }
-                    const double end = from + held(way);
-                    all.first[axis] = (std::min)(all.first[axis], end);
-                    all.last[axis] = (std::max)(all.last[axis], end);
-                }
-            }
-        }
-    return all;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
 
 INSONIFY_ARITHMETIC_END
 
@@ -8527,7 +8315,7 @@ inline std::size_t wind_by_normals(mesh& m) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/topology.hpp ------------------------------------------------------------
-// Is a mesh closed? The question to ask of an imported target before it casts a shadow.
+// Checks whether a mesh is closed and consistently oriented, as imported targets should be.
 
 #include <numeric>
 #include <tuple>
@@ -8639,7 +8427,8 @@ inline topology inspect(const mesh& m) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/surface_kind.hpp --------------------------------------------------------
-// What a mesh is as a surface, as far as it is proved: renderers leave out triangles only where that changes nothing.
+// Classifies meshes as closed, heightfield or open. Only proven classes are used: renderers skip triangles only where
+// that changes no pixel.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8720,7 +8509,7 @@ inline bool is_convex_loop(const mesh& m, const std::vector<std::pair<std::uint3
 
 }  // namespace detail
 
-/// Finds out what a mesh is. Linear in its triangles, but for sorting positions.
+/// Classifies a mesh, in linear time but for sorting positions.
 /// @param m  its indices have positions
 inline surface_kind kind_of(const mesh& m) {
     if (m.triangles.empty()) return surface_kind::open;
@@ -8744,7 +8533,7 @@ inline surface_kind kind_of(const mesh& m) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/shared_mesh.hpp ---------------------------------------------------------
-// A mesh that many objects share and none changes, with what is known of it.
+// An immutable mesh shared by many objects, with the properties that renderers need.
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
@@ -8806,13 +8595,13 @@ class shared_mesh {
 }  // namespace insonify
 
 // ------------ insonify/seabed/none.hpp ------------------------------------------------------------------
-// No seabed at all: for scenes that bring theirs as a mesh.
+// No seabed: for scenes whose bottom is a mesh, or that have none.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
-/// Nothing there: no height is known anywhere (NaN), nothing is drawn and nothing rests on it.
+/// The absence of a seabed. Heights are NaN everywhere, nothing is drawn, and nothing rests on it.
 struct none {
     static constexpr type kind = type::sand;
 
@@ -9198,7 +8987,7 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/lattice.hpp ---------------------------------------------------------------
 // The world's lattices: where positions lie on them, and random bits for their cells.
 //
-// What a recipe draws by lot it draws by cell, so that a place looks the same whoever asks for it, however it is cut.
+// Random draws are keyed by lattice cell, so that a place looks the same in any grid, tile or order of evaluation.
 // Cells are found in double; what goes to float is the way across a cell alone, so precision is that of home at 10^7 m
 // from it.
 //
@@ -9212,7 +9001,7 @@ namespace insonify::inline INSONIFY_ABI::seabed::detail {
 using insonify::detail::dispatch;
 using insonify::detail::lanes;
 
-/// What draws are for: every layer of every recipe has its own stream of the seed.
+/// Random streams: every layer of every model has its own.
 enum class stream : std::uint32_t {
     sand = 0x5EAB0000,
     ripples,
@@ -9685,7 +9474,7 @@ class power_law_noise {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/area.hpp ------------------------------------------------------------------
-// Where a type of bottom lies: patches by lot, shapes, pictures. All answer with the distance to their border.
+// Where a type of bottom lies: random patches, shapes, pictures; each as a signed distance to its border.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -9819,7 +9608,7 @@ class outline {
   public:
     /// @param border  metres, > 0: the finest detail of the outline
     /// @param ragged  metres: how far a shape's outline strays
-    /// @param layer   tells the outlines of one seed apart
+    /// @param layer   selects the random stream, so that outlines of one seed differ
     outline(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
         : shape_(std::move(where)), noise_(roughness_of(shape_, border, ragged), seed, stream::mask, layer) {
         if (const auto* p = std::get_if<patches>(&shape_)) {
@@ -9879,7 +9668,7 @@ class outline {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/cover.hpp -----------------------------------------------------------------
-// One bottom laid over another, with the border between them as nature makes it: what stands high is buried last.
+// One bottom laid over another, with a natural border: what stands high is buried last.
 //
 // Across a border the layer rises from beneath: its crests come out first, as narrow tips, while its troughs are still
 // filled; further in, the highest of what lies below looks out of it last. Types follow the surface that is on top.
@@ -9890,7 +9679,7 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 namespace detail {
 
-/// A layer along its border.
+/// The transition across a layer's border.
 class border {
   public:
     /// @param width   metres, > 0
@@ -9922,7 +9711,7 @@ class border {
     float per_metre_, relief_;
 };
 
-/// From the first to the last sample of a row that is wanted.
+/// The range of samples of a row that have to be evaluated.
 struct extent {
     std::size_t begin, end = 0;
 
@@ -9937,8 +9726,8 @@ struct extent {
     }
 };
 
-/// Lays what `layer` samples over `heights` and `types`, which hold what lies below, or don't where the layer hides it:
-/// `below` is asked to fill them where they are wanted.
+/// Composites a layer over what lies below it. `below(line, heights, types)` evaluates the latter where the layer does
+/// not hide it.
 template <class Below, typed_sampler Layer>
 void lay_over(const outline& where, const border& edge, const Layer& layer, const scanline& line,
               std::span<float> heights, std::span<type> types, Below&& below) {
@@ -10489,8 +10278,8 @@ inline type blend::type_at(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/detailed.hpp --------------------------------------------------------------
-// A coarse survey with relief finer than its grid: what multibeam maps of a metre's spacing need before a sonar of
-// centimetres looks at them.
+// A coarse survey with relief finer than its grid, as multibeam maps of a metre's spacing need under a sonar that
+// resolves centimetres.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10579,7 +10368,7 @@ inline float detailed::operator()(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/mixed.hpp -----------------------------------------------------------------
-// A seabed of many: bottoms laid one over the other, each where its area says, and the type at every point.
+// A seabed of layers: bottoms laid over a base, each within its own area, with the label at every point.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10672,7 +10461,7 @@ inline type mixed::type_at(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/strewn.hpp ----------------------------------------------------------------
-// Things strewn over the plane by lot: which cells of a lattice may hold one that a row crosses, and round ones drawn.
+// Randomly scattered features, at most one per lattice cell: finds those that a row crosses, and adds round ones.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11436,7 +11225,7 @@ struct flatten {
     float level = 0;   ///< metres above the datum
 };
 
-/// Takes away relief that is shorter than a length or two.
+/// Removes relief shorter than one to two lengths.
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0: with its edge
@@ -11723,10 +11512,10 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/sculpt.hpp ----------------------------------------------------------------
-// A seabed worked by hand: raised, lowered, flattened, smoothed, ramped, stamped, scoured, heaped up; in order.
+// A seabed edited by hand: raised, lowered, flattened, smoothed, ramped, stamped, scoured, heaped up; in order.
 //
-// An edit is a function of the position and of the height that earlier edits left there, so what is sculpted stays
-// what recipes are: unbounded, and the same wherever it is asked from. Away from an edit not a bit changes.
+// An edit is a function of the position and of the height after the edits before it, so that a sculpted seabed stays
+// unbounded and independent of the grid. Outside an edit's bounds no bit changes.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11734,7 +11523,7 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 class sculpt_sampler;
 
-/// A ground and what is done to it. Labels are the ground's.
+/// A seabed and a list of edits. Labels are those of the seabed.
 struct sculpted {
     any ground = flat{};
     std::vector<edit> edits;  ///< the first is done first
@@ -11952,7 +11741,7 @@ constexpr bottom_materials default_bottom() {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/scene.hpp ------------------------------------------------------------------
-// What there is to see: a seabed, and targets on it.
+// The scene: a seabed and targets on it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11975,7 +11764,8 @@ struct scene {
     std::vector<target> targets;
 
     /// Adds a mesh, a shared mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
-    /// Targets are told apart by instance numbers, 1 for the first. A mesh without normals gets smooth ones.
+    /// Targets are numbered by instance, 1 for the first. A mesh without normals gets smooth ones, also across sharp
+    /// edges whose triangles share vertices; `with_creases` keeps those sharp.
     /// Several targets of one shape share it: make a `shared_mesh` once and add it as often as needed.
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
@@ -12051,7 +11841,7 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/labels.hpp -----------------------------------------------------------------
-// What each pixel shows, for those who train and those who test: targets, seabed types, shadows and who cast them.
+// Ground truth per pixel: target instances, seabed labels, and shadows with their casters.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -12094,6 +11884,9 @@ struct labels {
           shadow(detail::filled(width, height, is_lit, ex)),
           seabed(detail::filled(width, height, no_seabed, ex)) {}
 };
+
+/// Asks for no labels: none are stored or computed.
+struct no_labels {};
 
 /// 255 where a target is visible, 0 elsewhere.
 inline image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance) {
@@ -12159,6 +11952,403 @@ inline void describe_targets(labels& l, const std::vector<target>& targets) {
 }
 
 }  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/side_scan.hpp --------------------------------------------------------------
+// A side-scan sonar on its way: where each ping is sent from, and which ranges are listened to.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Which way a channel looks: to the left or to the right of the track.
+enum class side : std::uint8_t { port, starboard };
+
+/// What a column of the picture is a step of.
+enum class across_track {
+    slant_range,   ///< the time of the echo: water column, layover, front faces folded towards the sonar
+    ground_range,  ///< the place on the bottom: a map, with the shadows of the same source
+};
+
+/// One ping: where the sonar is, and its attitude. Rotations apply as for ships: yaw first, then pitch, then roll.
+struct ping {
+    glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum, heave included
+    double yaw = 0;                ///< radians: 0 travels towards +y, with starboard at +x; counter-clockwise
+    double pitch = 0;              ///< radians, positive with the bow up: tilts the fan forward, below +-80 degrees
+    double roll = 0;               ///< radians, positive with starboard down: turns the beams within the fan
+};
+
+/// @throws invalid_input for a value that can't be right
+inline void validate(const ping& p) {
+    const double sum = p.position.x + p.position.y + p.position.z + p.yaw;
+    detail::require(numeric::is_finite(sum), "ping.position", sum, "finite");
+    detail::require(numeric::magnitude(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
+                    "at most 80 degrees, in radians");
+    detail::require(numeric::is_finite(p.roll), "ping.roll", p.roll, "a finite angle");
+}
+
+/// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
+/// all else stays the same.
+///
+/// A picture of it has a row per ping and a column per bin. Row i is ping i, the first on top, as in every recording of
+/// range modes (`upside_down` turns it so that up is forward); its left column is the first bin on either side, so that
+/// range grows and shadows fall to the right.
+template <across_track Axis>
+struct side_scan_rig {
+    static constexpr across_track axis = Axis;
+
+    glm::dvec2 position{0, 0};   ///< of the first ping over the datum, metres
+    float altitude = 5;          ///< above the datum, metres
+    float yaw = 0;               ///< radians, as a ping's
+    float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
+    int pings = 1024;            ///< 1 to 2^20
+    float first_range = 0;       ///< where the first bin begins, metres, >= 0
+    float range = 40;            ///< where the last bin ends, metres
+    int bins = 2048;             ///< 1 to 2^20
+    insonify::side side = insonify::side::starboard;
+
+    /// Metres per bin.
+    double bin() const { return (static_cast<double>(range) - static_cast<double>(first_range)) / bins; }
+};
+using side_scan = side_scan_rig<across_track::slant_range>;
+using ground_range = side_scan_rig<across_track::ground_range>;
+
+/// @throws invalid_input for a value that can't be right
+template <across_track Axis>
+void validate(const side_scan_rig<Axis>& rig) {
+    using detail::require;
+    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "side_scan.position",
+            rig.position.x + rig.position.y, "finite coordinates");
+    require(numeric::is_finite(rig.altitude), "side_scan.altitude", rig.altitude, "a finite height");
+    require(numeric::is_finite(rig.yaw), "side_scan.yaw", rig.yaw, "a finite angle");
+    require(rig.ping_spacing > 0 && numeric::is_finite(rig.ping_spacing), "side_scan.ping_spacing", rig.ping_spacing,
+            "above 0");
+    require(rig.pings >= 1 && rig.pings <= 1 << 20, "side_scan.pings", rig.pings, "1 to 2^20");
+    require(rig.first_range >= 0 && numeric::is_finite(rig.first_range), "side_scan.first_range", rig.first_range,
+            "0 or more");
+    require(rig.range > rig.first_range && rig.range <= 1e5f, "side_scan.range", rig.range,
+            "above first_range and at most 10^5 metres");
+    require(rig.bins >= 1 && rig.bins <= 1 << 20, "side_scan.bins", rig.bins, "1 to 2^20");
+}
+
+/// A ping of the rig's track; those before the first and after the last are on the same line.
+template <across_track Axis>
+ping ping_of(const side_scan_rig<Axis>& rig, int number) {
+    const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
+    const double along = static_cast<double>(rig.ping_spacing) * number;
+    return {{rig.position.x - along * sine, rig.position.y + along * cosine, static_cast<double>(rig.altitude)},
+            static_cast<double>(rig.yaw)};
+}
+
+/// The track of a rig, a ping after the other.
+template <across_track Axis>
+std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
+    validate(rig);
+    std::vector<ping> track;
+    track.reserve(static_cast<std::size_t>(rig.pings));
+    for (int i = 0; i < rig.pings; ++i) track.push_back(ping_of(rig, i));
+    return track;
+}
+
+/// A ping's own frame: x away from it on the side it looks to, level; u along the sonar's axis; z up from the sonar.
+/// The fan is the plane u = 0, which a pitch tilts from the vertical.
+class ping_frame {
+  public:
+    ping_frame(const ping& p, side looks) : position_(p.position) {
+        const auto [sine, cosine] = numeric::sin_cos(p.yaw);
+        const double sign = looks == side::starboard ? 1 : -1;
+        across_ = {sign * cosine, sign * sine};
+        along_ = {-sine, cosine};
+        const numeric::sine_cosine pitch = numeric::sin_cos(p.pitch), roll = numeric::sin_cos(p.roll);
+        sine_pitch_ = pitch.sine, cosine_pitch_ = pitch.cosine;
+        sine_roll_ = sign * roll.sine, cosine_roll_ = roll.cosine;
+    }
+    const glm::dvec3& position() const { return position_; }
+    /// Unit vectors on the ground.
+    const glm::dvec2& across() const { return across_; }
+    const glm::dvec2& along() const { return along_; }
+    bool is_level() const { return sine_pitch_ == 0; }
+    double sine_pitch() const { return sine_pitch_; }
+    double cosine_pitch() const { return cosine_pitch_; }
+    /// Of the angle by which the side that is looked to is rolled down.
+    double sine_roll() const { return sine_roll_; }
+    double cosine_roll() const { return cosine_roll_; }
+
+    /// World coordinates of the datum below (x, u), u along the heading.
+    glm::dvec2 world(double x, double u) const {
+        return {position_.x + x * across_.x + u * along_.x, position_.y + x * across_.y + u * along_.y};
+    }
+    /// World coordinates below the fan's point at (x, down).
+    glm::dvec2 below(double x, double down) const { return world(x, down * sine_pitch_); }
+    /// (x, u, z) of a world vector.
+    glm::dvec3 turned(const glm::dvec3& v) const {
+        const double ahead = v.x * along_.x + v.y * along_.y;
+        return {v.x * across_.x + v.y * across_.y, ahead * cosine_pitch_ + v.z * sine_pitch_,
+                v.z * cosine_pitch_ - ahead * sine_pitch_};
+    }
+    /// (x, u, z) of a world position.
+    glm::dvec3 operator()(const glm::dvec3& world) const { return turned(world - position_); }
+
+  private:
+    glm::dvec3 position_;
+    glm::dvec2 across_, along_;
+    double sine_pitch_, cosine_pitch_, sine_roll_, cosine_roll_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/frame.hpp ------------------------------------------------------------------
+// The result of every kind of picture: the image, its labels, which pings its rows are, and what was drawn.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// What became of the triangles, and how large the intermediate things were. Range modes draw no triangles.
+struct render_stats {
+    draw_stats seabed, targets;
+    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled, of which the mesh may leave some out
+    std::uint64_t seabed_samples = 0;         ///< points at which the seabed was evaluated
+    double cell = 0;                          ///< metres between them
+};
+
+/// Which pings the rows of a picture are, and which side its columns hear.
+struct ping_numbers {
+    std::int64_t first = 0;  ///< of the top row
+    int step = 1;            ///< from row to row: 1, or -1; 0 for overhead pictures, whose rows are not pings
+    insonify::side side = insonify::side::starboard;
+    int port_columns = 0;  ///< at the left, of another channel: port, its range growing to the left
+};
+
+/// A picture with all that is known about it.
+///
+/// Of `overhead`, up is forward and pixels are in [0, 1]. Of range modes, row i is ping i, column j is bin j, and
+/// pixels are intensities, 0 and above: see sonar_equation.hpp for their unit.
+template <class Labels = labels>
+struct frame {
+    insonify::image<float> image;  ///< linear
+    Labels labels;                 ///< or no_labels
+    render_stats stats;
+    ping_numbers rows;
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/rig.hpp --------------------------------------------------------------------
+// The paper's rig: a camera that looks straight down, and a parallel light low over the sea floor that turns with it.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI {
+
+/// Camera and light over a point of the sea floor. Image up is forward, image right is starboard; the light comes from
+/// the left, so ranges and shadows grow to the right, as on a starboard channel.
+///
+/// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky x share of the
+/// sky that the surface looks at + ambient), cut at 1.
+struct overhead {
+    glm::dvec2 position{0, 0};                                      ///< of the camera over the datum, metres
+    float altitude = 10;                                            ///< above the datum, metres
+    float yaw = 0;                                                  ///< of camera and light together, radians
+    float field_of_view = static_cast<float>(2 * numeric::pi / 3);  ///< across the picture, radians
+    glm::ivec2 size{2048, 2048};                           ///< pixels: width (across track), height (along track)
+    float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
+    float light_azimuth = 0;  ///< where the light travels, from image right towards image up, radians
+    /// Of the light from the datum below the camera, to which grazing and azimuth belong, metres. Infinitely far, its
+    /// rays are parallel; from nearby they spread, and only `shadow::exact` and `penumbra` can say where they end. They
+    /// don't weaken on their way.
+    float light_distance = std::numeric_limits<float>::infinity();
+    float intensity = 4;  ///< of the light on a surface that faces it
+    float sky = 0.05f;    ///< light from everywhere, which no shadow stops; 0 for none
+    float ambient = 0;    ///< light that reaches every surface alike, whatever its slope; 0 for none
+};
+
+/// @throws invalid_input for a value that can't be right
+inline void validate(const overhead& rig) {
+    using detail::require;
+    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "overhead.position",
+            rig.position.x + rig.position.y, "finite coordinates");
+    require(rig.altitude > 0 && numeric::is_finite(rig.altitude), "overhead.altitude", rig.altitude, "above 0");
+    require(numeric::is_finite(rig.yaw), "overhead.yaw", rig.yaw, "a finite angle");
+    require(rig.field_of_view > 0 && static_cast<double>(rig.field_of_view) < numeric::to_radians(179.9),
+            "overhead.field_of_view", rig.field_of_view, "above 0 and below 179.9 degrees, in radians");
+    require(rig.size.x > 0 && rig.size.x <= 32768, "overhead.size.x", rig.size.x, "1 to 32768");
+    require(rig.size.y > 0 && rig.size.y <= 32768, "overhead.size.y", rig.size.y, "1 to 32768");
+    require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-6, "overhead.grazing",
+            rig.grazing, "above 0 and at most pi / 2");
+    require(numeric::is_finite(rig.light_azimuth), "overhead.light_azimuth", rig.light_azimuth, "a finite angle");
+    require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
+    require(rig.intensity >= 0 && numeric::is_finite(rig.intensity), "overhead.intensity", rig.intensity, "0 or more");
+    require(rig.sky >= 0 && numeric::is_finite(rig.sky), "overhead.sky", rig.sky, "0 or more");
+    require(rig.ambient >= 0 && numeric::is_finite(rig.ambient), "overhead.ambient", rig.ambient, "0 or more");
+}
+
+/// What follows from a rig. Everything is drawn in the rig's own frame (origin on the datum below the camera, x to the
+/// right, y forward, z up), so coordinates stay small however far the rig is from the world's origin.
+class overhead_geometry {
+  public:
+    /// @throws invalid_input as validate does
+    explicit overhead_geometry(const overhead& rig)
+        : rig_((validate(rig), rig)),
+          tangent_(numeric::tan(0.5 * static_cast<double>(rig.field_of_view))),
+          light_({static_cast<double>(rig.light_azimuth), static_cast<double>(rig.grazing)}) {
+        clip_scale_ = glm::vec2(1 / tangent_, static_cast<double>(rig.size.x) / rig.size.y / tangent_);
+        const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
+        right_ = {cosine, sine};
+        rig_from_world_.linear = {{cosine, -sine, 0}, {sine, cosine, 0}, {0, 0, 1}};
+        rig_from_world_.offset = -numeric::product(rig_from_world_.linear, glm::dvec3(rig.position, 0));
+    }
+
+    const overhead& rig() const { return rig_; }
+    const shadow::light_frame& light() const { return light_; }
+    /// From the datum below the camera to a point of the light, over the distance to its middle; `beside` that, across
+    /// and up, in the same measure.
+    glm::dvec3 toward_light(const glm::dvec2& beside) const {
+        const glm::dvec3& middle = light_.to_light();
+        const glm::dvec3 across(-light_.travel().y, light_.travel().x, 0), up = numeric::cross(middle, across);
+        return middle + beside.x * across + beside.y * up;
+    }
+    bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
+    /// Where a point of a light that isn't infinitely far stands.
+    glm::dvec3 light_position(const glm::dvec2& beside = {0, 0}) const {
+        return static_cast<double>(rig_.light_distance) * toward_light(beside);
+    }
+
+    /// From world to rig frame. Applied to an object's own map first, it takes large coordinates away exactly.
+    affine rig_from(const affine& world_from_object) const {
+        const glm::dvec3 relative = world_from_object.offset - glm::dvec3(rig_.position, 0);
+        return {numeric::product(rig_from_world_.linear, world_from_object.linear),
+                numeric::product(rig_from_world_.linear, relative)};
+    }
+
+    /// Half of what the picture shows at a height above the datum, metres.
+    glm::dvec2 half_extent(double height) const {
+        const double half_width = (static_cast<double>(rig_.altitude) - height) * tangent_;
+        return {half_width, half_width * rig_.size.y / rig_.size.x};
+    }
+    /// Metres on level ground at the datum from one pixel to the next.
+    double ground_sampling() const { return 2 * half_extent(0).x / rig_.size.x; }
+
+    /// The picture's corners at a height, from the rig's position and along the world's axes.
+    glm::dvec2 corner(double height, int right, int up) const {
+        const glm::dvec2 half = half_extent(height);
+        const glm::dvec2 p{right * half.x, up * half.y};
+        return {p.x * right_.x - p.y * right_.y, p.x * right_.y + p.y * right_.x};
+    }
+
+    /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
+    glm::vec4 clip(const glm::vec3& p) const {
+        return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
+    }
+    /// The same of three coordinates in lanes.
+    template <class Floats>
+    INSONIFY_INLINE void clip(Floats (&into)[4], const Floats* p) const {
+        into[0] = p[0] * clip_scale_.x;
+        into[1] = p[1] * clip_scale_.y;
+        into[2] = Floats{} + 1e-3f * rig_.altitude;
+        into[3] = rig_.altitude - p[2];
+    }
+
+    glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
+    /// Metres from one pixel to the next, 1 m below the camera.
+    double ray_step() const { return 2 * tangent_ / rig_.size.x; }
+    /// From the camera through a pixel's centre to 1 m below it.
+    glm::dvec3 ray(int x, int y) const {
+        const double step = ray_step();
+        return {step * (x + 0.5 - 0.5 * rig_.size.x), step * (0.5 * rig_.size.y - y - 0.5), -1};
+    }
+
+    /// Where a point of the rig frame appears, in continuous pixels.
+    glm::dvec2 pixel(const glm::dvec3& p) const {
+        const double scale = 0.5 * rig_.size.x / (tangent_ * (static_cast<double>(rig_.altitude) - p.z));
+        return {0.5 * rig_.size.x + scale * p.x, 0.5 * rig_.size.y - scale * p.y};
+    }
+
+  private:
+    overhead rig_;
+    double tangent_;
+    glm::vec2 clip_scale_;
+    shadow::light_frame light_;
+    glm::dvec2 right_;
+    affine rig_from_world_;
+};
+
+}  // namespace insonify::inline INSONIFY_ABI
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/seabed_reach.hpp -----------------------------------------------------------
+// How far beyond the picture the seabed has to be there, so that whatever can throw a shadow into it does.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify::inline INSONIFY_ABI::detail {
+
+/// A rectangle along the world's axes around the rig's position, metres.
+struct ground_box {
+    glm::dvec2 first{0}, last{0};
+
+    void include(const glm::dvec2& p) {
+        first = {(std::min)(first.x, p.x), (std::min)(first.y, p.y)};
+        last = {(std::max)(last.x, p.x), (std::max)(last.y, p.y)};
+    }
+};
+
+/// All of the bottom that the picture may show.
+inline ground_box shown_ground(const overhead_geometry& view, const seabed::height_range& range) {
+    ground_box box;
+    for (const int right : {-1, 1})
+        for (const int up : {-1, 1})
+            for (const double height : {range.lowest, range.highest}) box.include(view.corner(height, right, up));
+    return box;
+}
+
+/// The same, longer towards the light by as much as can throw a shadow into it, at most `longest` metres.
+///
+/// A shadow falls from a point of the bottom to a lower one along a ray of the light. On its way up from the lower one,
+/// a ray comes to the highest point that there may be within (highest - lowest) cot(elevation) metres, or, of light
+/// from nearby, within the same share of its way to the light; beyond that it meets nothing. Of a light that isn't a
+/// point, this is asked of the corners of a square around it: the way is a quotient of linear functions of the place on
+/// it, so it is longest in one of them.
+/// @param radius  of the light over its distance
+inline ground_box casting_ground(const overhead_geometry& view, const seabed::height_range& range, double radius,
+                                 double longest) {
+    const ground_box shown = shown_ground(view, range);
+    ground_box all = shown;
+    const double relief = range.highest - range.lowest;
+    const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
+    const auto held = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
+    for (const double across : {-radius, radius})
+        for (const double up : {-radius, radius}) {
+            const glm::dvec2 beside{across, up};
+            const glm::dvec3 toward = numeric::product(to_world, view.toward_light(beside));
+            const glm::dvec3 source = numeric::product(to_world, view.light_position(beside));
+            for (int axis = 0; axis < 2; ++axis) {
+                for (const double from : {shown.first[axis], shown.last[axis]}) {
+                    double way;
+                    if (view.has_near_light()) {
+                        const double share = source.z > range.highest ? relief / (source.z - range.lowest) : 1;
+                        way = share * (source[axis] - from);
+                    } else {
+                        way = toward.z > 0 ? relief / toward.z * toward[axis] : longest * (toward[axis] < 0 ? -1 : 1);
+                    }
+                    const double end = from + held(way);
+                    all.first[axis] = (std::min)(all.first[axis], end);
+                    all.last[axis] = (std::max)(all.last[axis], end);
+                }
+            }
+        }
+    return all;
+}
+
+}  // namespace insonify::inline INSONIFY_ABI::detail
 
 INSONIFY_ARITHMETIC_END
 
@@ -12795,9 +12985,6 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Asks for no labels: none are stored or computed.
-struct no_labels {};
-
 namespace detail {
 
 /// The object that a visibility buffer's id belongs to.
@@ -13036,21 +13223,19 @@ struct render_options {
     int subpixel_bits = shadow::casting_policy<Shadow> ? 12 : 8;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
-};
 
-/// What became of the triangles, and how large the intermediate things were.
-struct render_stats {
-    draw_stats seabed, targets;
-    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled, of which the mesh may leave some out
-    std::uint64_t seabed_samples = 0;         ///< points at which the seabed was evaluated
-};
-
-/// A picture with all that is known about it.
-template <class Labels = labels>
-struct frame {
-    insonify::image<float> image;  ///< linear, [0, 1]; see the rig for what a value means
-    Labels labels;                 ///< or no_labels
-    render_stats stats;
+    /// The same options with another shadow policy, another law, or without labels.
+    template <shadow::policy Other>
+    render_options<Other, Labels, Law> with(const Other& other) const {
+        return {other, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    }
+    template <backscatter_law Other>
+    render_options<Shadow, Labels, Other> with(const Other& other) const {
+        return {shadow, other, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    }
+    render_options<Shadow, no_labels, Law> without_labels() const {
+        return {shadow, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    }
 };
 
 /// Which triangle each pixel of a picture shows.
@@ -13071,6 +13256,7 @@ class overhead_painter {
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
         : scene_(s), view_(rig), options_(options) {
         validate(s);
+        out_.rows.step = 0;
         materials_ = resolved_bottom(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y, unfilled{});  // the first draw fills it, and the depths
@@ -13150,6 +13336,7 @@ class overhead_painter {
         if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
         field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
         out_.stats.seabed_samples = field_.heights.size();
+        out_.stats.cell = spacing;
         model_seabed(ex);
         for (const float height : field_.heights.pixels()) {
             if (!numeric::is_finite(height)) {
@@ -13931,7 +14118,7 @@ inline int segments_for(const hemisphere& shape, float deviation) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/accuracy/budget.hpp --------------------------------------------------------------
-// From the errors that somebody can live with to the cheapest settings that keep to them.
+// Chooses the cheapest settings whose errors keep to a budget.
 //
 // What has a closed form is computed: how far a curved target's facets may be from its surface follows from where the
 // camera and the light stand. What depends on the seabed is measured: a few small pictures of it are compared with
@@ -14028,7 +14215,7 @@ struct settings {
 /// @param tolerated  each above 0
 /// @param bottom     the seabed; pictures of others of its kind have about the same errors
 /// @param rig        of the pictures
-/// @param ex         who runs it
+/// @param ex         runs it
 /// @throws invalid_input for a tolerated error that isn't above 0, a probe that can't be, and as `render`
 template <shadow::policy Shadow = shadow::exact, executor_argument E = serial_executor>
 settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::any& bottom, const overhead& rig,
@@ -17723,7 +17910,7 @@ class obj_reader {
         return text_.substr(first, at_ - first);
     }
 
-    /// Passes over what nobody asked for; a comment isn't continued.
+    /// Skips statements that are not supported; a comment isn't continued.
     void finish_line() {
         while (at_ < text_.size() && line_end(at_) == 0) {
             if (text_[at_] == '#') {
@@ -17885,7 +18072,7 @@ inline mesh load_obj(const std::string& path) {
     const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
     if (!file) fail();
 
-    // Grow by doubling and read until the end: a size asked beforehand says nothing about pipes.
+    // Grow by doubling and read until the end: pipes report no size.
     std::string text;
     for (std::size_t filled = 0;;) {
         text.resize((std::max)(std::size_t{1} << 16, 2 * text.size()));
@@ -20019,7 +20206,7 @@ inline bool rename_over(const std::string& from, const std::string& to) {
 #if defined(_WIN32)
     constexpr unsigned long replace_and_write_through = 1 | 8;
     if (MoveFileExA(from.c_str(), to.c_str(), replace_and_write_through) != 0) return true;
-    errno = EACCES;  // nearly always: somebody has it open
+    errno = EACCES;  // nearly always: another process has it open
     return false;
 #else
     return std::rename(from.c_str(), to.c_str()) == 0;
@@ -20034,7 +20221,7 @@ inline std::string read_file(const std::string& path) {
     errno = 0;
     const detail::file_handle file(path, "rb");
     if (file.get() == nullptr) detail::raise_io(path, "can't open for reading", errno);
-    // Ask for more until there is no more: pipes can't tell their size.
+    // Read until the end: pipes report no size.
     std::string bytes;
     std::size_t filled = 0;
     do {
@@ -20049,7 +20236,7 @@ inline std::string read_file(const std::string& path) {
 /// A file in the making, beside the one it will replace. `commit` brings it to disk and into place in one step; without
 /// that, nothing of it remains and the old file is as it was. A symbolic link is replaced, not followed.
 ///
-/// The temporary name is the path with .tmp0, .tmp1, ...: the first that nobody holds, so threads and processes that
+/// The temporary name is the path with .tmp0, .tmp1, ...: the first that is free, so threads and processes that
 /// write one path don't meet, and the last to commit wins.
 class replacement_file {
   public:
@@ -20072,7 +20259,7 @@ class replacement_file {
         std::remove(temporary_.c_str());
     }
 
-    /// Appends. Doesn't throw, so C libraries may call back into it; `commit` tells of what went wrong.
+    /// Appends. Doesn't throw, so C libraries may call back into it; `commit` reports what failed.
     void write(const void* data, std::size_t size) noexcept {
         errno = 0;
         if (error_ == 0 && std::fwrite(data, 1, size, file_.get()) != size) error_ = errno != 0 ? errno : EIO;
@@ -20222,7 +20409,7 @@ concept storable_pixel = detail::netpbm_sample<typename detail::netpbm_pixel<T>:
 
 namespace detail {
 
-/// Reads a header, then samples, from bytes that nobody vouches for.
+/// Reads a header, then samples, from untrusted bytes.
 class netpbm_reader {
   public:
     netpbm_reader(std::string_view bytes, std::string_view name) : rest_(bytes), name_(name) {
@@ -20408,7 +20595,7 @@ image<Pixel> read_netpbm(const std::string& path) {
 }
 
 /// The bytes of a binary netpbm file with this image: PGM, PPM or PFM by the pixel type.
-/// @throws invalid_input for an image without pixels, which the formats don't know
+/// @throws invalid_input for an image without pixels, which the formats cannot store
 template <class Pixel>
     requires storable_pixel<std::remove_const_t<Pixel>> std::string format_netpbm(image_view<Pixel> source) {
         using stored = detail::netpbm_pixel<std::remove_const_t<Pixel>>;
@@ -20454,7 +20641,7 @@ void write_netpbm(const std::string& path, const image<Pixel>& source) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/bathymetry.hpp ------------------------------------------------------------
-// Surveyed bottoms: heightfields from the text that hydrographers exchange, broken or hostile text included.
+// Readers of surveyed bathymetry: heightfields from Esri ASCII grids and lists of soundings.
 //
 // Pictures of heights (16-bit PGM, PFM) come by `read_netpbm` and `from_image`; text by the parsers here, from whatever
 // `read_file` gives: `parse_esri_grid(read_file("bottom.asc"))`. Cells without data are NaN, which a heightfield leaves
@@ -20468,7 +20655,7 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 namespace detail {
 
-/// Words and numbers of a text, and what to say of wrong ones.
+/// Splits a text into words and numbers; errors name the line.
 class survey_reader {
   public:
     survey_reader(std::string_view text, std::string_view name) : text_(text), name_(name) {
@@ -21289,151 +21476,6 @@ struct penumbra {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/side_scan.hpp --------------------------------------------------------------
-// A side-scan sonar on its way: where each ping is sent from, and which ranges are listened to.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// Which way a channel looks: to the left or to the right of the track.
-enum class side : std::uint8_t { port, starboard };
-
-/// What a column of the picture is a step of.
-enum class across_track {
-    slant_range,   ///< the time of the echo: water column, layover, front faces folded towards the sonar
-    ground_range,  ///< the place on the bottom: a map, with the shadows of the same source
-};
-
-/// One ping: where the sonar is, and its attitude. Rotations apply as for ships: yaw first, then pitch, then roll.
-struct ping {
-    glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum, heave included
-    double yaw = 0;                ///< radians: 0 travels towards +y, with starboard at +x; counter-clockwise
-    double pitch = 0;              ///< radians, positive with the bow up: tilts the fan forward, below +-80 degrees
-    double roll = 0;               ///< radians, positive with starboard down: turns the beams within the fan
-};
-
-/// @throws invalid_input for a value that can't be right
-inline void validate(const ping& p) {
-    const double sum = p.position.x + p.position.y + p.position.z + p.yaw;
-    detail::require(numeric::is_finite(sum), "ping.position", sum, "finite");
-    detail::require(numeric::magnitude(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
-                    "at most 80 degrees, in radians");
-    detail::require(numeric::is_finite(p.roll), "ping.roll", p.roll, "a finite angle");
-}
-
-/// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
-/// all else stays the same.
-///
-/// A picture of it has a row per ping and a column per bin. Row i is ping i, the first on top, as in every recording of
-/// range modes (`upside_down` turns it so that up is forward); its left column is the first bin on either side, so that
-/// range grows and shadows fall to the right.
-template <across_track Axis>
-struct side_scan_rig {
-    static constexpr across_track axis = Axis;
-
-    glm::dvec2 position{0, 0};   ///< of the first ping over the datum, metres
-    float altitude = 5;          ///< above the datum, metres
-    float yaw = 0;               ///< radians, as a ping's
-    float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
-    int pings = 1024;            ///< 1 to 2^20
-    float first_range = 0;       ///< where the first bin begins, metres, >= 0
-    float range = 40;            ///< where the last bin ends, metres
-    int bins = 2048;             ///< 1 to 2^20
-    insonify::side side = insonify::side::starboard;
-
-    /// Metres per bin.
-    double bin() const { return (static_cast<double>(range) - static_cast<double>(first_range)) / bins; }
-};
-using side_scan = side_scan_rig<across_track::slant_range>;
-using ground_range = side_scan_rig<across_track::ground_range>;
-
-/// @throws invalid_input for a value that can't be right
-template <across_track Axis>
-void validate(const side_scan_rig<Axis>& rig) {
-    using detail::require;
-    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "side_scan.position",
-            rig.position.x + rig.position.y, "finite coordinates");
-    require(numeric::is_finite(rig.altitude), "side_scan.altitude", rig.altitude, "a finite height");
-    require(numeric::is_finite(rig.yaw), "side_scan.yaw", rig.yaw, "a finite angle");
-    require(rig.ping_spacing > 0 && numeric::is_finite(rig.ping_spacing), "side_scan.ping_spacing", rig.ping_spacing,
-            "above 0");
-    require(rig.pings >= 1 && rig.pings <= 1 << 20, "side_scan.pings", rig.pings, "1 to 2^20");
-    require(rig.first_range >= 0 && numeric::is_finite(rig.first_range), "side_scan.first_range", rig.first_range,
-            "0 or more");
-    require(rig.range > rig.first_range && rig.range <= 1e5f, "side_scan.range", rig.range,
-            "above first_range and at most 10^5 metres");
-    require(rig.bins >= 1 && rig.bins <= 1 << 20, "side_scan.bins", rig.bins, "1 to 2^20");
-}
-
-/// A ping of the rig's track; those before the first and after the last are on the same line.
-template <across_track Axis>
-ping ping_of(const side_scan_rig<Axis>& rig, int number) {
-    const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
-    const double along = static_cast<double>(rig.ping_spacing) * number;
-    return {{rig.position.x - along * sine, rig.position.y + along * cosine, static_cast<double>(rig.altitude)},
-            static_cast<double>(rig.yaw)};
-}
-
-/// The track of a rig, a ping after the other.
-template <across_track Axis>
-std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
-    validate(rig);
-    std::vector<ping> track;
-    track.reserve(static_cast<std::size_t>(rig.pings));
-    for (int i = 0; i < rig.pings; ++i) track.push_back(ping_of(rig, i));
-    return track;
-}
-
-/// A ping's own frame: x away from it on the side it looks to, level; u along the sonar's axis; z up from the sonar.
-/// The fan is the plane u = 0, which a pitch tilts from the vertical.
-class ping_frame {
-  public:
-    ping_frame(const ping& p, side looks) : position_(p.position) {
-        const auto [sine, cosine] = numeric::sin_cos(p.yaw);
-        const double sign = looks == side::starboard ? 1 : -1;
-        across_ = {sign * cosine, sign * sine};
-        along_ = {-sine, cosine};
-        const numeric::sine_cosine pitch = numeric::sin_cos(p.pitch), roll = numeric::sin_cos(p.roll);
-        sine_pitch_ = pitch.sine, cosine_pitch_ = pitch.cosine;
-        sine_roll_ = sign * roll.sine, cosine_roll_ = roll.cosine;
-    }
-    const glm::dvec3& position() const { return position_; }
-    /// Unit vectors on the ground.
-    const glm::dvec2& across() const { return across_; }
-    const glm::dvec2& along() const { return along_; }
-    bool is_level() const { return sine_pitch_ == 0; }
-    double sine_pitch() const { return sine_pitch_; }
-    double cosine_pitch() const { return cosine_pitch_; }
-    /// Of the angle by which the side that is looked to is rolled down.
-    double sine_roll() const { return sine_roll_; }
-    double cosine_roll() const { return cosine_roll_; }
-
-    /// World coordinates of the datum below (x, u), u along the heading.
-    glm::dvec2 world(double x, double u) const {
-        return {position_.x + x * across_.x + u * along_.x, position_.y + x * across_.y + u * along_.y};
-    }
-    /// World coordinates below the fan's point at (x, down).
-    glm::dvec2 below(double x, double down) const { return world(x, down * sine_pitch_); }
-    /// (x, u, z) of a world vector.
-    glm::dvec3 turned(const glm::dvec3& v) const {
-        const double ahead = v.x * along_.x + v.y * along_.y;
-        return {v.x * across_.x + v.y * across_.y, ahead * cosine_pitch_ + v.z * sine_pitch_,
-                v.z * cosine_pitch_ - ahead * sine_pitch_};
-    }
-    /// (x, u, z) of a world position.
-    glm::dvec3 operator()(const glm::dvec3& world) const { return turned(world - position_); }
-
-  private:
-    glm::dvec3 position_;
-    glm::dvec2 across_, along_;
-    double sine_pitch_, cosine_pitch_, sine_roll_, cosine_roll_;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/sonar/bottom_tiles.hpp -----------------------------------------------------------
 // The bottom under a track that goes anywhere: heights and slopes in square tiles, sampled where pings look and nowhere
 // else.
@@ -21513,7 +21555,7 @@ class bottom_tiles {
             }
         }
 
-        // Recipes like long rows: neighbours along x are sampled together.
+        // Long rows are cheaper per sample: neighbours along x are sampled together.
         std::vector<tile_run> runs;
         std::uint32_t tiles = 0;
         for (std::int64_t y = 0; y < rows; ++y)
@@ -21554,7 +21596,7 @@ class bottom_tiles {
                 wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
     }
 
-    /// The depth, within those in which a pitched fan may meet the bottom; NaN becomes one of them, too.
+    /// Clamps a depth to those bounds; NaN becomes the least.
     double clamped(const ping_frame& p, double depth) const {
         const auto [least, most] = depths(p);
         return depth > least ? (std::min)(depth, most) : least;
@@ -21574,7 +21616,7 @@ class bottom_tiles {
         return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
     }
 
-    /// Between which depths along a fan the bottom lies; only pitched ones have to know.
+    /// Bounds of the bottom's depth along a fan; used for pitched fans only.
     /// @throws invalid_input for pitched pings over a seabed that does not state its heights
     std::pair<double, double> depths(const ping_frame& p) const {
         if (p.is_level() || range_.empty()) return {0, 0};
@@ -21755,10 +21797,9 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// What a fan is made for. Heights of the sonar above things are rounded so that few different fans serve a whole
-/// track.
+/// Parameters of a fan. Heights are rounded so that few different fans serve a whole track.
 struct fan_shape {
-    double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: nothing to be seen
+    double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: no rays
     double above_highest = 1;  ///< over the highest bottom
     double above_all = 1;      ///< over the highest of targets and bottom; not above 0: rays go up to the zenith
 
@@ -21958,7 +21999,7 @@ class plane_tree {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/target_slices.hpp ----------------------------------------------------------
-// Targets as one ping meets them: the outline in its plane, cut from the mesh.
+// Slices of targets by the plane of a ping.
 
 #include <map>
 
@@ -22070,7 +22111,7 @@ inline std::vector<sliced_target> sliced_targets(const scene& s) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/target_hits.hpp ------------------------------------------------------------
-// What the rays of a ping meet first of the targets, exactly: parts of a ray's width, not samples.
+// First hits of a ping's rays with the targets, with exact fractional coverage of each ray's width.
 //
 // The outline of the targets in a ping's plane is a set of straight pieces. Within each ray's width the pieces' ends
 // divide the width into parts; of each part the nearest piece counts, in proportion to the part. So a bar that is
@@ -22244,7 +22285,7 @@ class target_hits {
 
     /// Divides a ray between the pieces that it meets with parts of its width, and the one with all of it.
     void divide(std::size_t k, std::span<const part> parts, bool is_met) {
-        // Ends of very many pieces are not told apart.
+        // Very many pieces are sampled at fixed positions instead.
         ends_.clear();
         ends_.push_back(number(k)), ends_.push_back(number(k) + 1);
         if (parts.size() <= most_parts) {
@@ -22300,9 +22341,9 @@ class target_hits {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/ping_echo.hpp --------------------------------------------------------------
-// What comes back of one ping, bin by bin.
+// Computes the echo of one ping, bin by bin.
 //
-// The source is where the receiver is: what a ray meets first is what it insonifies and what it hears. Each ray's
+// Source and receiver coincide: the first surface along a ray is both insonified and heard. Each ray's
 // power is spread evenly over the bins between the ranges at which its upper and its lower edge meet the surface; so
 // level ground has no gaps and no beats, whatever the ratio of rays to bins. Bottom that is met by no ray is in shadow,
 // and belongs to whatever stands in front of it.
@@ -22311,7 +22352,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// What a bin hears, and what lies in it; lengths are in bins.
+/// Power and contents of a range bin; lengths are in bins.
 struct echo_bin {
     float bottom = 0, target = 0;  ///< power
     float lit = 0;                 ///< of the bottom
@@ -22322,7 +22363,7 @@ struct echo_bin {
     std::uint8_t seabed = labels::no_seabed;
 };
 
-/// Hears pings, one after the other. Rig is a side_scan or a ground_range; what labels need is left out if !Labelled.
+/// Computes pings one after the other. Rig is a side_scan or a ground_range; what labels need is left out if !Labelled.
 template <class Rig, class Law, class Equation, bool Labelled>
 class ping_listener {
   public:
@@ -22375,10 +22416,10 @@ class ping_listener {
         return bins_;
     }
 
-    /// How far from the track pings look, metres on the ground: what has to be covered.
+    /// Ground range up to which the bottom has to be sampled, metres.
     static double reach(const Rig& rig, double cell) { return static_cast<double>(rig.range) + 4 * cell; }
 
-    /// From where on they have to look: nothing nearer is heard in the first bin or later, nor hides what is.
+    /// Ground range from which the bottom has to be sampled: nothing nearer is heard in the window or hides what is.
     /// @param relief  of the bottom
     static double start(const Rig& rig, double cell, const seabed::height_range& relief, const ping_frame& p,
                         std::span<const sliced_target> targets) {
@@ -22397,7 +22438,7 @@ class ping_listener {
     static constexpr float most = 2;  // bins that an echo may spread to either side of its ray, whatever the slope
     static constexpr bool counts_time = Rig::axis == across_track::slant_range;
 
-    /// Whether pings look past a bottom that they are well above.
+    /// Whether a ping is well above the bottom, so that the bottom before the window can be skipped.
     static bool looks_beyond(const seabed::height_range& relief, double first_range, const ping_frame& p) {
         const double altitude = p.position().z;
         return first_range > 0 && p.is_level() && !relief.empty() && relief.lowest > -altitude &&
@@ -22409,7 +22450,7 @@ class ping_listener {
         float slope, slope_along;
         std::uint8_t type;
     };
-    /// A new fan, and what each of its rays carries for every metre of range.
+    /// Builds the fan, and each ray's power per metre of range.
     void spread_out(const fan_shape& shape, const std::array<double, 3>& attitude) {
         const auto slant = [&](double r) {
             return counts_time ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
@@ -22492,7 +22533,7 @@ class ping_listener {
                 if (Labelled && ddown == ddown) name(p, q, px, dx, 0, 1, hider(qx, q.down));
                 continue;
             }
-            // The part over the horizon begins here; labels cut it between rays, so that shadows end where rays say.
+            // The part over the horizon begins here. Labels divide it halfway between rays, as the rays' power does.
             const double below = px * horizon_down - p.down * horizon_x;
             double from = below / (below - above);
             if (Labelled && from > 0) name(p, q, px, dx, 0, from, hider(px + from * dx, p.down + from * ddown));
@@ -22577,7 +22618,7 @@ class ping_listener {
         return target == labels::is_lit ? labels::by_seabed : target;
     }
 
-    /// Notes for the labels who keeps the bottom dark between two shares of the way from p to q.
+    /// Adds to the labels what keeps the bottom dark between two fractions of the way from p to q.
     void name(const bottom_point& p, const bottom_point& q, double px, double dx, double from, double to,
               std::uint16_t caster) {
         const double down = q.down - p.down;
@@ -22635,8 +22676,8 @@ class ping_listener {
         return static_cast<float>(numeric::magnitude(half));
     }
 
-    /// What a surface of reflectivity one sends back of a ray: its area, seen from here, over the sine of grazing, by
-    /// law.
+    /// Power that a surface of reflectivity one returns from a ray: its projected area over the sine of the grazing
+    /// angle, times the law.
     float power_of(std::size_t k, double range, float facing) const {
         const float sine = (std::min)((std::max)(facing, 1e-3f), 1.0f);
         return static_cast<float>(range) * carried_[k] * law_(sine) / sine;
@@ -22819,7 +22860,7 @@ concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(dou
 };
 }  // namespace detail
 
-/// Anything that `sonar_equation` knows how to use: one of the above, or your own type with one of their functions.
+/// A part of the sonar equation: one of the above, or a user's own type with one of their functions.
 template <class P>
 concept equation_part = detail::direction_part<P> || detail::range_part<P> || detail::footprint_part<P> ||
     detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;
@@ -22904,14 +22945,14 @@ class sonar_equation {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/slant_range.hpp ------------------------------------------------------------
-// Pictures in the sonar's own geometry: pings by ranges, with water column, first return, layover and shadows, and
-// labels for every bin. See ping_echo.hpp for how a ping is heard.
+// Side-scan pictures, pings by ranges: water column, first return, layover and shadows, with labels for every bin. See
+// ping_echo.hpp for the echo of one ping.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// How to record; the types say what is in it.
+/// Options of recordings. What the types leave out is not compiled.
 template <class Labels = labels, backscatter_law Law = lambert_backscatter, class Equation = sonar_equation<level_gain>>
 struct record_options {
     Law law{};
@@ -22933,31 +22974,6 @@ struct record_options {
         return {other, equation, cell};
     }
     record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
-};
-
-/// How large the intermediate things were.
-struct record_stats {
-    std::uint64_t seabed_vertices = 0;  ///< sampled
-    double cell = 0;                    ///< metres between them
-};
-
-/// Which pings the rows of a picture are, and which side its columns hear.
-struct ping_numbers {
-    std::int64_t first = 0;  ///< of the top row
-    int step = 1;            ///< from row to row: 1, or -1
-    insonify::side side = insonify::side::starboard;
-    int port_columns = 0;  ///< at the left, of another channel: port, its range growing to the left
-};
-
-/// A picture with all that is known about it: a row per ping, a column per bin.
-template <class Labels = labels>
-struct recording {
-    insonify::image<float> image;  ///< intensity, linear, 0 and above; see sonar_equation.hpp for its unit
-    /// Or no_labels. `shadow` names who keeps most of a bin's bottom dark, `instance` the target that sends back more
-    /// than the bottom does; a bin without bottom (the water column) has neither, and no seabed type.
-    Labels labels;
-    record_stats stats;
-    ping_numbers rows;  ///< numbers of pings: as in the track
 };
 
 namespace detail {
@@ -23010,7 +23026,7 @@ class recorder {
     }
 
     template <executor E>
-    recording<Labels> record(E& ex) {
+    frame<Labels> record(E& ex) {
         hear(ex);
         if constexpr (Equation::has_beam)
             options_.equation.for_each([&](const auto& part) {
@@ -23059,7 +23075,7 @@ class recorder {
                 for (std::size_t i = from; i < to; ++i) keep(start + i, ears.hear(frames[i]), over_range);
             });
         }
-        out_.stats.seabed_vertices = bottom.sampled();
+        out_.stats.seabed_samples = bottom.sampled();
     }
 
     /// Writes what one ping heard.
@@ -23169,7 +23185,7 @@ class recorder {
     options_type options_;
     bottom_materials materials_;
     std::vector<sliced_target> targets_;
-    recording<Labels> out_;
+    frame<Labels> out_;
 };
 
 /// Fills in labels::targets anew, for images that were put together from those of described labels.
@@ -23194,24 +23210,24 @@ image<T> rows_of(const image<T>& source, int first, int count) {
 /// @param track    pings in order; row i of the recording is ping i
 /// @param rig      ranges, side and ping spacing; its own track isn't used
 /// @param options  types of labels, law and sonar equation, and how finely the seabed is sampled
-/// @param ex       who runs it; the result is the same bytes for any executor
+/// @param ex       runs it; the result is the same bytes for any executor
 /// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option that can't be right
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-recording<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
-                         const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+frame<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
+                     const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
     auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
     if constexpr (std::is_same_v<Labels, labels>) describe_targets(out.labels, s.targets);
     return out;
 }
 
-/// Records into memory of the caller's, for pings that come a few at a time: row i of `into` becomes ping i.
+/// Records a few pings into memory of the caller's: row i of `into` becomes ping i.
 /// @param into     rig.bins columns, a row per ping; it may be a part of a larger image
 /// The other parameters and errors are those of `record`; it also throws invalid_input for a view of another size,
 /// which is then untouched.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-record_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
+render_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
                          const side_scan_rig<Axis>& rig, const record_options<Labels, Law, Equation>& options = {},
                          E&& ex = {}) {
     detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
@@ -23227,8 +23243,8 @@ record_stats record_into(image_view<float> into, const scene& s, std::span<const
 /// Row i is ping i. The other parameters are those of `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
-                         const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
+                     const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
     validate(rig);
     // The beam hears beyond the ends of the track.
     int more = 0;
@@ -23281,7 +23297,7 @@ image<T> turned(const image<T>& source) {
 
 /// The recording with its last ping on top, so that up is forward, as in overhead pictures.
 template <class Labels>
-recording<Labels> upside_down(recording<Labels> r) {
+frame<Labels> upside_down(frame<Labels> r) {
     const auto turn = [](auto& picture) {
         for (int y = 0; 2 * y < picture.height() - 1; ++y)
             std::swap_ranges(picture.row(y).begin(), picture.row(y).end(),
@@ -23317,11 +23333,11 @@ image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill
 /// A port and a starboard recording of one track as one, port to the left: range grows from the middle outwards, and
 /// the water column, as wide as the sonar is high, lies between. `targets` of the labels describes both sides.
 template <class Labels>
-recording<Labels> both_sides(const recording<Labels>& port, const recording<Labels>& starboard) {
-    recording<Labels> out;
+frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
+    frame<Labels> out;
     out.image = beside(mirrored(port.image), starboard.image);
     out.stats = port.stats;
-    out.stats.seabed_vertices += starboard.stats.seabed_vertices;
+    out.stats.seabed_samples += starboard.stats.seabed_samples;
     out.rows = starboard.rows;
     out.rows.port_columns = port.image.width();
     if constexpr (std::is_same_v<Labels, labels>) {
@@ -23338,8 +23354,8 @@ recording<Labels> both_sides(const recording<Labels>& port, const recording<Labe
 /// Draws both sides of a straight track; the rig's own side doesn't matter. See `render`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-recording<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
-                               const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+frame<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
+                           const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
     rig.side = side::port;
     const auto port = render(s, rig, options, ex);
     rig.side = side::starboard;
@@ -23351,8 +23367,7 @@ recording<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/speckle.hpp ----------------------------------------------------------------
-// Speckle that belongs to the seabed: how echoes fluctuate depends on what the bottom is, and a ping's speckle is the
-// same whenever it is recorded.
+// Speckle by seabed label, keyed by ping and bin: recordings made in pieces have the same speckle.
 //
 // The fluctuation of a bin is a function of (seed, side, ping number, bin) and nothing else: recordings made in pieces
 // fit together, and the two sides are independent.
@@ -23398,10 +23413,10 @@ struct seabed_speckle {
 
 namespace detail {
 
-/// What a number is drawn for; part of what a seed means.
+/// Random streams; changing one changes the noise of every seed.
 enum class speckle_stream : std::uint32_t { field = 0x73706B00, texture = 0x73706B02, choice = 0x73706B04 };
 
-/// Draws that are told apart by ping and bin.
+/// Random numbers keyed by ping and bin.
 class ping_noise {
   public:
     ping_noise(std::uint64_t seed, side s, speckle_stream stream)
@@ -23471,7 +23486,7 @@ class speckle_field {
 };
 
 /// The K-distribution's mean: gamma-distributed at the nodes of a lattice. A bin takes that of one of the four nodes
-/// around it, by lot, the nearer the likelier: so textures are correlated, and distributed as they should be.
+/// around it, chosen at random with the bilinear weights, so that textures are correlated and keep their distribution.
 class speckle_texture {
   public:
     speckle_texture(const seabed_speckle& s, side looks)
@@ -23576,7 +23591,7 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
 
 /// The same recording with speckle; its rows say which pings they are, and its legend which laws own labels have.
 template <executor_argument E = serial_executor>
-recording<labels> with_speckle(recording<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
+frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
     const seabed_speckle laws = with_legend(s, r.labels.legend);
     const int port = r.rows.port_columns;
     if (port == 0) {
@@ -23664,7 +23679,8 @@ inline double normal_quantile(double share) {
 class tone_sampler {
   public:
     /// @throws invalid_input for a parameter out of its range
-    explicit tone_sampler(const bottom_tone& t) : t_((validate(t), t)), along_(numeric::sin_cos(t.direction)) {
+    explicit tone_sampler(const bottom_tone& t)
+        : t_((validate(t), t)), along_(numeric::sin_cos(static_cast<double>(t.direction))) {
         const auto key = [&](drift_stream stream) { return stream_key(t.seed, static_cast<std::uint32_t>(stream)); };
         drift_ = key(drift_stream::tone), streaks_ = key(drift_stream::streaks), patches_ = key(drift_stream::patches);
         double squares = 0, share = 1;
@@ -23721,7 +23737,7 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// @param r    as `render` made it of this rig: before noise and speckle
 /// @throws invalid_input for a parameter out of its range
 template <across_track Axis, executor_argument E = serial_executor>
-recording<labels> with_tone(recording<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
+frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     const detail::tone_sampler level(tone);
     if (tone.is_none()) return r;
     const ping_numbers numbers = r.rows;
@@ -24251,7 +24267,7 @@ INSONIFY_ARITHMETIC_END
 // The closed forms of side-scan geometry over a level bottom: ranges, shadows, layover and what is measured from them.
 //
 // Lengths are metres. `altitude` is the sonar's above the bottom, `ground` a distance across the track on the bottom,
-// `height` that of a point above the bottom. Answers that don't exist are 0 (a distance inside the water column) or
+// `height` that of a point above the bottom. Results that don't exist are 0 (a distance inside the water column) or
 // infinity (the shadow of what reaches the sonar's height), never NaN for finite arguments.
 //
 // Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
@@ -24339,14 +24355,14 @@ namespace insonify::inline INSONIFY_ABI {
 /// @param altitudes  of the sonar above the bottom, one per row from the top, or none: then all are the rig's
 /// @throws invalid_input for a rig that can't be right, or a number of altitudes that is neither 0 nor that of rows
 template <class Labels>
-recording<Labels> to_ground_range(const recording<Labels>& slant, const side_scan& from, const ground_range& to,
-                                  std::span<const double> altitudes = {}) {
+frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from, const ground_range& to,
+                              std::span<const double> altitudes = {}) {
     validate(from), validate(to);
     const int rows = slant.image.height(), bins = slant.image.width();
     detail::require(bins == from.bins, "from.bins", from.bins, "the recording's width");
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");
-    recording<Labels> out;
+    frame<Labels> out;
     out.stats = slant.stats;
     out.rows = slant.rows;
     out.image = image<float>(to.bins, rows);

@@ -44,9 +44,9 @@ int main(int argc, char** argv) {
                                    in::horizontal_beam{},   in::pulse{},      in::level_gain{}};
     using equation = std::remove_const_t<decltype(whole)>;
     using bare = in::record_options<in::no_labels>;
-    const in::recording<> labelled = in::render(scene, rig, {}, pool);
+    const in::frame<> labelled = in::render(scene, rig, {}, pool);
     std::printf("%d pings x %d bins, %llu vertices of seabed, %d threads\n", rig.pings, rig.bins,
-                static_cast<unsigned long long>(labelled.stats.seabed_vertices), pool.threads());
+                static_cast<unsigned long long>(labelled.stats.seabed_samples), pool.threads());
     print_median("picture", [&] { in::render(scene, rig, bare{}, pool); });
     print_median("picture, labels", [&] { in::render(scene, rig, {}, pool); });
     print_median("picture, labels, sonar equation", [&] {

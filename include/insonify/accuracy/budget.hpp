@@ -1,4 +1,4 @@
-// From the errors that somebody can live with to the cheapest settings that keep to them.
+// Chooses the cheapest settings whose errors keep to a budget.
 //
 // What has a closed form is computed: how far a curved target's facets may be from its surface follows from where the
 // camera and the light stand. What depends on the seabed is measured: a few small pictures of it are compared with
@@ -103,7 +103,7 @@ struct settings {
 /// @param tolerated  each above 0
 /// @param bottom     the seabed; pictures of others of its kind have about the same errors
 /// @param rig        of the pictures
-/// @param ex         who runs it
+/// @param ex         runs it
 /// @throws invalid_input for a tolerated error that isn't above 0, a probe that can't be, and as `render`
 template <shadow::policy Shadow = shadow::exact, executor_argument E = serial_executor>
 settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::any& bottom, const overhead& rig,

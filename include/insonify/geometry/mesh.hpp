@@ -1,4 +1,4 @@
-// Triangles as plain data: what builders and importers make, and what everything downstream draws.
+// Indexed triangle meshes as plain data, and views of them.
 #pragma once
 
 #include <insonify/core/error.hpp>
@@ -19,7 +19,7 @@ struct mesh {
     std::vector<glm::uvec3> triangles{};
 };
 
-/// A mesh to look at: somebody else's buffers, who has to keep them meanwhile.
+/// A view of a mesh in memory of the caller's, which has to outlive it.
 struct mesh_view {
     std::span<const glm::vec3> positions;
     std::span<const glm::vec3> normals;  ///< see mesh
@@ -33,7 +33,7 @@ struct mesh_view {
 
 namespace detail {
 
-/// A mesh that is made in every picture.
+/// A mesh with uninitialized storage, for meshes that are rebuilt in every picture.
 struct unfilled_mesh {
     unfilled_vector<glm::vec3> positions, normals;
     unfilled_vector<glm::uvec3> triangles;

@@ -91,7 +91,7 @@ class obj_reader {
         return text_.substr(first, at_ - first);
     }
 
-    /// Passes over what nobody asked for; a comment isn't continued.
+    /// Skips statements that are not supported; a comment isn't continued.
     void finish_line() {
         while (at_ < text_.size() && line_end(at_) == 0) {
             if (text_[at_] == '#') {
@@ -253,7 +253,7 @@ inline mesh load_obj(const std::string& path) {
     const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
     if (!file) fail();
 
-    // Grow by doubling and read until the end: a size asked beforehand says nothing about pipes.
+    // Grow by doubling and read until the end: pipes report no size.
     std::string text;
     for (std::size_t filled = 0;;) {
         text.resize((std::max)(std::size_t{1} << 16, 2 * text.size()));

@@ -1,5 +1,5 @@
-// Meshes that are a heightfield over a regular grid, as seabeds mostly are: found out by looking, so that whoever gives
-// one need not say so, and nobody gets another result for saying so wrongly.
+// Detects meshes that are a heightfield over a regular grid, as seabeds mostly are. The mesh itself is inspected, so
+// that callers need no flag and a wrong flag cannot change a result.
 #pragma once
 
 #include <insonify/core/dispatch.hpp>

@@ -1,4 +1,4 @@
-// A mesh that many objects share and none changes, with what is known of it.
+// An immutable mesh shared by many objects, with the properties that renderers need.
 #pragma once
 
 #include <insonify/geometry/bounds.hpp>

@@ -1,4 +1,5 @@
-// What a mesh is as a surface, as far as it is proved: renderers leave out triangles only where that changes nothing.
+// Classifies meshes as closed, heightfield or open. Only proven classes are used: renderers skip triangles only where
+// that changes no pixel.
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -88,7 +89,7 @@ inline bool is_convex_loop(const mesh& m, const std::vector<std::pair<std::uint3
 
 }  // namespace detail
 
-/// Finds out what a mesh is. Linear in its triangles, but for sorting positions.
+/// Classifies a mesh, in linear time but for sorting positions.
 /// @param m  its indices have positions
 inline surface_kind kind_of(const mesh& m) {
     if (m.triangles.empty()) return surface_kind::open;

@@ -1,4 +1,4 @@
-// Is a mesh closed? The question to ask of an imported target before it casts a shadow.
+// Checks whether a mesh is closed and consistently oriented, as imported targets should be.
 #pragma once
 
 #include <insonify/core/linear.hpp>

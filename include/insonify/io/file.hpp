@@ -82,7 +82,7 @@ inline bool rename_over(const std::string& from, const std::string& to) {
 #if defined(_WIN32)
     constexpr unsigned long replace_and_write_through = 1 | 8;
     if (MoveFileExA(from.c_str(), to.c_str(), replace_and_write_through) != 0) return true;
-    errno = EACCES;  // nearly always: somebody has it open
+    errno = EACCES;  // nearly always: another process has it open
     return false;
 #else
     return std::rename(from.c_str(), to.c_str()) == 0;
@@ -97,7 +97,7 @@ inline std::string read_file(const std::string& path) {
     errno = 0;
     const detail::file_handle file(path, "rb");
     if (file.get() == nullptr) detail::raise_io(path, "can't open for reading", errno);
-    // Ask for more until there is no more: pipes can't tell their size.
+    // Read until the end: pipes report no size.
     std::string bytes;
     std::size_t filled = 0;
     do {
@@ -112,7 +112,7 @@ inline std::string read_file(const std::string& path) {
 /// A file in the making, beside the one it will replace. `commit` brings it to disk and into place in one step; without
 /// that, nothing of it remains and the old file is as it was. A symbolic link is replaced, not followed.
 ///
-/// The temporary name is the path with .tmp0, .tmp1, ...: the first that nobody holds, so threads and processes that
+/// The temporary name is the path with .tmp0, .tmp1, ...: the first that is free, so threads and processes that
 /// write one path don't meet, and the last to commit wins.
 class replacement_file {
   public:
@@ -135,7 +135,7 @@ class replacement_file {
         std::remove(temporary_.c_str());
     }
 
-    /// Appends. Doesn't throw, so C libraries may call back into it; `commit` tells of what went wrong.
+    /// Appends. Doesn't throw, so C libraries may call back into it; `commit` reports what failed.
     void write(const void* data, std::size_t size) noexcept {
         errno = 0;
         if (error_ == 0 && std::fwrite(data, 1, size, file_.get()) != size) error_ = errno != 0 ? errno : EIO;

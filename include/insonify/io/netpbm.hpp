@@ -50,7 +50,7 @@ concept storable_pixel = detail::netpbm_sample<typename detail::netpbm_pixel<T>:
 
 namespace detail {
 
-/// Reads a header, then samples, from bytes that nobody vouches for.
+/// Reads a header, then samples, from untrusted bytes.
 class netpbm_reader {
   public:
     netpbm_reader(std::string_view bytes, std::string_view name) : rest_(bytes), name_(name) {
@@ -236,7 +236,7 @@ image<Pixel> read_netpbm(const std::string& path) {
 }
 
 /// The bytes of a binary netpbm file with this image: PGM, PPM or PFM by the pixel type.
-/// @throws invalid_input for an image without pixels, which the formats don't know
+/// @throws invalid_input for an image without pixels, which the formats cannot store
 template <class Pixel>
     requires storable_pixel<std::remove_const_t<Pixel>> std::string format_netpbm(image_view<Pixel> source) {
         using stored = detail::netpbm_pixel<std::remove_const_t<Pixel>>;

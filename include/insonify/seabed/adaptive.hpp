@@ -1,4 +1,4 @@
-// The surface of a heightfield by as few triangles as somebody can tell from all of them.
+// Adaptive tessellation: the surface of a heightfield by few triangles, within a tolerance of all of them.
 #pragma once
 
 #include <insonify/seabed/needed_vertices.hpp>
@@ -72,7 +72,7 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
 
     const int size = needed.size();
     const auto rows = static_cast<std::size_t>(heights.height()), columns = static_cast<std::size_t>(heights.width());
-    // The hierarchy's own corners, which are nobody's middle.
+    // The corners of the hierarchy's root, which are no triangle's middle vertex.
     const auto is_corner = [=](std::size_t x, std::size_t y) {
         const auto end = static_cast<std::size_t>(size);
         return (x == 0 || x == end) && (y == 0 || y == end);

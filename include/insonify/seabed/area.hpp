@@ -1,4 +1,4 @@
-// Where a type of bottom lies: patches by lot, shapes, pictures. All answer with the distance to their border.
+// Where a type of bottom lies: random patches, shapes, pictures; each as a signed distance to its border.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -141,7 +141,7 @@ class outline {
   public:
     /// @param border  metres, > 0: the finest detail of the outline
     /// @param ragged  metres: how far a shape's outline strays
-    /// @param layer   tells the outlines of one seed apart
+    /// @param layer   selects the random stream, so that outlines of one seed differ
     outline(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
         : shape_(std::move(where)), noise_(roughness_of(shape_, border, ragged), seed, stream::mask, layer) {
         if (const auto* p = std::get_if<patches>(&shape_)) {

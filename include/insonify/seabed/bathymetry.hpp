@@ -1,4 +1,4 @@
-// Surveyed bottoms: heightfields from the text that hydrographers exchange, broken or hostile text included.
+// Readers of surveyed bathymetry: heightfields from Esri ASCII grids and lists of soundings.
 //
 // Pictures of heights (16-bit PGM, PFM) come by `read_netpbm` and `from_image`; text by the parsers here, from whatever
 // `read_file` gives: `parse_esri_grid(read_file("bottom.asc"))`. Cells without data are NaN, which a heightfield leaves
@@ -23,7 +23,7 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 namespace detail {
 
-/// Words and numbers of a text, and what to say of wrong ones.
+/// Splits a text into words and numbers; errors name the line.
 class survey_reader {
   public:
     survey_reader(std::string_view text, std::string_view name) : text_(text), name_(name) {

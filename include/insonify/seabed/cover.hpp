@@ -1,4 +1,4 @@
-// One bottom laid over another, with the border between them as nature makes it: what stands high is buried last.
+// One bottom laid over another, with a natural border: what stands high is buried last.
 //
 // Across a border the layer rises from beneath: its crests come out first, as narrow tips, while its troughs are still
 // filled; further in, the highest of what lies below looks out of it last. Types follow the surface that is on top.
@@ -13,7 +13,7 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 namespace detail {
 
-/// A layer along its border.
+/// The transition across a layer's border.
 class border {
   public:
     /// @param width   metres, > 0
@@ -45,7 +45,7 @@ class border {
     float per_metre_, relief_;
 };
 
-/// From the first to the last sample of a row that is wanted.
+/// The range of samples of a row that have to be evaluated.
 struct extent {
     std::size_t begin, end = 0;
 
@@ -60,8 +60,8 @@ struct extent {
     }
 };
 
-/// Lays what `layer` samples over `heights` and `types`, which hold what lies below, or don't where the layer hides it:
-/// `below` is asked to fill them where they are wanted.
+/// Composites a layer over what lies below it. `below(line, heights, types)` evaluates the latter where the layer does
+/// not hide it.
 template <class Below, typed_sampler Layer>
 void lay_over(const outline& where, const border& edge, const Layer& layer, const scanline& line,
               std::span<float> heights, std::span<type> types, Below&& below) {

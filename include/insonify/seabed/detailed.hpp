@@ -1,5 +1,5 @@
-// A coarse survey with relief finer than its grid: what multibeam maps of a metre's spacing need before a sonar of
-// centimetres looks at them.
+// A coarse survey with relief finer than its grid, as multibeam maps of a metre's spacing need under a sonar that
+// resolves centimetres.
 #pragma once
 
 #include <insonify/seabed/heightfield.hpp>

@@ -22,7 +22,7 @@ struct flatten {
     float level = 0;   ///< metres above the datum
 };
 
-/// Takes away relief that is shorter than a length or two.
+/// Removes relief shorter than one to two lengths.
 struct smooth {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 1;      ///< metres, > 0: with its edge

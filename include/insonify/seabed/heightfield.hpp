@@ -56,14 +56,14 @@ class heightfield_sampler;
 ///
 /// Between vertices the surface is the one that is drawn: each cell is cut from vertex (i, j) to (i + 1, j + 1) into
 /// two plane triangles. Outside, it goes on as at the nearest edge. A vertex that is NaN or infinite is no data:
-/// queries on its triangles answer NaN, and they are left out of the drawn mesh.
+/// queries on its triangles return NaN, and they are left out of the drawn mesh.
 struct heightfield {
     image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
     image<type> types{};          ///< one per vertex, or none: then everything is `fallback`
     glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
     double spacing = 1;           ///< metres between vertices, > 0
     type fallback = type::sand;
-    /// What belongs to labels of users' own; the library's are in its registry.
+    /// Properties of users' own labels; those of the library's are in its registry.
     std::vector<type_properties> own_types{};
 
     /// Height of the drawn surface at a world position, metres; it and the next two expect a valid heightfield.
@@ -85,7 +85,7 @@ struct heightfield {
 
     float operator()(double x, double y) const { return height_at(x, y); }
 
-    /// The heightfield as a recipe, by reference: it has to outlive the sampler.
+    /// The sampler refers to the heightfield, which has to outlive it.
     /// @throws invalid_input as `validate`
     heightfield_sampler prepare() const;
     std::optional<type> only_type() const { return types.empty() ? std::optional(fallback) : std::nullopt; }

@@ -1,6 +1,6 @@
 // The world's lattices: where positions lie on them, and random bits for their cells.
 //
-// What a recipe draws by lot it draws by cell, so that a place looks the same whoever asks for it, however it is cut.
+// Random draws are keyed by lattice cell, so that a place looks the same in any grid, tile or order of evaluation.
 // Cells are found in double; what goes to float is the way across a cell alone, so precision is that of home at 10^7 m
 // from it.
 //
@@ -24,7 +24,7 @@ namespace insonify::inline INSONIFY_ABI::seabed::detail {
 using insonify::detail::dispatch;
 using insonify::detail::lanes;
 
-/// What draws are for: every layer of every recipe has its own stream of the seed.
+/// Random streams: every layer of every model has its own.
 enum class stream : std::uint32_t {
     sand = 0x5EAB0000,
     ripples,

@@ -1,4 +1,4 @@
-// A seabed of many: bottoms laid one over the other, each where its area says, and the type at every point.
+// A seabed of layers: bottoms laid over a base, each within its own area, with the label at every point.
 #pragma once
 
 #include <insonify/seabed/cover.hpp>

@@ -1,4 +1,4 @@
-// No seabed at all: for scenes that bring theirs as a mesh.
+// No seabed: for scenes whose bottom is a mesh, or that have none.
 #pragma once
 
 #include <insonify/seabed/model.hpp>
@@ -9,7 +9,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::seabed {
 
-/// Nothing there: no height is known anywhere (NaN), nothing is drawn and nothing rests on it.
+/// The absence of a seabed. Heights are NaN everywhere, nothing is drawn, and nothing rests on it.
 struct none {
     static constexpr type kind = type::sand;
 

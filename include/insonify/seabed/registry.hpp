@@ -105,7 +105,7 @@ static_assert(
     }(),
     "the label of a row is its index");
 
-/// What belongs to a label of the library; those of sand for any other, but for the name, which is empty.
+/// The properties of a label of the library; of any other label those of sand, without a name.
 constexpr type_properties properties_of(type t) {
     if (index_of(t) < type_count) return built_in_types[index_of(t)];
     return {t, "", built_in_types[0].reflectivity, built_in_types[0].speckle};

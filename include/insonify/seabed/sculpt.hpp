@@ -1,7 +1,7 @@
-// A seabed worked by hand: raised, lowered, flattened, smoothed, ramped, stamped, scoured, heaped up; in order.
+// A seabed edited by hand: raised, lowered, flattened, smoothed, ramped, stamped, scoured, heaped up; in order.
 //
-// An edit is a function of the position and of the height that earlier edits left there, so what is sculpted stays
-// what recipes are: unbounded, and the same wherever it is asked from. Away from an edit not a bit changes.
+// An edit is a function of the position and of the height after the edits before it, so that a sculpted seabed stays
+// unbounded and independent of the grid. Outside an edit's bounds no bit changes.
 #pragma once
 
 #include <insonify/seabed/any.hpp>
@@ -14,7 +14,7 @@ namespace insonify::inline INSONIFY_ABI::seabed {
 
 class sculpt_sampler;
 
-/// A ground and what is done to it. Labels are the ground's.
+/// A seabed and a list of edits. Labels are those of the seabed.
 struct sculpted {
     any ground = flat{};
     std::vector<edit> edits;  ///< the first is done first

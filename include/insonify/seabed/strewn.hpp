@@ -1,4 +1,4 @@
-// Things strewn over the plane by lot: which cells of a lattice may hold one that a row crosses, and round ones drawn.
+// Randomly scattered features, at most one per lattice cell: finds those that a row crosses, and adds round ones.
 #pragma once
 
 #include <insonify/seabed/lattice.hpp>

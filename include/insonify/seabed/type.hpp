@@ -1,4 +1,4 @@
-// Labels of the sea floor, and what belongs to a label: its name, its brightness and its speckle.
+// Labels of the sea floor and their properties: name, brightness and speckle.
 //
 // A label is one byte. The library's own are the rows of registry.hpp; those from `own_type(0)` on are free for users'
 // seabeds, which bring the properties of their labels along (see model.hpp).
@@ -65,7 +65,7 @@ constexpr std::size_t index_of(type t) {
     return static_cast<std::size_t>(t);
 }
 
-/// What belongs to a label.
+/// The properties of a label.
 struct type_properties {
     type label = type::sand;
     std::string_view name;       ///< for manifests and messages; a string literal, or text that outlives its users

@@ -15,7 +15,7 @@ struct material {
 };
 
 /// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. One that
-/// has `in_lanes` too is asked for several pixels at a time, by reference.
+/// has `in_lanes` too computes several pixels at a time, by reference.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;

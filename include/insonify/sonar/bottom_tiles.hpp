@@ -86,7 +86,7 @@ class bottom_tiles {
             }
         }
 
-        // Recipes like long rows: neighbours along x are sampled together.
+        // Long rows are cheaper per sample: neighbours along x are sampled together.
         std::vector<tile_run> runs;
         std::uint32_t tiles = 0;
         for (std::int64_t y = 0; y < rows; ++y)
@@ -127,7 +127,7 @@ class bottom_tiles {
                 wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
     }
 
-    /// The depth, within those in which a pitched fan may meet the bottom; NaN becomes one of them, too.
+    /// Clamps a depth to those bounds; NaN becomes the least.
     double clamped(const ping_frame& p, double depth) const {
         const auto [least, most] = depths(p);
         return depth > least ? (std::min)(depth, most) : least;
@@ -147,7 +147,7 @@ class bottom_tiles {
         return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
     }
 
-    /// Between which depths along a fan the bottom lies; only pitched ones have to know.
+    /// Bounds of the bottom's depth along a fan; used for pitched fans only.
     /// @throws invalid_input for pitched pings over a seabed that does not state its heights
     std::pair<double, double> depths(const ping_frame& p) const {
         if (p.is_level() || range_.empty()) return {0, 0};

@@ -63,7 +63,8 @@ inline double normal_quantile(double share) {
 class tone_sampler {
   public:
     /// @throws invalid_input for a parameter out of its range
-    explicit tone_sampler(const bottom_tone& t) : t_((validate(t), t)), along_(numeric::sin_cos(t.direction)) {
+    explicit tone_sampler(const bottom_tone& t)
+        : t_((validate(t), t)), along_(numeric::sin_cos(static_cast<double>(t.direction))) {
         const auto key = [&](drift_stream stream) { return stream_key(t.seed, static_cast<std::uint32_t>(stream)); };
         drift_ = key(drift_stream::tone), streaks_ = key(drift_stream::streaks), patches_ = key(drift_stream::patches);
         double squares = 0, share = 1;
@@ -120,7 +121,7 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// @param r    as `render` made it of this rig: before noise and speckle
 /// @throws invalid_input for a parameter out of its range
 template <across_track Axis, executor_argument E = serial_executor>
-recording<labels> with_tone(recording<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
+frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
     const detail::tone_sampler level(tone);
     if (tone.is_none()) return r;
     const ping_numbers numbers = r.rows;

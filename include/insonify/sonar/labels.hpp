@@ -1,4 +1,4 @@
-// What each pixel shows, for those who train and those who test: targets, seabed types, shadows and who cast them.
+// Ground truth per pixel: target instances, seabed labels, and shadows with their casters.
 #pragma once
 
 #include <insonify/core/filled.hpp>
@@ -48,6 +48,9 @@ struct labels {
           shadow(detail::filled(width, height, is_lit, ex)),
           seabed(detail::filled(width, height, no_seabed, ex)) {}
 };
+
+/// Asks for no labels: none are stored or computed.
+struct no_labels {};
 
 /// 255 where a target is visible, 0 elsewhere.
 inline image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance) {

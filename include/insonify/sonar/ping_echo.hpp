@@ -1,6 +1,6 @@
-// What comes back of one ping, bin by bin.
+// Computes the echo of one ping, bin by bin.
 //
-// The source is where the receiver is: what a ray meets first is what it insonifies and what it hears. Each ray's
+// Source and receiver coincide: the first surface along a ray is both insonified and heard. Each ray's
 // power is spread evenly over the bins between the ranges at which its upper and its lower edge meet the surface; so
 // level ground has no gaps and no beats, whatever the ratio of rays to bins. Bottom that is met by no ray is in shadow,
 // and belongs to whatever stands in front of it.
@@ -19,7 +19,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// What a bin hears, and what lies in it; lengths are in bins.
+/// Power and contents of a range bin; lengths are in bins.
 struct echo_bin {
     float bottom = 0, target = 0;  ///< power
     float lit = 0;                 ///< of the bottom
@@ -30,7 +30,7 @@ struct echo_bin {
     std::uint8_t seabed = labels::no_seabed;
 };
 
-/// Hears pings, one after the other. Rig is a side_scan or a ground_range; what labels need is left out if !Labelled.
+/// Computes pings one after the other. Rig is a side_scan or a ground_range; what labels need is left out if !Labelled.
 template <class Rig, class Law, class Equation, bool Labelled>
 class ping_listener {
   public:
@@ -83,10 +83,10 @@ class ping_listener {
         return bins_;
     }
 
-    /// How far from the track pings look, metres on the ground: what has to be covered.
+    /// Ground range up to which the bottom has to be sampled, metres.
     static double reach(const Rig& rig, double cell) { return static_cast<double>(rig.range) + 4 * cell; }
 
-    /// From where on they have to look: nothing nearer is heard in the first bin or later, nor hides what is.
+    /// Ground range from which the bottom has to be sampled: nothing nearer is heard in the window or hides what is.
     /// @param relief  of the bottom
     static double start(const Rig& rig, double cell, const seabed::height_range& relief, const ping_frame& p,
                         std::span<const sliced_target> targets) {
@@ -105,7 +105,7 @@ class ping_listener {
     static constexpr float most = 2;  // bins that an echo may spread to either side of its ray, whatever the slope
     static constexpr bool counts_time = Rig::axis == across_track::slant_range;
 
-    /// Whether pings look past a bottom that they are well above.
+    /// Whether a ping is well above the bottom, so that the bottom before the window can be skipped.
     static bool looks_beyond(const seabed::height_range& relief, double first_range, const ping_frame& p) {
         const double altitude = p.position().z;
         return first_range > 0 && p.is_level() && !relief.empty() && relief.lowest > -altitude &&
@@ -117,7 +117,7 @@ class ping_listener {
         float slope, slope_along;
         std::uint8_t type;
     };
-    /// A new fan, and what each of its rays carries for every metre of range.
+    /// Builds the fan, and each ray's power per metre of range.
     void spread_out(const fan_shape& shape, const std::array<double, 3>& attitude) {
         const auto slant = [&](double r) {
             return counts_time ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
@@ -200,7 +200,7 @@ class ping_listener {
                 if (Labelled && ddown == ddown) name(p, q, px, dx, 0, 1, hider(qx, q.down));
                 continue;
             }
-            // The part over the horizon begins here; labels cut it between rays, so that shadows end where rays say.
+            // The part over the horizon begins here. Labels divide it halfway between rays, as the rays' power does.
             const double below = px * horizon_down - p.down * horizon_x;
             double from = below / (below - above);
             if (Labelled && from > 0) name(p, q, px, dx, 0, from, hider(px + from * dx, p.down + from * ddown));
@@ -285,7 +285,7 @@ class ping_listener {
         return target == labels::is_lit ? labels::by_seabed : target;
     }
 
-    /// Notes for the labels who keeps the bottom dark between two shares of the way from p to q.
+    /// Adds to the labels what keeps the bottom dark between two fractions of the way from p to q.
     void name(const bottom_point& p, const bottom_point& q, double px, double dx, double from, double to,
               std::uint16_t caster) {
         const double down = q.down - p.down;
@@ -343,8 +343,8 @@ class ping_listener {
         return static_cast<float>(numeric::magnitude(half));
     }
 
-    /// What a surface of reflectivity one sends back of a ray: its area, seen from here, over the sine of grazing, by
-    /// law.
+    /// Power that a surface of reflectivity one returns from a ray: its projected area over the sine of the grazing
+    /// angle, times the law.
     float power_of(std::size_t k, double range, float facing) const {
         const float sine = (std::min)((std::max)(facing, 1e-3f), 1.0f);
         return static_cast<float>(range) * carried_[k] * law_(sine) / sine;

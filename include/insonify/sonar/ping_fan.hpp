@@ -13,10 +13,9 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI::detail {
 
-/// What a fan is made for. Heights of the sonar above things are rounded so that few different fans serve a whole
-/// track.
+/// Parameters of a fan. Heights are rounded so that few different fans serve a whole track.
 struct fan_shape {
-    double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: nothing to be seen
+    double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: no rays
     double above_highest = 1;  ///< over the highest bottom
     double above_all = 1;      ///< over the highest of targets and bottom; not above 0: rays go up to the zenith
 

@@ -1,7 +1,7 @@
 // The closed forms of side-scan geometry over a level bottom: ranges, shadows, layover and what is measured from them.
 //
 // Lengths are metres. `altitude` is the sonar's above the bottom, `ground` a distance across the track on the bottom,
-// `height` that of a point above the bottom. Answers that don't exist are 0 (a distance inside the water column) or
+// `height` that of a point above the bottom. Results that don't exist are 0 (a distance inside the water column) or
 // infinity (the shadow of what reaches the sonar's height), never NaN for finite arguments.
 //
 // Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.

@@ -7,6 +7,7 @@
 #include <insonify/seabed/sample.hpp>
 #include <insonify/shadow/exact.hpp>
 #include <insonify/sonar/backscatter.hpp>
+#include <insonify/sonar/frame.hpp>
 #include <insonify/sonar/seabed_reach.hpp>
 #include <insonify/sonar/shadow_pass.hpp>
 
@@ -34,21 +35,19 @@ struct render_options {
     int subpixel_bits = shadow::casting_policy<Shadow> ? 12 : 8;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
-};
 
-/// What became of the triangles, and how large the intermediate things were.
-struct render_stats {
-    draw_stats seabed, targets;
-    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled, of which the mesh may leave some out
-    std::uint64_t seabed_samples = 0;         ///< points at which the seabed was evaluated
-};
-
-/// A picture with all that is known about it.
-template <class Labels = labels>
-struct frame {
-    insonify::image<float> image;  ///< linear, [0, 1]; see the rig for what a value means
-    Labels labels;                 ///< or no_labels
-    render_stats stats;
+    /// The same options with another shadow policy, another law, or without labels.
+    template <shadow::policy Other>
+    render_options<Other, Labels, Law> with(const Other& other) const {
+        return {other, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    }
+    template <backscatter_law Other>
+    render_options<Shadow, Labels, Other> with(const Other& other) const {
+        return {shadow, other, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    }
+    render_options<Shadow, no_labels, Law> without_labels() const {
+        return {shadow, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    }
 };
 
 /// Which triangle each pixel of a picture shows.
@@ -69,6 +68,7 @@ class overhead_painter {
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
         : scene_(s), view_(rig), options_(options) {
         validate(s);
+        out_.rows.step = 0;
         materials_ = resolved_bottom(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y, unfilled{});  // the first draw fills it, and the depths
@@ -148,6 +148,7 @@ class overhead_painter {
         if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
         field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
         out_.stats.seabed_samples = field_.heights.size();
+        out_.stats.cell = spacing;
         model_seabed(ex);
         for (const float height : field_.heights.pixels()) {
             if (!numeric::is_finite(height)) {

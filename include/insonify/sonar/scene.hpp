@@ -1,4 +1,4 @@
-// What there is to see: a seabed, and targets on it.
+// The scene: a seabed and targets on it.
 #pragma once
 
 #include <insonify/geometry/shared_mesh.hpp>
@@ -33,7 +33,8 @@ struct scene {
     std::vector<target> targets;
 
     /// Adds a mesh, a shared mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
-    /// Targets are told apart by instance numbers, 1 for the first. A mesh without normals gets smooth ones.
+    /// Targets are numbered by instance, 1 for the first. A mesh without normals gets smooth ones, also across sharp
+    /// edges whose triangles share vertices; `with_creases` keeps those sharp.
     /// Several targets of one shape share it: make a `shared_mesh` once and add it as often as needed.
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>

@@ -14,9 +14,6 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Asks for no labels: none are stored or computed.
-struct no_labels {};
-
 namespace detail {
 
 /// The object that a visibility buffer's id belongs to.

@@ -1,16 +1,18 @@
-// Pictures in the sonar's own geometry: pings by ranges, with water column, first return, layover and shadows, and
-// labels for every bin. See ping_echo.hpp for how a ping is heard.
+// Side-scan pictures, pings by ranges: water column, first return, layover and shadows, with labels for every bin. See
+// ping_echo.hpp for the echo of one ping.
 #pragma once
 
+#include <insonify/core/filled.hpp>
+#include <insonify/sonar/backscatter.hpp>
+#include <insonify/sonar/frame.hpp>
 #include <insonify/sonar/ping_echo.hpp>
-#include <insonify/sonar/render.hpp>
 #include <insonify/sonar/sonar_equation.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify::inline INSONIFY_ABI {
 
-/// How to record; the types say what is in it.
+/// Options of recordings. What the types leave out is not compiled.
 template <class Labels = labels, backscatter_law Law = lambert_backscatter, class Equation = sonar_equation<level_gain>>
 struct record_options {
     Law law{};
@@ -32,31 +34,6 @@ struct record_options {
         return {other, equation, cell};
     }
     record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
-};
-
-/// How large the intermediate things were.
-struct record_stats {
-    std::uint64_t seabed_vertices = 0;  ///< sampled
-    double cell = 0;                    ///< metres between them
-};
-
-/// Which pings the rows of a picture are, and which side its columns hear.
-struct ping_numbers {
-    std::int64_t first = 0;  ///< of the top row
-    int step = 1;            ///< from row to row: 1, or -1
-    insonify::side side = insonify::side::starboard;
-    int port_columns = 0;  ///< at the left, of another channel: port, its range growing to the left
-};
-
-/// A picture with all that is known about it: a row per ping, a column per bin.
-template <class Labels = labels>
-struct recording {
-    insonify::image<float> image;  ///< intensity, linear, 0 and above; see sonar_equation.hpp for its unit
-    /// Or no_labels. `shadow` names who keeps most of a bin's bottom dark, `instance` the target that sends back more
-    /// than the bottom does; a bin without bottom (the water column) has neither, and no seabed type.
-    Labels labels;
-    record_stats stats;
-    ping_numbers rows;  ///< numbers of pings: as in the track
 };
 
 namespace detail {
@@ -109,7 +86,7 @@ class recorder {
     }
 
     template <executor E>
-    recording<Labels> record(E& ex) {
+    frame<Labels> record(E& ex) {
         hear(ex);
         if constexpr (Equation::has_beam)
             options_.equation.for_each([&](const auto& part) {
@@ -158,7 +135,7 @@ class recorder {
                 for (std::size_t i = from; i < to; ++i) keep(start + i, ears.hear(frames[i]), over_range);
             });
         }
-        out_.stats.seabed_vertices = bottom.sampled();
+        out_.stats.seabed_samples = bottom.sampled();
     }
 
     /// Writes what one ping heard.
@@ -268,7 +245,7 @@ class recorder {
     options_type options_;
     bottom_materials materials_;
     std::vector<sliced_target> targets_;
-    recording<Labels> out_;
+    frame<Labels> out_;
 };
 
 /// Fills in labels::targets anew, for images that were put together from those of described labels.
@@ -293,24 +270,24 @@ image<T> rows_of(const image<T>& source, int first, int count) {
 /// @param track    pings in order; row i of the recording is ping i
 /// @param rig      ranges, side and ping spacing; its own track isn't used
 /// @param options  types of labels, law and sonar equation, and how finely the seabed is sampled
-/// @param ex       who runs it; the result is the same bytes for any executor
+/// @param ex       runs it; the result is the same bytes for any executor
 /// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option that can't be right
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-recording<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
-                         const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+frame<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
+                     const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
     auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
     if constexpr (std::is_same_v<Labels, labels>) describe_targets(out.labels, s.targets);
     return out;
 }
 
-/// Records into memory of the caller's, for pings that come a few at a time: row i of `into` becomes ping i.
+/// Records a few pings into memory of the caller's: row i of `into` becomes ping i.
 /// @param into     rig.bins columns, a row per ping; it may be a part of a larger image
 /// The other parameters and errors are those of `record`; it also throws invalid_input for a view of another size,
 /// which is then untouched.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-record_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
+render_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
                          const side_scan_rig<Axis>& rig, const record_options<Labels, Law, Equation>& options = {},
                          E&& ex = {}) {
     detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
@@ -326,8 +303,8 @@ record_stats record_into(image_view<float> into, const scene& s, std::span<const
 /// Row i is ping i. The other parameters are those of `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-recording<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
-                         const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
+                     const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
     validate(rig);
     // The beam hears beyond the ends of the track.
     int more = 0;

@@ -18,14 +18,14 @@ namespace insonify::inline INSONIFY_ABI {
 /// @param altitudes  of the sonar above the bottom, one per row from the top, or none: then all are the rig's
 /// @throws invalid_input for a rig that can't be right, or a number of altitudes that is neither 0 nor that of rows
 template <class Labels>
-recording<Labels> to_ground_range(const recording<Labels>& slant, const side_scan& from, const ground_range& to,
-                                  std::span<const double> altitudes = {}) {
+frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from, const ground_range& to,
+                              std::span<const double> altitudes = {}) {
     validate(from), validate(to);
     const int rows = slant.image.height(), bins = slant.image.width();
     detail::require(bins == from.bins, "from.bins", from.bins, "the recording's width");
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");
-    recording<Labels> out;
+    frame<Labels> out;
     out.stats = slant.stats;
     out.rows = slant.rows;
     out.image = image<float>(to.bins, rows);

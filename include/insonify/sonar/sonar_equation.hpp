@@ -154,7 +154,7 @@ concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(dou
 };
 }  // namespace detail
 
-/// Anything that `sonar_equation` knows how to use: one of the above, or your own type with one of their functions.
+/// A part of the sonar equation: one of the above, or a user's own type with one of their functions.
 template <class P>
 concept equation_part = detail::direction_part<P> || detail::range_part<P> || detail::footprint_part<P> ||
     detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;

@@ -1,5 +1,4 @@
-// Speckle that belongs to the seabed: how echoes fluctuate depends on what the bottom is, and a ping's speckle is the
-// same whenever it is recorded.
+// Speckle by seabed label, keyed by ping and bin: recordings made in pieces have the same speckle.
 //
 // The fluctuation of a bin is a function of (seed, side, ping number, bin) and nothing else: recordings made in pieces
 // fit together, and the two sides are independent.
@@ -51,10 +50,10 @@ struct seabed_speckle {
 
 namespace detail {
 
-/// What a number is drawn for; part of what a seed means.
+/// Random streams; changing one changes the noise of every seed.
 enum class speckle_stream : std::uint32_t { field = 0x73706B00, texture = 0x73706B02, choice = 0x73706B04 };
 
-/// Draws that are told apart by ping and bin.
+/// Random numbers keyed by ping and bin.
 class ping_noise {
   public:
     ping_noise(std::uint64_t seed, side s, speckle_stream stream)
@@ -124,7 +123,7 @@ class speckle_field {
 };
 
 /// The K-distribution's mean: gamma-distributed at the nodes of a lattice. A bin takes that of one of the four nodes
-/// around it, by lot, the nearer the likelier: so textures are correlated, and distributed as they should be.
+/// around it, chosen at random with the bilinear weights, so that textures are correlated and keep their distribution.
 class speckle_texture {
   public:
     speckle_texture(const seabed_speckle& s, side looks)
@@ -229,7 +228,7 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
 
 /// The same recording with speckle; its rows say which pings they are, and its legend which laws own labels have.
 template <executor_argument E = serial_executor>
-recording<labels> with_speckle(recording<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
+frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
     const seabed_speckle laws = with_legend(s, r.labels.legend);
     const int port = r.rows.port_columns;
     if (port == 0) {

@@ -26,7 +26,7 @@ image<T> turned(const image<T>& source) {
 
 /// The recording with its last ping on top, so that up is forward, as in overhead pictures.
 template <class Labels>
-recording<Labels> upside_down(recording<Labels> r) {
+frame<Labels> upside_down(frame<Labels> r) {
     const auto turn = [](auto& picture) {
         for (int y = 0; 2 * y < picture.height() - 1; ++y)
             std::swap_ranges(picture.row(y).begin(), picture.row(y).end(),
@@ -62,11 +62,11 @@ image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill
 /// A port and a starboard recording of one track as one, port to the left: range grows from the middle outwards, and
 /// the water column, as wide as the sonar is high, lies between. `targets` of the labels describes both sides.
 template <class Labels>
-recording<Labels> both_sides(const recording<Labels>& port, const recording<Labels>& starboard) {
-    recording<Labels> out;
+frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
+    frame<Labels> out;
     out.image = beside(mirrored(port.image), starboard.image);
     out.stats = port.stats;
-    out.stats.seabed_vertices += starboard.stats.seabed_vertices;
+    out.stats.seabed_samples += starboard.stats.seabed_samples;
     out.rows = starboard.rows;
     out.rows.port_columns = port.image.width();
     if constexpr (std::is_same_v<Labels, labels>) {
@@ -83,8 +83,8 @@ recording<Labels> both_sides(const recording<Labels>& port, const recording<Labe
 /// Draws both sides of a straight track; the rig's own side doesn't matter. See `render`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-recording<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
-                               const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+frame<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
+                           const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
     rig.side = side::port;
     const auto port = render(s, rig, options, ex);
     rig.side = side::starboard;

@@ -1,4 +1,4 @@
-// What the rays of a ping meet first of the targets, exactly: parts of a ray's width, not samples.
+// First hits of a ping's rays with the targets, with exact fractional coverage of each ray's width.
 //
 // The outline of the targets in a ping's plane is a set of straight pieces. Within each ray's width the pieces' ends
 // divide the width into parts; of each part the nearest piece counts, in proportion to the part. So a bar that is
@@ -183,7 +183,7 @@ class target_hits {
 
     /// Divides a ray between the pieces that it meets with parts of its width, and the one with all of it.
     void divide(std::size_t k, std::span<const part> parts, bool is_met) {
-        // Ends of very many pieces are not told apart.
+        // Very many pieces are sampled at fixed positions instead.
         ends_.clear();
         ends_.push_back(number(k)), ends_.push_back(number(k) + 1);
         if (parts.size() <= most_parts) {

@@ -1,4 +1,4 @@
-// Targets as one ping meets them: the outline in its plane, cut from the mesh.
+// Slices of targets by the plane of a ping.
 #pragma once
 
 #include <insonify/geometry/detail/plane_tree.hpp>

@@ -81,9 +81,9 @@ TEST_CASE("A swath of ten kilometres out samples as much seabed as one at home")
     in::scene scene;
     scene.seabed = in::seabed::ripples{};
     in::side_scan rig{.altitude = 5, .pings = 64, .range = 30, .bins = 256};
-    const auto home = in::render(scene, rig).stats.seabed_vertices;
+    const auto home = in::render(scene, rig).stats.seabed_samples;
     rig.position = {7e3, -9e3};
-    const auto away = in::render(scene, rig).stats.seabed_vertices;
+    const auto away = in::render(scene, rig).stats.seabed_samples;
     CHECK(away <= home * 5 / 4);
     CHECK(away >= home * 4 / 5);
 }

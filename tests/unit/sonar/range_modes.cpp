@@ -189,7 +189,7 @@ TEST_CASE("A scene of meshes alone is heard in every mode") {
         CHECK(energy(mesh.image) == Approx(energy(bottom.image)).epsilon(0.01));
         CHECK(mesh.labels.targets[1].area > 0);
         CHECK(std::abs(mesh.labels.targets[1].area - bottom.labels.targets[0].area) <= 2);
-        CHECK(mesh.stats.seabed_vertices == 0);
+        CHECK(mesh.stats.seabed_samples == 0);
     };
     check(in::side_scan{.altitude = 5, .pings = 1, .range = 30, .bins = 300});
     check(in::ground_range{.altitude = 5, .pings = 1, .range = 30, .bins = 300});
@@ -311,6 +311,24 @@ TEST_CASE("A roll turns the beams within the fan: as much more tilt on the side 
         }
 }
 
+TEST_CASE("Overhead pictures and recordings have one result: legend, statistics, and rows that are no pings") {
+    in::scene s;
+    s.seabed = in::seabed::mud{};
+    in::frame<> drawn = in::render(s, in::overhead{.size = {32, 24}});
+    CHECK(drawn.rows.step == 0);
+    CHECK(drawn.stats.cell > 0);
+    CHECK_THROWS_WITH(in::with_speckle(drawn), ContainsSubstring("ping_numbers.step is 0"));
+    const in::frame<in::no_labels> bare =
+        in::render(s, in::overhead{.size = {32, 24}}, in::render_options<>{}.without_labels());
+    CHECK(bare.image == drawn.image);
+    const in::frame<> dull =
+        in::render(s, in::overhead{.size = {32, 24}},
+                   in::render_options<>{}.with(in::shadow::none{}).with(in::lambert_backscatter{}));
+    CHECK_FALSE(dull.image == drawn.image);
+    drawn = in::render(s, in::ground_range{.pings = 3, .range = 20, .bins = 16});
+    CHECK((drawn.rows.step == 1 && drawn.stats.cell > 0 && drawn.labels.legend[0].name == "mud"));
+}
+
 TEST_CASE("An attitude that can't be is refused by name") {
     const in::scene s;
     const auto with = [&](const in::ping& p) {
@@ -329,7 +347,7 @@ TEST_CASE("record_into writes rows of the caller's and nothing beside them, and 
     const auto expected = in::record(s, std::span<const in::ping>(track), rig);
     in::image<float> mine(60, 8, -1.0f);
     const auto stats = in::record_into(mine.view().part(5, 1, 50, 6), s, track, rig);
-    CHECK(stats.seabed_vertices == expected.stats.seabed_vertices);
+    CHECK(stats.seabed_samples == expected.stats.seabed_samples);
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 60; ++x) {
             const bool inside = x >= 5 && x < 55 && y >= 1 && y < 7;

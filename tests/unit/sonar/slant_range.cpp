@@ -399,7 +399,7 @@ TEST_CASE("A window of ranges is the part of the whole picture that it shows") {
 
 /// The rows of a window, with the bottom sampled from nadir on if `all`: something lies there, beside the first row.
 template <in::across_track Axis>
-in::recording<in::labels> window_of(const in::seabed::any& bottom, const in::side_scan_rig<Axis>& rig, bool all) {
+in::frame<in::labels> window_of(const in::seabed::any& bottom, const in::side_scan_rig<Axis>& rig, bool all) {
     in::scene s;
     s.seabed = bottom;
     const in::ping_frame middle(in::ping_of(rig, rig.pings / 2), rig.side), first(in::ping_of(rig, 0), rig.side);
@@ -417,7 +417,7 @@ TEST_CASE("A window samples the bottom that can be heard in it or hide it; the r
         in::seabed::blend{.first = in::seabed::ripples{.steepness = 0.06f}, .second = in::seabed::mud{}, .patch = 4}};
     const auto check = [](const in::seabed::any& bottom, const auto& rig) {
         const auto part = window_of(bottom, rig, false), whole = window_of(bottom, rig, true);
-        REQUIRE(part.stats.seabed_vertices < whole.stats.seabed_vertices);
+        REQUIRE(part.stats.seabed_samples < whole.stats.seabed_samples);
         for (int y = 1; y < rig.pings; ++y)
             for (int x = 0; x < rig.bins; ++x) {
                 REQUIRE(part.image(x, y) == whole.image(x, y));

@@ -25,8 +25,8 @@ struct constant_law {
 const in::side_scan rig{.altitude = 5, .ping_spacing = 0.1f, .pings = 8, .range = 50, .bins = 1000};
 
 template <class Equation, class Law = in::lambert_backscatter>
-in::recording<in::no_labels> heard(const in::scene& s, const Equation& equation, const in::side_scan& r = rig,
-                                   const Law& law = {}) {
+in::frame<in::no_labels> heard(const in::scene& s, const Equation& equation, const in::side_scan& r = rig,
+                               const Law& law = {}) {
     return in::render(s, r, in::record_options<in::no_labels, Law, Equation>{.law = law, .equation = equation});
 }
 
