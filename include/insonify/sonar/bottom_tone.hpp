@@ -63,7 +63,8 @@ inline double normal_quantile(double share) {
 class tone_sampler {
   public:
     /// @throws invalid_input for a parameter out of its range
-    explicit tone_sampler(const bottom_tone& t) : t_((validate(t), t)), along_(numeric::sin_cos(t.direction)) {
+    explicit tone_sampler(const bottom_tone& t)
+        : t_((validate(t), t)), along_(numeric::sin_cos(static_cast<double>(t.direction))) {
         const auto key = [&](drift_stream stream) { return stream_key(t.seed, static_cast<std::uint32_t>(stream)); };
         drift_ = key(drift_stream::tone), streaks_ = key(drift_stream::streaks), patches_ = key(drift_stream::patches);
         double squares = 0, share = 1;
