@@ -119,7 +119,7 @@ class Faults(unittest.TestCase):
         subprocess.run(["cc", "-shared", "-fPIC", "-o", cls.shim, source, "-ldl"], check=True)
         heights = bytes((x * y) % 251 for y in range(40) for x in range(40))
         (cls.folder / "look.pgm").write_bytes(b"P5 40 40 255\n" + heights)
-        cls.options = ["--size", "16", "--count", "3", "--format", "npy,webdataset", "--reference", cls.folder / "look.pgm",
+        cls.options = ["--recipe", "published", "--size", "16", "--count", "3", "--format", "npy,webdataset", "--reference", cls.folder / "look.pgm",
                        "--threads", "2"]
         cls.run_with("whole")
         cls.whole = digest(cls.folder / "whole")

@@ -83,7 +83,7 @@ def main():
         sys.exit(77)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         out = pathlib.Path(folder) / "a <set> & more"
-        subprocess.run([sys.argv[1], "--out", out, "--size", "32", "--count", str(COUNT), "--preview"], check=True)
+        subprocess.run([sys.argv[1], "--out", out, "--recipe", "published", "--size", "32", "--count", str(COUNT), "--preview"], check=True)
         page = out / "preview.html"
         browser = Browser(chromium, str(pathlib.Path(folder) / "profile"))
         try:

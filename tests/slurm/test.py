@@ -19,7 +19,7 @@ import unittest
 
 GENERATOR, MERGE = sys.argv.pop(1), sys.argv.pop(1)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SET = ["--size", "256", "--count", "60", "--seed", "5"]
+SET = ["--recipe", "published", "--size", "256", "--count", "60", "--seed", "5"]
 NEEDED = "slurmctld", "slurmd", "munged", "sbatch", "scontrol", "unshare"
 
 CONFIGURATION = """\
