@@ -74,7 +74,7 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
     o.roll = s.derived(name("roll_rad"),
                        on_side ? s.uniform(name("list_rad"), 0.9, 1.8) : s.uniform(name("list_rad"), -0.3, 0.3));
     o.burial = s.uniform_or_0(name("burial"), 0.3, 0.02, 0.55);
-    o.reflectivity = s.logarithmic(name("reflectivity"), 0.5, 12);
+    o.reflectivity = s.logarithmic(name("reflectivity"), 0.4, 7);
     o.across = s.uniform(name("across"), 0.28, 0.6);
     o.along = s.uniform(name("along"), 0.34, 0.66);
     o.scour = s.uniform_or_0(name("scour"), 0.5, 0.03, 0.25);
@@ -98,12 +98,12 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel) {
     p.steepness = s.logarithmic("steepness", 0.015, 0.09);
     p.direction = s.uniform("ripple_direction_rad", 0, 2 * in::numeric::pi);
     p.disorder = s.uniform("disorder", 0.05, 0.22);
-    p.roughness = s.logarithmic("roughness", 2e-4, 0.028);
+    p.roughness = s.logarithmic("roughness", 2e-4, 0.035);
     p.cover = s.uniform("cover", 0.15, 0.75);
     p.swell = s.uniform_or_0("swell", 0.65, 0.01, 0.06);
     p.trawls = s.uniform_or_0("trawls", 0.75, 0.3, 2);
 
-    p.tone.drift = static_cast<float>(s.logarithmic("tone_drift_db", 0.04, 1.6));
+    p.tone.drift = static_cast<float>(s.logarithmic("tone_drift_db", 0.05, 2.2));
     p.tone.drift_length =
         static_cast<float>(s.derived("tone_drift_length_m", pixel * s.logarithmic("drift_px", 15, 120)));
     p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.7, 0.2, 1.3));
@@ -131,7 +131,7 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
                                                         : static_cast<double>(p.sonar.beam);
     p.beam = s.derived("beam_rad", (std::max)(beam * s.uniform("beam_factor", 0.7, 1.5), 0.3 * pixel / slant));
 
-    p.gain.rms = static_cast<float>(s.logarithmic("gain_error_db", 0.04, 1.2));
+    p.gain.rms = static_cast<float>(s.logarithmic("gain_error_db", 0.05, 1.5));
     p.gain.length = static_cast<float>(s.uniform("gain_error_px", 25, 120));
     p.gain.slope = static_cast<float>(s.uniform("gain_slope_db", -2.2, 2.2));
     p.gain.seed = s.word("gain_seed");
@@ -150,9 +150,9 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.water.waves = static_cast<float>(0.01 * p.altitude);
     p.water.seed = p.banding.seed;
 
-    p.looks = static_cast<int>(s.derived("looks", std::floor(s.logarithmic("looks_drawn", 1.2, 13))));
+    p.looks = static_cast<int>(s.derived("looks", std::floor(s.logarithmic("looks_drawn", 1.2, 17))));
     p.grain_across =
-        (std::min)((std::max)(p.sonar.grain_across() / pixel, s.uniform_or_0("grain_across_px", 0.85, 0.3, 1.2)), 16.0);
+        (std::min)((std::max)(p.sonar.grain_across() / pixel, s.uniform_or_0("grain_across_px", 0.75, 0.3, 1.3)), 16.0);
     p.grain_along =
         (std::min)((std::max)(p.sonar.grain_along(slant) / pixel, s.uniform_or_0("grain_along_px", 0.4, 0.3, 2)), 16.0);
     p.grain_across = s.derived("correlation_across_px", p.grain_across);
@@ -160,9 +160,9 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.texture = s.uniform_or_0("texture", 0.75, 4, 15);
     p.noise_seed = s.word("noise_seed");
 
-    p.display = s.choice("display", {{"amplitude", 0.45}, {"decibels", 0.17}, {"power", 0.05}, {"automatic", 0.33}});
+    p.display = s.choice("display", {{"amplitude", 0.32}, {"decibels", 0.28}, {"power", 0.05}, {"automatic", 0.35}});
     p.white = s.logarithmic("white", 2, 8);
-    p.exponent = s.uniform("exponent", 0.26, 0.52);
+    p.exponent = s.uniform("exponent", 0.28, 0.58);
     p.dynamic_range = s.uniform("display_range_factor", 0.55, 1.1) * static_cast<double>(p.sonar.dynamic_range);
     p.dynamic_range = s.derived("display_range_db", p.dynamic_range);
     p.black_share = s.uniform("black_share", 0, 0.02);
@@ -192,7 +192,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const std::string& 
     }
 
     // The chip is cut around the first target, or as large as one of any size would be.
-    const double fill = s.logarithmic("fill", 0.36, 1.1), bare = s.logarithmic("bare_chip_m", 6, 160);
+    const double fill = s.uniform("fill", 0.4, 1.05), bare = s.logarithmic("bare_chip_m", 6, 160);
     p.chip = s.derived("chip_m", empty ? bare : detail::extent_of(shapes.front()) / fill);
     const double pixel = p.chip / o.size;
 
