@@ -32,41 +32,49 @@ std::string float_path(std::uint64_t index, const std::string& extension) {
     return "values/" + block_of(index) + "/" + id_of(index) + extension;
 }
 
+void append_to_string(png_structp png, png_bytep data, png_size_t size) {
+    try {
+        static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
+    } catch (...) {
+        png_error(png, "out of memory");
+    }
+}
+
+/// libpng reports errors by a jump, which runs no destructors: everything here is a plain pointer or number.
+/// @param samples  big-endian, row by row
+/// @returns whether there was enough memory
+bool encode_png16(const png_byte* samples, int width, int height, std::string* bytes) {
+    const png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+    const bool is_fine = info != nullptr && setjmp(png_jmpbuf(png)) == 0;
+    if (is_fine) {
+        png_set_write_fn(png, bytes, append_to_string, nullptr);
+        png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 16,
+                     PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        png_set_compression_level(png, 1);
+        png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+        png_write_info(png, info);
+        for (int y = 0; y < height; ++y)
+            png_write_row(png, samples + 2 * static_cast<std::size_t>(width) * static_cast<std::size_t>(y));
+        png_write_end(png, nullptr);
+    }
+    png_structp made = png;
+    if (made != nullptr) png_destroy_write_struct(&made, &info);
+    return is_fine;
+}
+
 }  // namespace
 
 std::string png16_bytes(const insonify::image<float>& picture) {
-    struct encoder {
-        png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-        png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-        ~encoder() { png_destroy_write_struct(&png, &info); }
-    };
-    // Made before libpng's jump, which runs no destructors.
-    std::string bytes;
-    std::vector<png_byte> row(2 * static_cast<std::size_t>(picture.width()));
-    const encoder e;
-    if (e.info == nullptr || setjmp(png_jmpbuf(e.png)) != 0) throw std::bad_alloc();
-    const auto append = [](png_structp png, png_bytep data, png_size_t size) {
-        try {
-            static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
-        } catch (...) {
-            png_error(png, "out of memory");
-        }
-    };
-    png_set_write_fn(e.png, &bytes, append, nullptr);
-    png_set_IHDR(e.png, e.info, static_cast<png_uint_32>(picture.width()), static_cast<png_uint_32>(picture.height()),
-                 16, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_compression_level(e.png, 1);
-    png_set_filter(e.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
-    png_write_info(e.png, e.info);
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            const std::uint16_t value = insonify::quantize<std::uint16_t>(picture(x, y));
-            row[2 * static_cast<std::size_t>(x)] = static_cast<png_byte>(value >> 8);
-            row[2 * static_cast<std::size_t>(x) + 1] = static_cast<png_byte>(value & 255);
-        }
-        png_write_row(e.png, row.data());
+    std::vector<png_byte> samples;
+    samples.reserve(2 * picture.size());
+    for (const float value : picture.pixels()) {
+        const std::uint16_t code = insonify::quantize<std::uint16_t>(value);
+        samples.push_back(static_cast<png_byte>(code >> 8));
+        samples.push_back(static_cast<png_byte>(code & 255));
     }
-    png_write_end(e.png, nullptr);
+    std::string bytes;
+    if (!encode_png16(samples.data(), picture.width(), picture.height(), &bytes)) throw std::bad_alloc();
     return bytes;
 }
 
