@@ -44,23 +44,27 @@ void append_to_string(png_structp png, png_bytep data, png_size_t size) {
 /// @param samples  big-endian, row by row
 /// @returns whether there was enough memory
 bool encode_png16(const png_byte* samples, int width, int height, std::string* bytes) {
-    const png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-    const bool is_fine = info != nullptr && setjmp(png_jmpbuf(png)) == 0;
-    if (is_fine) {
-        png_set_write_fn(png, bytes, append_to_string, nullptr);
-        png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 16,
-                     PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-        png_set_compression_level(png, 1);
-        png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
-        png_write_info(png, info);
-        for (int y = 0; y < height; ++y)
-            png_write_row(png, samples + 2 * static_cast<std::size_t>(width) * static_cast<std::size_t>(y));
-        png_write_end(png, nullptr);
+    if (info == nullptr) {
+        png_destroy_write_struct(&png, nullptr);
+        return false;
     }
-    png_structp made = png;
-    if (made != nullptr) png_destroy_write_struct(&made, &info);
-    return is_fine;
+    if (setjmp(png_jmpbuf(png)) != 0) {
+        png_destroy_write_struct(&png, &info);
+        return false;
+    }
+    png_set_write_fn(png, bytes, append_to_string, nullptr);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 16, PNG_COLOR_TYPE_GRAY,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_compression_level(png, 1);
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+    png_write_info(png, info);
+    for (int y = 0; y < height; ++y)
+        png_write_row(png, samples + 2 * static_cast<std::size_t>(width) * static_cast<std::size_t>(y));
+    png_write_end(png, nullptr);
+    png_destroy_write_struct(&png, &info);
+    return true;
 }
 
 }  // namespace
