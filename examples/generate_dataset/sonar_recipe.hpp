@@ -209,7 +209,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const std::string& 
     const double lead = p.targets.empty() ? 0.5 : p.targets.front().across;
     // As far away as the sonar's range allows, and so high that the target is met at a grazing angle of survey lines,
     // or of the closer ones that inspect a wreck; the water column is in view where it is meant to be.
-    const double sine = in::numeric::sin_cos(in::numeric::to_radians(s.logarithmic("grazing_deg", 8, 40))).sine;
+    const double sine = in::numeric::sin_cos(in::numeric::to_radians(s.logarithmic("survey_grazing_deg", 8, 40))).sine;
     double slant = lead * p.chip + s.uniform("range_share", 0.03, 1) * (reach - p.chip);
     if (!s.chance("water_in_view", empty ? 0.04 : 0.2)) slant = (std::max)(slant, lead * p.chip / (1 - sine / 0.95));
     p.first_range = s.derived("first_range_m", slant - lead * p.chip);

@@ -363,7 +363,7 @@ class Generator(unittest.TestCase):
                 self.assertGreaterEqual(float(row["visible_share"]), 0.1)
                 self.assertIn(row["target_is_cut"], ("true", "false"))
             # Whatever was sampled is in the row.
-            for column in ("sonar", "display", "looks", "noise_floor", "tone_drift_db", "grazing_deg", "port", "beam_rad",
+            for column in ("sonar", "display", "looks", "noise_floor", "tone_drift_db", "survey_grazing_deg", "port", "beam_rad",
                            "feature_m", "first_range_m", "rig_yaw_rad", "noise_seed"):
                 self.assertNotEqual(row[column], "", column)
 
@@ -396,7 +396,7 @@ class Generator(unittest.TestCase):
         inside = []
         for picture in sorted((folder / "images").rglob("*.png")):
             mask = folder / "masks" / picture.parent.name / f"{picture.stem}_shadow.png"
-            inside += [gray for gray, is_dark in zip(read_png(picture), read_png(mask)) if is_dark]
+            inside += [gray for gray, is_dark in zip(read_png(picture.read_bytes()), read_png(mask.read_bytes())) if is_dark]
         return sum(inside) / len(inside)
 
     def test_options_come_from_a_file_too(self):
