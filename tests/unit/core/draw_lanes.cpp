@@ -21,7 +21,7 @@ struct draws {
     std::vector<float> normals, symmetric, units, logarithms;
 };
 struct draw_kernel_of_all {
-    static constexpr int widest = 16;
+    [[maybe_unused]] static constexpr int widest = 16;
 
     draws& into;
 
