@@ -12,6 +12,8 @@
 #include <stb/stb_image.h>
 #endif
 
+#include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -48,10 +50,12 @@ inline insonify::image<float> parse_gray(std::string_view bytes, const std::stri
     const int size = static_cast<int>(bytes.size());
     int width = 0, height = 0, channels = 0;
     if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) fail(stbi_failure_reason());
-    const auto decoded = 6 * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-    if (decoded > limit)
-        fail(std::to_string(width) + " x " + std::to_string(height) + " pixels are more than " + std::to_string(limit) +
-             " bytes");
+    // A BMP stored from the top down has a negative height here, and a header may hold anything.
+    const auto columns = static_cast<std::int64_t>(width), rows = std::abs(static_cast<std::int64_t>(height));
+    const std::string shape = std::to_string(columns) + " x " + std::to_string(rows) + " pixels";
+    if (columns < 1 || rows < 1) fail(shape + " are no picture");
+    if (static_cast<std::uint64_t>(columns) > limit / 6 / static_cast<std::uint64_t>(rows))
+        fail(shape + " are more than " + std::to_string(limit) + " bytes");
     const std::unique_ptr<stbi_us, void (*)(void*)> pixels(
         stbi_load_16_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
     if (!pixels) fail(stbi_failure_reason());
