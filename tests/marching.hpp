@@ -3,7 +3,7 @@
 // heightfield.
 #pragma once
 
-#include <insonify/sonar/render.hpp>
+#include <insonify/sonar/overhead/render.hpp>
 
 #include <cmath>
 

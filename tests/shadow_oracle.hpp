@@ -91,8 +91,7 @@ class oracle {
   public:
     /// @param s  without a library seabed: its bottom is one of the targets
     oracle(const in::scene& s, const in::overhead& rig) : unit_(static_cast<double>(rig.altitude)) {
-        in::detail::require(s.seabed.empty(), "scene.seabed.empty()", s.seabed.empty(),
-                            "true");
+        in::detail::require(s.seabed.empty(), "scene.seabed.empty()", s.seabed.empty(), "true");
         const in::overhead_geometry view(rig);
         first_.push_back(0);
         for (const in::target& t : s.targets) {

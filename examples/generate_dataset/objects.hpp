@@ -22,7 +22,7 @@ inline float between(in::random_sequence& draw, double low, double high) {
     return static_cast<float>(draw.uniform(low, high));
 }
 
-/// Boats, trawlers, coasters, steamers and barges: proportions as geometry/objects/hull_form.hpp cites them.
+/// Boats, trawlers, coasters, steamers and barges: proportions as geometry/objects/detail/hull_form.hpp cites them.
 inline in::mesh ship_of(const object_form& f, in::random_sequence& draw) {
     const auto length = static_cast<float>(f.length);
     in::hull h{.length = length};

@@ -1,7 +1,7 @@
 // The vehicle: steers from way-point to way-point, heaves, and pings.
 #pragma once
 
-#include <insonify/sonar/side_scan.hpp>
+#include <insonify/sonar/side_scan/side_scan.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -7,7 +7,7 @@
 //     #include <insonify/insonify.hpp>
 //
 // This list is what one defines and the others leave to it. Other shadow policies, laws and seabeds work too: include
-// the header that draws with them (sonar/render.hpp), and the unit compiles what the list lacks.
+// the header that draws with them (sonar/overhead/render.hpp), and the unit compiles what the list lacks.
 #pragma once
 
 #include <insonify/config.hpp>
@@ -18,16 +18,17 @@
 #include <insonify/seabed/mud.hpp>
 #include <insonify/seabed/ripples.hpp>
 #include <insonify/seabed/rock.hpp>
-#include <insonify/sonar/picture.hpp>
+#include <insonify/sonar/overhead/picture.hpp>
 
 #if defined(INSONIFY_IMPLEMENTATION)
-#include <insonify/sonar/render.hpp>
+#include <insonify/sonar/overhead/render.hpp>
 #define INSONIFY_ONCE template
 #else
 #define INSONIFY_ONCE extern template
 #endif
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -55,7 +56,8 @@ INSONIFY_SEABED(rock)
 #undef INSONIFY_SEABED
 
 }  // namespace seabed
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 #undef INSONIFY_ONCE
 #endif

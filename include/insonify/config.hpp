@@ -115,7 +115,7 @@
 #endif
 #endif
 
-// See core/spare_memory.hpp. The sanitizers watch memory that comes and goes, so for them it does.
+// See core/detail/spare_memory.hpp. The sanitizers watch memory that comes and goes, so for them it does.
 #if !defined(INSONIFY_KEEP_MEMORY)
 #if defined(INSONIFY_SANITIZED)
 #define INSONIFY_KEEP_MEMORY 0
@@ -191,4 +191,6 @@
     INSONIFY_JOIN(INSONIFY_ABI_NAME(INSONIFY_VERSION_MAJOR, INSONIFY_VERSION_MINOR, INSONIFY_VERSION_PATCH), \
                   INSONIFY_TAGS)
 
-namespace insonify::inline INSONIFY_ABI {}
+namespace insonify {
+inline namespace INSONIFY_ABI {}
+}  // namespace insonify

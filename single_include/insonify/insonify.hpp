@@ -146,7 +146,7 @@
 #endif
 #endif
 
-// See core/spare_memory.hpp. The sanitizers watch memory that comes and goes, so for them it does.
+// See core/detail/spare_memory.hpp. The sanitizers watch memory that comes and goes, so for them it does.
 #if !defined(INSONIFY_KEEP_MEMORY)
 #if defined(INSONIFY_SANITIZED)
 #define INSONIFY_KEEP_MEMORY 0
@@ -222,9 +222,11 @@
     INSONIFY_JOIN(INSONIFY_ABI_NAME(INSONIFY_VERSION_MAJOR, INSONIFY_VERSION_MINOR, INSONIFY_VERSION_PATCH), \
                   INSONIFY_TAGS)
 
-namespace insonify::inline INSONIFY_ABI {}
+namespace insonify {
+inline namespace INSONIFY_ABI {}
+}  // namespace insonify
 
-// ------------ insonify/core/portable.hpp ----------------------------------------------------------------
+// ------------ insonify/core/detail/portable.hpp ---------------------------------------------------------
 // Parts of the C++20 library that some standard libraries lack: libc++ has std::bit_cast from version 14 on, floats in
 // std::from_chars from 20 on and in std::to_chars from 14 on.
 
@@ -239,7 +241,8 @@ namespace insonify::inline INSONIFY_ABI {}
 #include <string_view>
 #include <type_traits>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace numeric {
 
@@ -315,7 +318,8 @@ char* format_number(char* first, char* last, Number value) {
 
 }  // namespace detail
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 // ------------ insonify/core/error.hpp -------------------------------------------------------------------
 // The two errors that leave the library, and the one way they do.
@@ -326,7 +330,8 @@ char* format_number(char* first, char* last, Number value) {
 #include <exception>
 #include <stdexcept>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// An argument that cannot be right. `what()` names the argument, its value, and what was expected.
 struct invalid_input : std::invalid_argument {
@@ -379,93 +384,16 @@ void require(bool holds, std::string_view argument, Number value, std::string_vi
 }
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI
-
-// ------------ insonify/core/dispatch.hpp ----------------------------------------------------------------
-// One kernel, several instruction sets: written once over a lane count, chosen when the program runs.
-//
-// A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
-// values go through it at a time. Its arithmetic is the same in every lane at every N, and products are never fused
-// with sums, so all levels give the same bytes; N = 1 is plain scalar code, compiled where INSONIFY_SIMD is 0. Kernels
-// that gain by AVX-512 say how many values at a time are best there, `static constexpr int widest = 16`; others stay at
-// AVX2. That is for kernels that gain more than a tenth: each copy costs compile time.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// Instruction sets that kernels are compiled for, slowest first.
-enum class isa {
-    scalar,    ///< one value at a time: builds with INSONIFY_SIMD=0; others take it for `baseline`
-    baseline,  ///< the 128-bit vectors that every processor of the target has (SSE2, NEON)
-    avx2,      ///< 256-bit integer and float vectors
-    avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
-};
-
-/// The widest instruction set that the library's kernels were compiled for and this processor runs.
-INSONIFY_FUNCTION isa best_isa();
-
-#if INSONIFY_BODIES
-INSONIFY_FUNCTION isa best_isa() {
-#if INSONIFY_DISPATCH
-    static const isa best = [] {
-        if (!__builtin_cpu_supports("avx2")) return isa::baseline;
-        const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                             __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-        return is_wide ? isa::avx512 : isa::avx2;
-    }();
-    return best;
-#elif INSONIFY_SIMD
-    return isa::baseline;
-#else
-    return isa::scalar;
-#endif
-}
-#endif
-
-namespace detail {
-
-#if INSONIFY_DISPATCH
-template <class Kernel>
-INSONIFY_TARGET("avx2")
-void run_avx2(const Kernel& kernel) {
-    kernel.template run<8>();
-}
-template <class Kernel>
-INSONIFY_TARGET("avx512f,avx512bw,avx512dq,avx512vl")
-INSONIFY_NEVER_FUSED void run_avx512(const Kernel& kernel) {
-    kernel.template run<Kernel::widest>();
-}
-#endif
-
-/// Runs the kernel at `level`, or at the widest level below it that this build and processor have.
-template <class Kernel>
-void dispatch(const Kernel& kernel, isa level) {
-    if (level > best_isa()) level = best_isa();
-#if INSONIFY_DISPATCH
-    if constexpr (requires { Kernel::widest; }) {
-        if (level == isa::avx512) return run_avx512(kernel);
-    }
-    if (level >= isa::avx2) return run_avx2(kernel);
-#endif
-#if INSONIFY_SIMD
-    kernel.template run<4>();
-#else
-    kernel.template run<1>();
-#endif
-}
-
-}  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 // ------------ insonify/core/executor.hpp ----------------------------------------------------------------
 // Who runs the loops. An executor is an argument, serial by default; the library starts no thread of its own.
 
 #include <concepts>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// `ex.bulk(count, fn)` calls `fn(i)` once for every i in [0, count), in any order and on any thread, and returns when
 /// all calls have returned. If calls throw, it rethrows one of their exceptions after the others have ended.
@@ -524,78 +452,10 @@ void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
     });
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
-// ------------ insonify/core/image_view.hpp --------------------------------------------------------------
-// A window onto pixels that live somewhere else: pointer, size and row stride. Every algorithm takes these.
-
-#include <span>
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// Non-owning, strided view of row-major pixels; row 0 is at the top. Copying it copies no pixel.
-template <class T>
-class image_view {
-  public:
-    using value_type = std::remove_const_t<T>;
-
-    image_view() = default;
-
-    /// @param data    first pixel of the first row (may be null for an empty view)
-    /// @param width   pixels in a row, >= 0
-    /// @param height  rows, >= 0
-    /// @param stride  pixels from one row to the next, >= width
-    /// @throws invalid_input for a negative size or a stride shorter than a row
-    image_view(T* data, int width, int height, std::ptrdiff_t stride)
-        : data_(data), width_(width), height_(height), stride_(stride) {
-        detail::require(width >= 0, "width", width, "at least 0");
-        detail::require(height >= 0, "height", height, "at least 0");
-        detail::require(stride >= width, "stride", stride, "at least the width");
-    }
-    image_view(T* data, int width, int height) : image_view(data, width, height, width) {}
-
-    /// A view of mutable pixels reads as a view of constant ones.
-    template <std::same_as<value_type> Mutable>
-        requires(std::is_const_v<T>)
-    image_view(image_view<Mutable> other)
-        : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
-
-    int width() const { return width_; }
-    int height() const { return height_; }
-    std::ptrdiff_t stride() const { return stride_; }
-    std::size_t size() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
-    bool empty() const { return width_ == 0 || height_ == 0; }
-    T* data() const { return data_; }
-
-    T& operator()(int x, int y) const {
-        INSONIFY_ASSERT(0 <= x && x < width_ && 0 <= y && y < height_);
-        return data_[y * stride_ + x];
-    }
-    std::span<T> row(int y) const {
-        INSONIFY_ASSERT(0 <= y && y < height_);
-        return {data_ + y * stride_, static_cast<std::size_t>(width_)};
-    }
-
-    /// The part of the view that starts at (x, y); shares the pixels.
-    /// @throws invalid_input if the part is not inside the view
-    image_view part(int x, int y, int width, int height) const {
-        detail::require(x >= 0 && x <= width_, "x", x, "a column of the view");
-        detail::require(y >= 0 && y <= height_, "y", y, "a row of the view");
-        detail::require(width >= 0 && width <= width_ - x, "width", width, "a part inside the view");
-        detail::require(height >= 0 && height <= height_ - y, "height", height, "a part inside the view");
-        return {data_ + y * stride_ + x, width, height, stride_};
-    }
-
-  private:
-    T* data_ = nullptr;
-    int width_ = 0;
-    int height_ = 0;
-    std::ptrdiff_t stride_ = 0;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-// ------------ insonify/core/spare_memory.hpp ------------------------------------------------------------
+// ------------ insonify/core/detail/spare_memory.hpp -----------------------------------------------------
 // Memory that was given back, for who asks for as much next.
 //
 // The system clears every page before it hands it out, and what is freed in large pieces goes back to it. Where
@@ -613,7 +473,8 @@ class image_view {
 #include <sys/mman.h>
 #endif
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -788,9 +649,10 @@ inline void release_memory() noexcept {
     if (detail::spare_memory* const spare = detail::spare_memory::mine()) spare->release();
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
-// ------------ insonify/core/unfilled.hpp ----------------------------------------------------------------
+// ------------ insonify/core/detail/uninitialized.hpp ----------------------------------------------------
 // Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
 // many will.
 //
@@ -800,20 +662,22 @@ inline void release_memory() noexcept {
 #include <utility>
 #include <vector>
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// For constructors: leave the elements unset.
-struct unfilled {};
+struct uninitialized {};
 
 /// Makes values that nobody gave as `T value;` does, not as `T value{};`.
 template <class T>
-class unfilled_allocator {
+class uninitialized_allocator {
   public:
     using value_type = T;
 
-    unfilled_allocator() = default;
+    uninitialized_allocator() = default;
     template <class U>
-    unfilled_allocator(const unfilled_allocator<U>&) {}
+    uninitialized_allocator(const uninitialized_allocator<U>&) {}
 
     T* allocate(std::size_t count) {
         if (!is_block(count)) return std::allocator<T>().allocate(count);
@@ -838,7 +702,7 @@ class unfilled_allocator {
         std::construct_at(at, std::forward<From>(from)...);
     }
 
-    friend bool operator==(const unfilled_allocator&, const unfilled_allocator&) { return true; }
+    friend bool operator==(const uninitialized_allocator&, const uninitialized_allocator&) { return true; }
 
   private:
     static_assert(alignof(T) <= memory_block::alignment);
@@ -848,16 +712,90 @@ class unfilled_allocator {
 
 /// Elements stay unset until somebody sets them.
 template <class T>
-using unfilled_vector = std::vector<T, unfilled_allocator<T>>;
+using uninitialized_vector = std::vector<T, uninitialized_allocator<T>>;
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+// ------------ insonify/core/image_view.hpp --------------------------------------------------------------
+// A window onto pixels that live somewhere else: pointer, size and row stride. Every algorithm takes these.
+
+#include <span>
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Non-owning, strided view of row-major pixels; row 0 is at the top. Copying it copies no pixel.
+template <class T>
+class image_view {
+  public:
+    using value_type = std::remove_const_t<T>;
+
+    image_view() = default;
+
+    /// @param data    first pixel of the first row (may be null for an empty view)
+    /// @param width   pixels in a row, >= 0
+    /// @param height  rows, >= 0
+    /// @param stride  pixels from one row to the next, >= width
+    /// @throws invalid_input for a negative size or a stride shorter than a row
+    image_view(T* data, int width, int height, std::ptrdiff_t stride)
+        : data_(data), width_(width), height_(height), stride_(stride) {
+        detail::require(width >= 0, "width", width, "at least 0");
+        detail::require(height >= 0, "height", height, "at least 0");
+        detail::require(stride >= width, "stride", stride, "at least the width");
+    }
+    image_view(T* data, int width, int height) : image_view(data, width, height, width) {}
+
+    /// A view of mutable pixels reads as a view of constant ones.
+    template <std::same_as<value_type> Mutable>
+        requires(std::is_const_v<T>)
+    image_view(image_view<Mutable> other)
+        : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    std::ptrdiff_t stride() const { return stride_; }
+    std::size_t size() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
+    bool empty() const { return width_ == 0 || height_ == 0; }
+    T* data() const { return data_; }
+
+    T& operator()(int x, int y) const {
+        INSONIFY_ASSERT(0 <= x && x < width_ && 0 <= y && y < height_);
+        return data_[y * stride_ + x];
+    }
+    std::span<T> row(int y) const {
+        INSONIFY_ASSERT(0 <= y && y < height_);
+        return {data_ + y * stride_, static_cast<std::size_t>(width_)};
+    }
+
+    /// The part of the view that starts at (x, y); shares the pixels.
+    /// @throws invalid_input if the part is not inside the view
+    image_view part(int x, int y, int width, int height) const {
+        detail::require(x >= 0 && x <= width_, "x", x, "a column of the view");
+        detail::require(y >= 0 && y <= height_, "y", y, "a row of the view");
+        detail::require(width >= 0 && width <= width_ - x, "width", width, "a part inside the view");
+        detail::require(height >= 0 && height <= height_ - y, "height", height, "a part inside the view");
+        return {data_ + y * stride_ + x, width, height, stride_};
+    }
+
+  private:
+    T* data_ = nullptr;
+    int width_ = 0;
+    int height_ = 0;
+    std::ptrdiff_t stride_ = 0;
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 // ------------ insonify/core/image.hpp -------------------------------------------------------------------
 // Pixels that own their memory.
 
 #include <initializer_list>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Red, green and blue, in that order in memory.
 template <class T>
@@ -880,7 +818,7 @@ class image {
     image(int width, int height, T fill = T{})
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), fill) {}
 
-    image(int width, int height, detail::unfilled)
+    image(int width, int height, detail::uninitialized)
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area()) {}
 
     /// Rows written out, for tests and small tables: `image<float>{{0, 1}, {2, 3}}`.
@@ -897,7 +835,7 @@ class image {
     }
 
     /// A packed copy of what a view shows.
-    explicit image(image_view<const T> source) : image(source.width(), source.height(), detail::unfilled{}) {
+    explicit image(image_view<const T> source) : image(source.width(), source.height(), detail::uninitialized{}) {
         for (int y = 0; y < height_; ++y) {
             const auto from = source.row(y);
             std::copy(from.begin(), from.end(), row(y).begin());
@@ -944,14 +882,14 @@ class image {
 
     int width_ = 0;
     int height_ = 0;
-    detail::unfilled_vector<T> pixels_;
+    detail::uninitialized_vector<T> pixels_;
 };
 
 /// The image with every pixel replaced by `fn(pixel)`; the size stays, the type is what `fn` returns.
 template <class T, class Fn>
 auto map_pixels(image_view<const T> source, Fn&& fn) {
     using result = std::decay_t<decltype(fn(std::declval<const T&>()))>;
-    image<result> out(source.width(), source.height(), detail::unfilled{});
+    image<result> out(source.width(), source.height(), detail::uninitialized{});
     for (int y = 0; y < source.height(); ++y) {
         const auto from = source.row(y);
         std::transform(from.begin(), from.end(), out.row(y).begin(), fn);
@@ -963,35 +901,8 @@ auto map_pixels(const image<T>& source, Fn&& fn) {
     return map_pixels(source.view(), fn);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
-
-// ------------ insonify/core/filled.hpp ------------------------------------------------------------------
-// Images of one value, made by all threads: filling a large one takes as long as drawing a small picture, most of it
-// to get hold of the memory.
-
-#include <array>
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-template <class T, executor E>
-image<T> filled(int width, int height, T value, E& ex) {
-    image<T> result(width, height, unfilled{});
-    if (result.empty()) return result;
-    const std::size_t rows = (std::size_t{1} << 18) / (static_cast<std::size_t>(width) * sizeof(T)) + 1;
-    bulk_ranges(ex, static_cast<std::size_t>(height), rows, [&](std::size_t first, std::size_t last) {
-        T* const start = result.row(static_cast<int>(first)).data();
-        const std::size_t count = (last - first) * static_cast<std::size_t>(width);
-        // Most values are the same byte over and over, which the system writes fastest.
-        const auto bytes = numeric::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
-        if (std::count(bytes.begin(), bytes.end(), bytes[0]) == std::ssize(bytes))
-            std::memset(start, bytes[0], count * sizeof(T));
-        else
-            std::fill_n(start, count, value);
-    });
-    return result;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 // ------------ insonify/core/linear.hpp ------------------------------------------------------------------
 // The products of vectors and matrices, written out: GLM's may be compiled with fused multiply-add, which rounds
@@ -1002,7 +913,9 @@ image<T> filled(int width, int height, T value, E& ex) {
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::numeric {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace numeric {
 
 template <class T>
 INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
@@ -1046,7 +959,9 @@ T determinant(const glm::mat<3, 3, T>& m) {
     return dot(m[0], cross(m[1], m[2]));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::numeric
+}  // namespace numeric
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -1061,7 +976,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace literals {
 /// Angles are radians in the API: `6_deg` is 0.10472.
@@ -1222,11 +1138,93 @@ inline double atan2(double y, double x) {
 }
 
 }  // namespace numeric
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/core/lanes.hpp -------------------------------------------------------------------
+// ------------ insonify/core/simd/dispatch.hpp -----------------------------------------------------------
+// One kernel, several instruction sets: written once over a lane count, chosen when the program runs.
+//
+// A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
+// values go through it at a time. Its arithmetic is the same in every lane at every N, and products are never fused
+// with sums, so all levels give the same bytes; N = 1 is plain scalar code, compiled where INSONIFY_SIMD is 0. Kernels
+// that gain by AVX-512 say how many values at a time are best there, `static constexpr int widest = 16`; others stay at
+// AVX2. That is for kernels that gain more than a tenth: each copy costs compile time.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Instruction sets that kernels are compiled for, slowest first.
+enum class isa {
+    scalar,    ///< one value at a time: builds with INSONIFY_SIMD=0; others take it for `baseline`
+    baseline,  ///< the 128-bit vectors that every processor of the target has (SSE2, NEON)
+    avx2,      ///< 256-bit integer and float vectors
+    avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
+};
+
+/// The widest instruction set that the library's kernels were compiled for and this processor runs.
+INSONIFY_FUNCTION isa best_isa();
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION isa best_isa() {
+#if INSONIFY_DISPATCH
+    static const isa best = [] {
+        if (!__builtin_cpu_supports("avx2")) return isa::baseline;
+        const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                             __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+        return is_wide ? isa::avx512 : isa::avx2;
+    }();
+    return best;
+#elif INSONIFY_SIMD
+    return isa::baseline;
+#else
+    return isa::scalar;
+#endif
+}
+#endif
+
+namespace detail {
+
+#if INSONIFY_DISPATCH
+template <class Kernel>
+INSONIFY_TARGET("avx2")
+void run_avx2(const Kernel& kernel) {
+    kernel.template run<8>();
+}
+template <class Kernel>
+INSONIFY_TARGET("avx512f,avx512bw,avx512dq,avx512vl")
+INSONIFY_NEVER_FUSED void run_avx512(const Kernel& kernel) {
+    kernel.template run<Kernel::widest>();
+}
+#endif
+
+/// Runs the kernel at `level`, or at the widest level below it that this build and processor have.
+template <class Kernel>
+void dispatch(const Kernel& kernel, isa level) {
+    if (level > best_isa()) level = best_isa();
+#if INSONIFY_DISPATCH
+    if constexpr (requires { Kernel::widest; }) {
+        if (level == isa::avx512) return run_avx512(kernel);
+    }
+    if (level >= isa::avx2) return run_avx2(kernel);
+#endif
+#if INSONIFY_SIMD
+    kernel.template run<4>();
+#else
+    kernel.template run<1>();
+#endif
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/core/simd/lanes.hpp --------------------------------------------------------------
 // Several values that go through one instruction: GNU vector types, or a plain value where N is 1.
 //
 // Kernels write `mask ? a : b` and + - * < & on these and read the same for one lane and for eight. Lanes stay local:
@@ -1235,7 +1233,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 template <class T, int N>
 struct lanes_of {
@@ -1528,16 +1528,21 @@ INSONIFY_INLINE void count_up(lanes<T, N>& into) {
     load(into, values);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/quantize.hpp ----------------------------------------------------------------
 // From [0, 1] to codes of 8 or 16 bits and back: the one rounding rule of filters and files.
 
+#include <array>
+
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What a gray file or screen stores for a pixel.
 template <class T>
@@ -1649,16 +1654,19 @@ void dequantize_row(std::span<const Code> from, std::span<float> to) {
     }
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/core/random_lanes.hpp ------------------------------------------------------------
+// ------------ insonify/core/simd/random_lanes.hpp -------------------------------------------------------
 // The numbers of random.hpp, several at a time and to the same bits: blocks of Philox, uniform and normal draws.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// The products of the lower halves of the lanes with a word. Four lanes are for AVX2, eight for AVX-512: kernels of W
 /// lanes of 32 bits have W / 2 of these.
@@ -1808,7 +1816,9 @@ INSONIFY_INLINE void normal_lanes(lanes<double, N>& first, lanes<double, N>& sec
     second = radius * second;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -1822,7 +1832,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 using philox_counter = std::array<std::uint32_t, 4>;
 using philox_key = std::array<std::uint32_t, 2>;
@@ -1902,7 +1913,8 @@ class random_sequence {
     std::size_t used_ = 4;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -1923,7 +1935,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -1996,7 +2009,8 @@ concept pixel_filter = pixel_function<const F, Pixel> || requires(const F& f) {
 template <class F, class Pixel>
 concept filter_for = image_filter<F, Pixel> || measured_filter<F, Pixel> || pixel_filter<F, Pixel>;
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -2005,7 +2019,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// The colour of each gray level. Floats in [0, 1] take the colour of the nearest level; NaN that of level 0.
 struct color_table {
@@ -2095,7 +2110,8 @@ inline constexpr color_table inverse_gray = tabulate_colors([](int level) {
 });
 
 }  // namespace colormap
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -2104,7 +2120,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -2147,16 +2164,110 @@ inline constexpr detail::to_code<std::uint16_t> to_uint16{};
 /// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` takes it back exactly.
 inline constexpr detail::to_unit to_float{};
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/core/correlation.hpp -------------------------------------------------------------
+// ------------ insonify/core/detail/gamma.hpp ------------------------------------------------------------
+// Gamma-distributed numbers: what averages of looks and textures of the seabed are.
+//
+// Based on: George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM Transactions on
+// Mathematical Software 26, 2000.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// One trial at N gamma-distributed numbers of mean one, from four words each; `settled` where it succeeded, as 19 of
+/// 20 do.
+///
+/// @param shape  above 0
+template <int N>
+INSONIFY_INLINE void try_gamma(lanes<double, N>& number, lanes<std::int64_t, N>& settled,
+                               const lanes<std::uint64_t, N> (&word)[4], const lanes<double, N>& shape) {
+    using doubles = lanes<double, N>;
+    using flags = lanes<std::int64_t, N>;
+    // Shapes below one are those of one more, times a power of a uniform number.
+    const doubles d = (shape < 1.0 ? shape + 1.0 : shape) - 1.0 / 3;
+    doubles c, x, other, u, log_v;
+    square_root<N>(c, 9.0 * d);
+    c = 1.0 / c;
+    normal_lanes<N>(x, other, word[0], word[1]);
+    uniform_lanes<N>(u, word[2]);
+    const doubles root = 1.0 + c * x, v = root * root * root;
+    log_lanes<N>(u, u);
+    log_lanes<N>(log_v, v > 0.0 ? v : doubles{} + 1.0);
+    settled = flags(v > 0.0) & flags(u < 0.5 * x * x + d * (1.0 - v + log_v));
+    number = d * v / shape;
+    for (int k = 0; k < N; ++k) {
+        if (lane(shape, k) < 1) {
+            const double power =
+                numeric::pow(uniform_open(static_cast<std::uint32_t>(lane(word[3], k))), 1 / lane(shape, k));
+            set_lane(number, k, lane(number, k) * power);
+        }
+    }
+}
+
+/// A gamma-distributed number of mean one.
+///
+/// @param draw  draw(trial) makes four fresh words
+template <class Draw>
+double gamma_of_mean_one(double shape, const Draw& draw) {
+    for (std::uint32_t trial = 0;; ++trial) {
+        const philox_counter words = draw(trial);
+        const std::uint64_t word[4] = {words[0], words[1], words[2], words[3]};
+        double number;
+        std::int64_t settled;
+        try_gamma<1>(number, settled, word, shape);
+        if (settled != 0) return number;
+    }
+}
+
+/// The mean of the square root of a gamma-distributed number of mean one: Gamma(shape + 1/2) / (Gamma(shape)
+/// sqrt(shape)), to 1e-12, by its asymptotic series beyond 20.
+inline double mean_root_of_gamma(double shape) {
+    double factor = 1, x = shape;
+    for (; x < 20; x += 1) factor *= x / (x + 0.5);
+    const double i = 1 / x;
+    const double series =
+        1 + i * (-1.0 / 8 + i * (1.0 / 128 + i * (5.0 / 1024 + i * (-21.0 / 32768 + i * (-399.0 / 262144)))));
+    return factor * numeric::square_root(x / shape) * series;
+}
+
+/// The mean of |s + n| where n is complex normal noise of unit power and s^2 = `steady`, over sqrt(1 + steady); to
+/// 1e-6. Stephen O. Rice. Mathematical Analysis of Random Noise. Bell System Technical Journal 24, 1945 (eq. 3.10-12).
+inline double mean_of_rice(double steady) {
+    const double half_root_pi = 0.88622692545275801;
+    if (steady > 300) {
+        const double i = 1 / steady;
+        return numeric::square_root(1 / (1 + i)) * (1 + i * (1.0 / 4 + i * (1.0 / 32 + i * (3.0 / 128))));
+    }
+    // exp(-steady) times the confluent hypergeometric function (3/2; 1; steady), whose terms are all positive.
+    double term = 1, sum = 1;
+    for (int n = 0; term > 1e-16 * sum; ++n) {
+        term *= (n + 1.5) / (static_cast<double>(n + 1) * (n + 1)) * steady;
+        sum += term;
+    }
+    return half_root_pi * sum * numeric::exp(-steady) / numeric::square_root(1 + steady);
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/core/detail/correlation.hpp ------------------------------------------------------
 // Filters that make neighbours of white noise alike.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// The taps of a Gaussian filter under which white noise keeps its variance, from the middle outwards.
 ///
@@ -2184,11 +2295,13 @@ inline std::vector<float> intensity_taps(double length) {
     return gaussian_taps(length * 0.70710678118654752);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/core/draw_lanes.hpp --------------------------------------------------------------
+// ------------ insonify/core/simd/draw_lanes.hpp ---------------------------------------------------------
 // Draws as floats, 16 or 32 at a time: what fills an image with noise.
 //
 // The law is that of the draws in random.hpp to a float's rounding: a normal draw is off by less than 6e-7 of what
@@ -2196,7 +2309,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// Which of N blocks lane k of their words and draws belongs to, so that store_draws gets by with shuffles inside of
 /// 128 bits.
@@ -2342,11 +2457,13 @@ INSONIFY_INLINE void normal_lanes(lanes<float, N>& first, lanes<float, N>& secon
     second = radius * second;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/filter/noise_pass.hpp ------------------------------------------------------------
+// ------------ insonify/filter/detail/noise_pass.hpp -----------------------------------------------------
 // How noise goes over an image: by runs of a row, whatever the pixels are and wherever the run begins.
 //
 // Noise is defined on floats in [0, 1]. Codes of 8 and 16 bits are taken there and back, as MATLAB's imnoise does, and
@@ -2354,7 +2471,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// One stream per kind of noise; the numbers are part of what a seed means.
 enum class noise_stream : std::uint32_t {
@@ -2582,16 +2701,19 @@ void apply_rule(const Rule& rule, const float* from, const float* draw, const fl
     dispatch(rule_kernel<Rule>{rule, from, draw, scale, to, count}, best_isa());
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/filter/correlated.hpp ------------------------------------------------------------
+// ------------ insonify/filter/detail/correlated.hpp -----------------------------------------------------
 // Normal draws that are like their neighbours: white noise under a Gaussian filter, row by row.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Over how many pixels noise stays alike: where its correlation has fallen to 1 / e, or for what echoes make, that of
 /// their intensity (a tenth less at 1, where a filter has few taps). 0: not at all.
@@ -2686,94 +2808,83 @@ class correlated_draws {
 };
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/core/gamma.hpp -------------------------------------------------------------------
-// Gamma-distributed numbers: what averages of looks and textures of the seabed are.
-//
-// Based on: George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM Transactions on
-// Mathematical Software 26, 2000.
+// ------------ insonify/filter/detail/rejection.hpp ------------------------------------------------------
+// Draws by trial: pixels whose trial fails go on to the next, side by side with others that failed.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
-/// One trial at N gamma-distributed numbers of mean one, from four words each; `settled` where it succeeded, as 19 of
-/// 20 do.
+/// Pixels of a run, by their place in it.
+struct pixel_list {
+    int count = 0;
+    std::uint16_t places[run_length + 8];
+};
+
+/// Adds a place to those of a list without a jump, because what comes next is anyone's guess.
+INSONIFY_INLINE void add_if(bool wanted, int place, std::uint16_t* places, int& count) {
+    places[count] = static_cast<std::uint16_t>(place);
+    count += wanted ? 1 : 0;
+}
+
+/// Draws a number for each pixel of a list.
 ///
-/// @param shape  above 0
-template <int N>
-INSONIFY_INLINE void try_gamma(lanes<double, N>& number, lanes<std::int64_t, N>& settled,
-                               const lanes<std::uint64_t, N> (&word)[4], const lanes<double, N>& shape) {
-    using doubles = lanes<double, N>;
-    using flags = lanes<std::int64_t, N>;
-    // Shapes below one are those of one more, times a power of a uniform number.
-    const doubles d = (shape < 1.0 ? shape + 1.0 : shape) - 1.0 / 3;
-    doubles c, x, other, u, log_v;
-    square_root<N>(c, 9.0 * d);
-    c = 1.0 / c;
-    normal_lanes<N>(x, other, word[0], word[1]);
-    uniform_lanes<N>(u, word[2]);
-    const doubles root = 1.0 + c * x, v = root * root * root;
-    log_lanes<N>(u, u);
-    log_lanes<N>(log_v, v > 0.0 ? v : doubles{} + 1.0);
-    settled = flags(v > 0.0) & flags(u < 0.5 * x * x + d * (1.0 - v + log_v));
-    number = d * v / shape;
-    for (int k = 0; k < N; ++k) {
-        if (lane(shape, k) < 1) {
-            const double power =
-                numeric::pow(uniform_open(static_cast<std::uint32_t>(lane(word[3], k))), 1 / lane(shape, k));
-            set_lane(number, k, lane(number, k) * power);
+/// `method.template attempt<N>(result, words, parameter, trial)` makes one trial of N pixels and returns which of them
+/// it settled; `words` are those of block `method.block(trial)` of each pixel.
+template <class Method>
+struct rejection_kernel {
+    Method method;
+    const double* parameter;
+    double* result;
+    pixel_list* list;
+    noise_run at;
+    noise_key noise;
+
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        constexpr int N = Width > 1 ? Width / 2 : 1;
+        using words = lanes<std::uint64_t, N>;
+        using doubles = lanes<double, N>;
+        std::uint16_t* const places = list->places;
+        int count = list->count;
+        for (std::uint32_t trial = 0; count > 0; ++trial) {
+            int left = 0;
+            for (int first = 0; first < count; first += N) {
+                // Lanes behind the last pixel do it again.
+                int place[static_cast<unsigned>(N)];
+                for (int k = 0; k < N; ++k) place[k] = places[first + k < count ? first + k : count - 1];
+                words block[4];
+                gather<N>(block[0], [&](int k) {
+                    return std::uint64_t{static_cast<std::uint32_t>(at.x) + static_cast<std::uint32_t>(place[k])};
+                });
+                block[1] = words{} + std::uint64_t{static_cast<std::uint32_t>(at.y)};
+                block[2] = words{} + std::uint64_t{method.block(trial) | at.channel << 24};
+                block[3] = words{} + std::uint64_t{noise.frame};
+                philox_lanes<N>(block, noise.key[0], noise.key[1]);
+                doubles given, made;
+                gather<N>(given, [&](int k) { return parameter[place[k]]; });
+                lanes<std::int64_t, N> settled;
+                method.template attempt<N>(made, settled, block, given, trial);
+                for (int k = 0; k < N && first + k < count; ++k) {
+                    result[place[k]] = lane(made, k);
+                    add_if(lane(settled, k) == 0, place[k], places, left);
+                }
+            }
+            count = left;
         }
     }
-}
+};
 
-/// A gamma-distributed number of mean one.
-///
-/// @param draw  draw(trial) makes four fresh words
-template <class Draw>
-double gamma_of_mean_one(double shape, const Draw& draw) {
-    for (std::uint32_t trial = 0;; ++trial) {
-        const philox_counter words = draw(trial);
-        const std::uint64_t word[4] = {words[0], words[1], words[2], words[3]};
-        double number;
-        std::int64_t settled;
-        try_gamma<1>(number, settled, word, shape);
-        if (settled != 0) return number;
-    }
-}
-
-/// The mean of the square root of a gamma-distributed number of mean one: Gamma(shape + 1/2) / (Gamma(shape)
-/// sqrt(shape)), to 1e-12, by its asymptotic series beyond 20.
-inline double mean_root_of_gamma(double shape) {
-    double factor = 1, x = shape;
-    for (; x < 20; x += 1) factor *= x / (x + 0.5);
-    const double i = 1 / x;
-    const double series =
-        1 + i * (-1.0 / 8 + i * (1.0 / 128 + i * (5.0 / 1024 + i * (-21.0 / 32768 + i * (-399.0 / 262144)))));
-    return factor * numeric::square_root(x / shape) * series;
-}
-
-/// The mean of |s + n| where n is complex normal noise of unit power and s^2 = `steady`, over sqrt(1 + steady); to
-/// 1e-6. Stephen O. Rice. Mathematical Analysis of Random Noise. Bell System Technical Journal 24, 1945 (eq. 3.10-12).
-inline double mean_of_rice(double steady) {
-    const double half_root_pi = 0.88622692545275801;
-    if (steady > 300) {
-        const double i = 1 / steady;
-        return numeric::square_root(1 / (1 + i)) * (1 + i * (1.0 / 4 + i * (1.0 / 32 + i * (3.0 / 128))));
-    }
-    // exp(-steady) times the confluent hypergeometric function (3/2; 1; steady), whose terms are all positive.
-    double term = 1, sum = 1;
-    for (int n = 0; term > 1e-16 * sum; ++n) {
-        term *= (n + 1.5) / (static_cast<double>(n + 1) * (n + 1)) * steady;
-        sum += term;
-    }
-    return half_root_pi * sum * numeric::exp(-steady) / numeric::square_root(1 + steady);
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -2782,7 +2893,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -2861,78 +2973,8 @@ class parameter {
     int x_ = 0, y_ = 0;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/filter/rejection.hpp -------------------------------------------------------------
-// Draws by trial: pixels whose trial fails go on to the next, side by side with others that failed.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-/// Pixels of a run, by their place in it.
-struct pixel_list {
-    int count = 0;
-    std::uint16_t places[run_length + 8];
-};
-
-/// Adds a place to those of a list without a jump, because what comes next is anyone's guess.
-INSONIFY_INLINE void add_if(bool wanted, int place, std::uint16_t* places, int& count) {
-    places[count] = static_cast<std::uint16_t>(place);
-    count += wanted ? 1 : 0;
-}
-
-/// Draws a number for each pixel of a list.
-///
-/// `method.template attempt<N>(result, words, parameter, trial)` makes one trial of N pixels and returns which of them
-/// it settled; `words` are those of block `method.block(trial)` of each pixel.
-template <class Method>
-struct rejection_kernel {
-    Method method;
-    const double* parameter;
-    double* result;
-    pixel_list* list;
-    noise_run at;
-    noise_key noise;
-
-    template <int Width>
-    INSONIFY_INLINE void run() const {
-        constexpr int N = Width > 1 ? Width / 2 : 1;
-        using words = lanes<std::uint64_t, N>;
-        using doubles = lanes<double, N>;
-        std::uint16_t* const places = list->places;
-        int count = list->count;
-        for (std::uint32_t trial = 0; count > 0; ++trial) {
-            int left = 0;
-            for (int first = 0; first < count; first += N) {
-                // Lanes behind the last pixel do it again.
-                int place[static_cast<unsigned>(N)];
-                for (int k = 0; k < N; ++k) place[k] = places[first + k < count ? first + k : count - 1];
-                words block[4];
-                gather<N>(block[0], [&](int k) {
-                    return std::uint64_t{static_cast<std::uint32_t>(at.x) + static_cast<std::uint32_t>(place[k])};
-                });
-                block[1] = words{} + std::uint64_t{static_cast<std::uint32_t>(at.y)};
-                block[2] = words{} + std::uint64_t{method.block(trial) | at.channel << 24};
-                block[3] = words{} + std::uint64_t{noise.frame};
-                philox_lanes<N>(block, noise.key[0], noise.key[1]);
-                doubles given, made;
-                gather<N>(given, [&](int k) { return parameter[place[k]]; });
-                lanes<std::int64_t, N> settled;
-                method.template attempt<N>(made, settled, block, given, trial);
-                for (int k = 0; k < N && first + k < count; ++k) {
-                    result[place[k]] = lane(made, k);
-                    add_if(lane(settled, k) == 0, place[k], places, left);
-                }
-            }
-            count = left;
-        }
-    }
-};
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -2950,7 +2992,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What the pixels of an image of echoes hold. An amplitude is the square root of an intensity.
 enum class echo { amplitude, intensity };
@@ -3224,7 +3267,8 @@ struct rician {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -3233,7 +3277,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What red, green and blue contribute to gray.
 struct gray_weights {
@@ -3282,7 +3327,8 @@ struct to_gray {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -3298,7 +3344,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// How many pixels there are of each level. Level k of n stands for the value k / (n - 1) and takes what is nearest to
 /// it, ties up; values outside [0, 1] count at the ends. Those of many images add up to that of a data set:
@@ -3655,124 +3702,8 @@ class match_binned {
     histogram wanted_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/filter/sweep.hpp -----------------------------------------------------------------
-// One pass over an image: row by row, in runs that fit the nearest cache, shared out by an executor.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// Column and row that filters take the first pixel of an image for.
-struct pixel_origin {
-    int x = 0, y = 0;
-};
-
-namespace detail {
-
-/// Neighbours in a row, at most run_length of them; `to` may be `from`.
-template <class Pass, class From, class To>
-INSONIFY_INLINE void call_row(Pass& pass, const From* from, To* to, int count, int x, int y) {
-    if constexpr (row_function<Pass, From>) {
-        pass.row(from, to, count, x, y);
-    } else {
-        for (int i = 0; i < count; ++i) to[i] = call_pixel(pass, from[i], x + i, y);
-    }
-}
-
-/// Whoever wants to know where the image lies and how large it is before its pixels come is told.
-template <class Pass>
-void place_pass(Pass& pass, const pixel_area& area) {
-    if constexpr (requires { pass.place(area); }) pass.place(area);
-}
-
-/// What is done with a run's pass behind its last row: nothing.
-inline constexpr auto forget_pass = [](const auto&) {};
-
-/// Rows in runs of some 64 Ki pixels, in any order, each with a copy of the pass; `to` may be `from`.
-/// @param done  called with each of the copies, by any of the executor's threads
-template <class From, class To, class Pass, executor E, class Done = decltype(forget_pass)>
-void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin,
-           const Done& done = forget_pass) {
-    Pass placed = pass;
-    place_pass(placed, {origin.x, origin.y, from.width(), from.height()});
-    const int rows = 65536 / (std::max)(from.width(), 1) + 1;
-    bulk_ranges(ex, static_cast<std::size_t>(from.height()), static_cast<std::size_t>(rows),
-                [&](std::size_t first, std::size_t last) {
-                    Pass own = placed;
-                    for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
-                        const From* const source = from.row(y).data();
-                        To* const target = to.row(y).data();
-                        for (int x = 0; x < from.width(); x += run_length) {
-                            const int count = (std::min)(run_length, from.width() - x);
-                            call_row(own, source + x, target + x, count, origin.x + x, origin.y + y);
-                        }
-                    }
-                    done(own);
-                });
-}
-
-}  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/filter/level_sweep.hpp -----------------------------------------------------------
-// The levels of what a pass makes, and how often each comes: for a filter that looks at no more than that, one sweep
-// instead of two, and a quarter of the memory.
-
-#include <atomic>
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-/// A pass, and behind it the levels of its floats, counted.
-template <class Pass>
-struct level_pass {
-    Pass pass;
-    code_counter<std::uint8_t> counter{};
-    int nan = 0;
-
-    template <class Pixel>
-    std::uint8_t operator()(const Pixel& pixel, int x, int y) {
-        std::uint8_t level = 0;
-        row(&pixel, &level, 1, x, y);
-        return level;
-    }
-    template <class Pixel>
-    void row(const Pixel* from, std::uint8_t* to, int count, int x, int y) {
-        float values[run_length];
-        call_row(pass, from, values, count, x, y);
-        const auto pixels = static_cast<std::size_t>(count);
-        quantize_row(std::span<const float>(values, pixels), std::span<std::uint8_t>(to, pixels));
-        counter.add(to, count);
-        nan += count_nan(values, count);
-    }
-    void place(const pixel_area& area) { place_pass(pass, area); }
-};
-
-/// The nearest of 256 levels of each float that a pass makes, and how many there are of each; nothing if some of the
-/// floats are no numbers, which have no level.
-template <class From, class Pass, executor E>
-std::optional<histogram> sweep_levels(image_view<const From> from, image_view<std::uint8_t> to, const Pass& pass, E& ex,
-                                      pixel_origin origin) {
-    std::array<std::atomic<std::uint64_t>, 256> counts{};
-    std::atomic<bool> has_nan = false;
-    sweep(from, to, level_pass<Pass>{pass}, ex, origin, [&](const level_pass<Pass>& run) {
-        histogram own{std::vector<std::uint64_t>(counts.size())};
-        run.counter.add_to(own);
-        for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += own.counts[i];
-        if (run.nan > 0) has_nan = true;
-    });
-    if (has_nan) return std::nullopt;
-    return histogram{std::vector<std::uint64_t>(counts.begin(), counts.end())};
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -3785,7 +3716,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// The distinct values of an image in rising order, and how many pixels have at most that value.
 struct distribution {
@@ -3987,7 +3919,8 @@ class match_histogram {
     std::shared_ptr<const distribution> reference_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -4005,7 +3938,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -4202,7 +4136,131 @@ struct salt_and_pepper {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/filter/detail/sweep.hpp ----------------------------------------------------------
+// One pass over an image: row by row, in runs that fit the nearest cache, shared out by an executor.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Column and row that filters take the first pixel of an image for.
+struct pixel_origin {
+    int x = 0, y = 0;
+};
+
+namespace detail {
+
+/// Neighbours in a row, at most run_length of them; `to` may be `from`.
+template <class Pass, class From, class To>
+INSONIFY_INLINE void call_row(Pass& pass, const From* from, To* to, int count, int x, int y) {
+    if constexpr (row_function<Pass, From>) {
+        pass.row(from, to, count, x, y);
+    } else {
+        for (int i = 0; i < count; ++i) to[i] = call_pixel(pass, from[i], x + i, y);
+    }
+}
+
+/// Whoever wants to know where the image lies and how large it is before its pixels come is told.
+template <class Pass>
+void place_pass(Pass& pass, const pixel_area& area) {
+    if constexpr (requires { pass.place(area); }) pass.place(area);
+}
+
+/// What is done with a run's pass behind its last row: nothing.
+inline constexpr auto forget_pass = [](const auto&) {};
+
+/// Rows in runs of some 64 Ki pixels, in any order, each with a copy of the pass; `to` may be `from`.
+/// @param done  called with each of the copies, by any of the executor's threads
+template <class From, class To, class Pass, executor E, class Done = decltype(forget_pass)>
+void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin,
+           const Done& done = forget_pass) {
+    Pass placed = pass;
+    place_pass(placed, {origin.x, origin.y, from.width(), from.height()});
+    const int rows = 65536 / (std::max)(from.width(), 1) + 1;
+    bulk_ranges(ex, static_cast<std::size_t>(from.height()), static_cast<std::size_t>(rows),
+                [&](std::size_t first, std::size_t last) {
+                    Pass own = placed;
+                    for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
+                        const From* const source = from.row(y).data();
+                        To* const target = to.row(y).data();
+                        for (int x = 0; x < from.width(); x += run_length) {
+                            const int count = (std::min)(run_length, from.width() - x);
+                            call_row(own, source + x, target + x, count, origin.x + x, origin.y + y);
+                        }
+                    }
+                    done(own);
+                });
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/filter/detail/level_sweep.hpp ----------------------------------------------------
+// The levels of what a pass makes, and how often each comes: for a filter that looks at no more than that, one sweep
+// instead of two, and a quarter of the memory.
+
+#include <atomic>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// A pass, and behind it the levels of its floats, counted.
+template <class Pass>
+struct level_pass {
+    Pass pass;
+    code_counter<std::uint8_t> counter{};
+    int nan = 0;
+
+    template <class Pixel>
+    std::uint8_t operator()(const Pixel& pixel, int x, int y) {
+        std::uint8_t level = 0;
+        row(&pixel, &level, 1, x, y);
+        return level;
+    }
+    template <class Pixel>
+    void row(const Pixel* from, std::uint8_t* to, int count, int x, int y) {
+        float values[run_length];
+        call_row(pass, from, values, count, x, y);
+        const auto pixels = static_cast<std::size_t>(count);
+        quantize_row(std::span<const float>(values, pixels), std::span<std::uint8_t>(to, pixels));
+        counter.add(to, count);
+        nan += count_nan(values, count);
+    }
+    void place(const pixel_area& area) { place_pass(pass, area); }
+};
+
+/// The nearest of 256 levels of each float that a pass makes, and how many there are of each; nothing if some of the
+/// floats are no numbers, which have no level.
+template <class From, class Pass, executor E>
+std::optional<histogram> sweep_levels(image_view<const From> from, image_view<std::uint8_t> to, const Pass& pass, E& ex,
+                                      pixel_origin origin) {
+    std::array<std::atomic<std::uint64_t>, 256> counts{};
+    std::atomic<bool> has_nan = false;
+    sweep(from, to, level_pass<Pass>{pass}, ex, origin, [&](const level_pass<Pass>& run) {
+        histogram own{std::vector<std::uint64_t>(counts.size())};
+        run.counter.add_to(own);
+        for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += own.counts[i];
+        if (run.nan > 0) has_nan = true;
+    });
+    if (has_nan) return std::nullopt;
+    return histogram{std::vector<std::uint64_t>(counts.begin(), counts.end())};
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -4221,7 +4279,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -4362,7 +4421,7 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
         sweep(look_at(source), source.view(), pass, ex, origin);
         return std::move(source);
     } else {
-        image<to> out(source.width(), source.height(), unfilled{});
+        image<to> out(source.width(), source.height(), uninitialized{});
         sweep(look_at(source), out.view(), pass, ex, origin);
         return out;
     }
@@ -4409,7 +4468,7 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     } else if constexpr (measured_filter<F, pixel>) {
         if constexpr (std::same_as<pixel, float> && level_filter<F>) {
             // Levels are a quarter of what the pixels are.
-            image<std::uint8_t> levels(source.width(), source.height(), unfilled{});
+            image<std::uint8_t> levels(source.width(), source.height(), uninitialized{});
             if (const auto counted = sweep_levels(look_at(source), levels.view(), pass, run.ex, run.origin))
                 return run_stages(std::move(levels), stage.pass(*counted), run, rest...);
         }
@@ -4552,11 +4611,12 @@ auto operator|(F&& f, G&& g) {
         std::tuple_cat(detail::as_stages(std::forward<F>(f)), detail::as_stages(std::forward<G>(g))));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/filter/poisson_tables.hpp --------------------------------------------------------
+// ------------ insonify/filter/detail/poisson_tables.hpp -------------------------------------------------
 // Poisson counts of means below 256, with neither logarithm nor second trial: the whole part of a mean has a table, its
 // rest so small a count that a few sums find it, and two Poisson counts added are one.
 //
@@ -4566,7 +4626,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// For each whole mean below 256 the laws of 256 counts in a row, eight standard deviations and more to either side.
 ///
@@ -4746,7 +4808,9 @@ struct poisson_table_kernel {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -4758,7 +4822,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -4885,7 +4950,8 @@ struct matlab_poisson {
     auto pass() const { return detail::exact_poisson(0, seed, frame); }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -4899,7 +4965,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -4977,7 +5044,8 @@ struct quick_poisson {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -4986,7 +5054,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -5089,14 +5158,16 @@ filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask,
         chain.stages);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/mesh.hpp ----------------------------------------------------------------
 // Indexed triangle meshes as plain data, and views of them.
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// An indexed triangle mesh. Counter-clockwise triangles face the viewer; positions are metres in the mesh's own frame.
 struct mesh {
@@ -5120,9 +5191,9 @@ struct mesh_view {
 namespace detail {
 
 /// A mesh with uninitialized storage, for meshes that are rebuilt in every picture.
-struct unfilled_mesh {
-    unfilled_vector<glm::vec3> positions, normals;
-    unfilled_vector<glm::uvec3> triangles;
+struct uninitialized_mesh {
+    uninitialized_vector<glm::vec3> positions, normals;
+    uninitialized_vector<glm::uvec3> triangles;
 
     operator mesh_view() const { return {positions, normals, triangles}; }
 };
@@ -5139,7 +5210,8 @@ inline void validate(const mesh& m) {
     }
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 // ------------ insonify/geometry/transform.hpp -----------------------------------------------------------
 // Where a mesh stands in the world: poses for people, affine maps for the machine. Double precision throughout.
@@ -5151,7 +5223,8 @@ inline void validate(const mesh& m) {
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Where an object stands and how it is turned: scaled first, then rolled, pitched, yawed, and moved.
 ///
@@ -5248,7 +5321,8 @@ inline mesh transformed(mesh m, const affine& map) {
     return m;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -5330,7 +5404,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 enum class axis { x, y, z };
 
@@ -5475,7 +5550,8 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
 }
 #endif
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -5484,7 +5560,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A cone standing on its base, tip towards +z, centred at mid-height: the base is at z = -height / 2.
 struct cone {
@@ -5527,7 +5604,8 @@ inline int segments_for(const cone& shape, float deviation) {
     return segments_for((std::max)(shape.radius, shape.top_radius), deviation);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -5536,7 +5614,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A box centred at the origin, edges along the axes.
 struct cube {
@@ -5570,7 +5649,8 @@ inline mesh to_mesh(const cube& shape) {
     return out;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -5579,7 +5659,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A cylinder along x, centred at the origin, with flat ends.
 struct cylinder {
@@ -5640,7 +5721,8 @@ inline int segments_for(const capsule& shape, float deviation) {
     return detail::round_segments_for(shape.radius, deviation, [](int segments) { return 2 * ((segments + 3) / 4); });
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -5649,7 +5731,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// The points p with lower <= p <= upper in each coordinate, in metres; by default none at all.
 struct bounding_box {
@@ -5750,7 +5833,8 @@ bounding_box bounds(const mesh_view& m, E&& ex = {}) {
     return box;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -5985,7 +6069,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// One unit normal per position: the mean of the triangles around it, weighted by their angle there, so that it does
 /// not depend on how a face was cut into triangles. Triangles without area or with non-finite corners do not count; a
@@ -6031,7 +6116,8 @@ inline std::size_t wind_by_normals(mesh& m) {
     return turned;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -6041,7 +6127,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Vertex (i, j) is number j columns + i and lies at origin + i right + j up in x and y, at any height; rows may go
 /// down from the top, as those of pictures, `up` being to the right of `right`. Each cell is cut into two triangles the
@@ -6190,7 +6277,8 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
     return grid;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -6201,7 +6289,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What a mesh is as a surface, with vertices in the same place taken as one (sharp edges split them for their
 /// normals).
@@ -6301,7 +6390,8 @@ inline topology inspect(const mesh& m) {
     return out;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -6498,7 +6588,8 @@ INSONIFY_FUNCTION std::shared_ptr<const shared_mesh::state> shared_mesh::made_of
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A sphere centred at the origin, stretched along x, y and z by `aspect`: the semi-axes are radius * aspect.
 /// An edge of its mesh deviates as an edge of the circle does (`segments_for`), the middle of a face up to twice that.
@@ -6567,7 +6658,8 @@ inline int segments_for(const hemisphere& shape, float deviation) {
                                       [](int segments) { return 2 * ((segments + 3) / 4); });
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -6587,7 +6679,8 @@ INSONIFY_ARITHMETIC_END
 extern "C" __declspec(dllimport) int __stdcall MoveFileExA(const char* from, const char* to, unsigned long flags);
 #endif
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -6733,7 +6826,8 @@ inline void write_file(const std::string& path, std::string_view bytes) {
     file.commit();
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 // ------------ insonify/io/netpbm.hpp --------------------------------------------------------------------
 // PGM, PPM and PFM: images as plain files, read whatever they claim to be and written all or nothing.
@@ -6749,7 +6843,8 @@ inline void write_file(const std::string& path, std::string_view bytes) {
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -7002,14 +7097,16 @@ void write_netpbm(const std::string& path, const image<Pixel>& source) {
     write_netpbm(path, source.view());
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/draw_stats.hpp ------------------------------------------------------------
 // What became of the triangles of a draw, as counts.
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What became of a mesh's triangles. Nothing that a draw meets by the million is an error.
 /// Each of `triangles` is counted once among drawn, culled, missed, degenerate and not_finite. What lies outside of
@@ -7038,7 +7135,8 @@ struct draw_stats {
     friend bool operator==(const draw_stats&, const draw_stats&) = default;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 // ------------ insonify/seabed/type.hpp ------------------------------------------------------------------
 // Labels of the sea floor and their properties: name, brightness and speckle.
@@ -7135,7 +7233,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Types named after their relief, with the gray values of the paper's pictures.
 inline constexpr type_properties relief_types[] = {
@@ -7233,7 +7333,9 @@ constexpr type_properties properties_of(type t) {
     return {t, "", built_in_types[0].reflectivity, built_in_types[0].speckle};
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -7255,7 +7357,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Equally spaced samples along x: sample i lies at (x(i), y), metres in the world. Each position is computed from i
 /// alone, never accumulated, and parts of a row keep their origin: cutting a row changes no bit of it.
@@ -7468,7 +7572,9 @@ float height_at(const S& prepared, double x, double y) {
     return height;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -7477,7 +7583,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// The absence of a seabed. Heights are NaN everywhere, nothing is drawn, and nothing rests on it.
 struct none {
@@ -7493,7 +7601,9 @@ struct none {
     float operator()(double, double) const { return std::numeric_limits<float>::quiet_NaN(); }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -7505,7 +7615,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// A prepared seabed of any model; shares ownership of the model.
 class any_sampler {
@@ -7605,11 +7717,13 @@ class any {
     std::shared_ptr<const interface_type> held_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/lattice.hpp ---------------------------------------------------------------
+// ------------ insonify/seabed/detail/lattice.hpp --------------------------------------------------------
 // The world's lattices: where positions lie on them, and random bits for their cells.
 //
 // Random draws are keyed by lattice cell, so that a place looks the same in any grid, tile or order of evaluation.
@@ -7621,7 +7735,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed::detail {
 
 using insonify::detail::dispatch;
 using insonify::detail::lanes;
@@ -7866,11 +7982,13 @@ INSONIFY_INLINE void clamp_lanes(Lanes& t) {
     t = t < 1.0f ? t : one;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed::detail
+}  // namespace seabed::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/noise.hpp -----------------------------------------------------------------
+// ------------ insonify/seabed/detail/noise.hpp ----------------------------------------------------------
 // Gradient noise on the world's lattice, and power-law relief made of its octaves.
 //
 // Along a row, the height of a cell's noise is a fixed pair of lines blended by the fade curve, so hashing and the
@@ -7880,7 +7998,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Gradient noise: mean 0, variance 1, twice differentiable, waves of about one to three cells.
 class gradient_noise {
@@ -8099,7 +8219,9 @@ INSONIFY_FUNCTION void power_law_noise::add(const detail::stretch& part, detail:
 }
 #endif
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -8108,7 +8230,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class flat_sampler;
 
@@ -8148,7 +8272,9 @@ inline float flat::operator()(double x, double y) const {
     return height_at(prepare(), x, y);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -8157,7 +8283,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 namespace detail {
 
@@ -8313,16 +8441,20 @@ inline heightfield from_image(image_view<const float> picture, double spacing, f
     return result;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/strewn.hpp ----------------------------------------------------------------
+// ------------ insonify/seabed/detail/strewn.hpp ---------------------------------------------------------
 // Randomly scattered features, at most one per lattice cell: finds those that a row crosses, and adds round ones.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed::detail {
 
 /// Calls `visit(first, count)` for runs of columns of a lattice, which together hold each column from which something
 /// reaches a sample of the stretch once, in rising order.
@@ -8416,11 +8548,13 @@ class round_marks {
     float filled_ = 0, high_ = 0, mound_ = 0, pock_ = 0;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed::detail
+}  // namespace seabed::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/ripple_train.hpp ----------------------------------------------------------
+// ------------ insonify/seabed/detail/ripple_train.hpp ---------------------------------------------------
 // One system of sand ripples: crests of one height that meander, end and fork, as waves over sand make them.
 //
 // A Gaussian random field of ripples fades in and out, which real ones don't. Here the phase of such a field,
@@ -8437,7 +8571,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// What ripples of one kind are like. Ripples that waves make are 0.05 to 1.5 m long and 0.05 to 0.2 times as high.
 ///
@@ -8724,11 +8860,13 @@ INSONIFY_FUNCTION void ripple_train::add(const stretch& part, stretch_values& va
 #endif
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/trawls.hpp ----------------------------------------------------------------
+// ------------ insonify/seabed/detail/trawls.hpp ---------------------------------------------------------
 // Furrows that trawl boards plough: long, nearly straight, in the few directions in which boats work.
 //
 // Boats of one direction go side by side in lanes that meander a little; a lane holds one furrow, which comes and goes
@@ -8736,7 +8874,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// What trawls leave. Doors dig 0.05 to 0.3 m deep and 0.2 to 2 m wide.
 struct trawl_marks {
@@ -8858,7 +8998,9 @@ class trawl_furrows {
 };
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -8867,7 +9009,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class mud_sampler;
 
@@ -8932,7 +9076,9 @@ inline float mud::operator()(double x, double y) const {
     return height_at(prepare(), x, y);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -8941,7 +9087,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class ripples_sampler;
 
@@ -9009,11 +9157,13 @@ inline float ripples::operator()(double x, double y) const {
     return height_at(prepare(), x, y);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/blocks.hpp ----------------------------------------------------------------
+// ------------ insonify/seabed/detail/blocks.hpp ---------------------------------------------------------
 // Angular blocks strewn over the plane: what broken rock is made of.
 //
 // Each cell of a lattice may hold one flat-topped, tilted, eight-sided block with steep walls; the surface is the
@@ -9024,7 +9174,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed::detail {
 
 /// One size class of blocks. Continuous; walls no steeper than `steepness`.
 class block_layer {
@@ -9190,7 +9342,9 @@ class block_layer {
     float height_, wall_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed::detail
+}  // namespace seabed::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -9199,7 +9353,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class rock_sampler;
 
@@ -9347,7 +9503,9 @@ INSONIFY_FUNCTION void rock_sampler::row(const scanline& line, std::span<float> 
 }
 #endif
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -9356,7 +9514,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Where to sample: vertex (i, j) at origin + spacing * (first + (i, j)), metres in the world. Parts of one grid share
 /// their vertices to the last bit if they differ in `first` and not in the origin.
@@ -9394,8 +9554,8 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 /// parameters of the model out of their range
 template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
-    constexpr insonify::detail::unfilled unfilled;
-    heightfield result{.heights = image<float>(where.width, where.height, unfilled),
+    constexpr insonify::detail::uninitialized uninitialized;
+    heightfield result{.heights = image<float>(where.width, where.height, uninitialized),
                        .origin = where.origin + where.spacing * glm::dvec2(where.first),
                        .spacing = where.spacing};
     for (const type_properties& t : legend_of(source))
@@ -9403,7 +9563,7 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     if (const std::optional<type> only = only_type(source))
         result.fallback = *only;
     else
-        result.types = image<type>(where.width, where.height, unfilled);
+        result.types = image<type>(where.width, where.height, uninitialized);
     validate(result);
 
     const auto prepared = prepare(source);
@@ -9419,7 +9579,9 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     return result;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -9432,7 +9594,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// The rows of `sediments`; each has the value of its label.
 enum class sediment : std::uint8_t {
@@ -9508,7 +9672,9 @@ inline ripples rippled(sediment s, ripples shape = {}) {
     return shape;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -9522,7 +9688,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::shadow {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
 
 /// Light from infinitely far away.
 struct directional_light {
@@ -9568,7 +9736,9 @@ class light_frame {
     double cot_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::shadow
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -9706,7 +9876,7 @@ enum class known : std::uint8_t { lit, dark, nothing };
 template <class S>
 concept triangle_occlusion = collective_occlusion<S> &&
     requires(const S& structure, std::uint32_t caster, const glm::dvec3& eye, serial_executor& ex) {
-    { structure.known_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::unfilled_vector<known>>;
+    { structure.known_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::uninitialized_vector<known>>;
 };
 
 }  // namespace shadow
@@ -9720,7 +9890,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What a surface is made of, as far as a picture shows it.
 struct material {
@@ -9771,7 +9942,8 @@ struct facet_backscatter {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -9784,7 +9956,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A filter that makes gray values in [0, 1] of intensities by a power: (intensity / white)^exponent. The default is
 /// their square root, the amplitude, which is what most sonars show. NaN is black.
@@ -9881,16 +10054,48 @@ struct automatic_display {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/core/detail/filled.hpp -----------------------------------------------------------
+// Images of one value, made by all threads: filling a large one takes as long as drawing a small picture, most of it
+// to get hold of the memory.
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+template <class T, executor E>
+image<T> filled(int width, int height, T value, E& ex) {
+    image<T> result(width, height, uninitialized{});
+    if (result.empty()) return result;
+    const std::size_t rows = (std::size_t{1} << 18) / (static_cast<std::size_t>(width) * sizeof(T)) + 1;
+    bulk_ranges(ex, static_cast<std::size_t>(height), rows, [&](std::size_t first, std::size_t last) {
+        T* const start = result.row(static_cast<int>(first)).data();
+        const std::size_t count = (last - first) * static_cast<std::size_t>(width);
+        // Most values are the same byte over and over, which the system writes fastest.
+        const auto bytes = numeric::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
+        if (std::count(bytes.begin(), bytes.end(), bytes[0]) == std::ssize(bytes))
+            std::memset(start, bytes[0], count * sizeof(T));
+        else
+            std::fill_n(start, count, value);
+    });
+    return result;
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 // ------------ insonify/sonar/sediment.hpp ---------------------------------------------------------------
 // Brightness by label: the registry of seabed/registry.hpp as materials.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 using seabed::sediment;
 
@@ -9910,11 +10115,13 @@ inline constexpr float by_seabed_model = -1;
 constexpr bottom_materials default_bottom() {
     bottom_materials bottom{};
     bottom.fill({by_seabed_model});
-    for (const seabed::type_properties& t : seabed::built_in_types) bottom[seabed::index_of(t.label)] = {t.reflectivity};
+    for (const seabed::type_properties& t : seabed::built_in_types)
+        bottom[seabed::index_of(t.label)] = {t.reflectivity};
     return bottom;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -9923,7 +10130,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// An object with a class of its own. Both sides of its triangles show and block light; it may be open or closed.
 struct target {
@@ -10014,7 +10222,8 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
     return placement;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -10023,7 +10232,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A rectangle of pixels: left, top, width and height, as COCO writes boxes.
 struct label_box {
@@ -10133,16 +10343,18 @@ INSONIFY_FUNCTION void describe_targets(labels& l, const std::vector<target>& ta
 }
 #endif
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/side_scan.hpp --------------------------------------------------------------
+// ------------ insonify/sonar/side_scan/side_scan.hpp ----------------------------------------------------
 // A side-scan sonar on its way: where each ping is sent from, and which ranges are listened to.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Which way a channel looks: to the left or to the right of the track.
 enum class side : std::uint8_t { port, starboard };
@@ -10278,7 +10490,8 @@ class ping_frame {
     double sine_pitch_, cosine_pitch_, sine_roll_, cosine_roll_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -10323,12 +10536,13 @@ struct frame {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/rig.hpp --------------------------------------------------------------------
+// ------------ insonify/sonar/overhead/rig.hpp -----------------------------------------------------------
 // The paper's rig: a camera that looks straight down, and a parallel light low over the sea floor that turns with it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Camera and light over a point of the sea floor. Image up is forward, image right is starboard; the light comes from
 /// the left, so ranges and shadows grow to the right, as on a starboard channel.
@@ -10462,16 +10676,18 @@ class overhead_geometry {
     affine rig_from_world_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/picture.hpp ----------------------------------------------------------------
+// ------------ insonify/sonar/overhead/picture.hpp -------------------------------------------------------
 // One overhead picture: its options and the functions that draw it. render.hpp has the code behind them.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// How to draw a picture; the types say what is in it. Shadow is a shadow::policy, Labels are `labels` or `no_labels`.
 template <class Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert>
@@ -10556,7 +10772,8 @@ visibility visible_triangles(const scene& s, const overhead& rig,
     return detail::see(s, rig, seen, executor_ref(ex));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -10570,7 +10787,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::accuracy {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace accuracy {
 
 /// Counts of pixels; a pixel other than 0 belongs to the mask.
 struct mask_difference {
@@ -10616,9 +10835,13 @@ struct pixel_difference {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::accuracy
+}  // namespace accuracy
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 template <class T>
 void require_same_size(image_view<const T> result, image_view<const T> truth) {
@@ -10647,9 +10870,13 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
     return out;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
-namespace insonify::inline INSONIFY_ABI::accuracy {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace accuracy {
 
 /// @throws invalid_input if the sizes differ
 inline mask_difference compare_masks(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
@@ -10681,11 +10908,13 @@ inline pixel_difference compare_images(image_view<const std::uint8_t> result, im
     return detail::compare_pixels(result, truth);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::accuracy
+}  // namespace accuracy
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/geometry/indices.hpp -------------------------------------------------------------
+// ------------ insonify/geometry/detail/indices.hpp ------------------------------------------------------
 // Whether a mesh's triangles refer to positions that are there.
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -10742,11 +10971,13 @@ void require_indices(const mesh_view& m, E& ex) {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/core/int128.hpp ------------------------------------------------------------------
+// ------------ insonify/core/detail/int128.hpp -----------------------------------------------------------
 // Integers of 128 bits, as far as exact geometry far from the picture needs them: products of two 64-bit numbers, their
 // sums, and what can be asked of those. Two's complement in two halves, so that every compiler has them.
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 struct int128 {
     std::int64_t high = 0;
@@ -10796,12 +11027,15 @@ struct int128 {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 // ------------ insonify/raster/framebuffer.hpp -----------------------------------------------------------
 // Where a draw leaves its results. The type says which attachments there are; what is absent is not compiled.
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Which of two surfaces a pixel shows.
 enum class keep_depth {
@@ -10845,9 +11079,10 @@ struct framebuffer<void> {
     image_view<float> depth;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
-// ------------ insonify/raster/setup.hpp -----------------------------------------------------------------
+// ------------ insonify/raster/detail/setup.hpp ----------------------------------------------------------
 // From three snapped vertices to what the pixel loop needs: three edge functions, and the pixels to try.
 //
 // Positions are snapped to fixed point first; everything after is decided with integers, so two triangles that share
@@ -10863,7 +11098,9 @@ struct framebuffer<void> {
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// A vertex on the screen: position in fixed point, z / w and 1 / w.
 struct screen_vertex {
@@ -11005,11 +11242,13 @@ struct edge_function {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/binning.hpp ---------------------------------------------------------------
+// ------------ insonify/raster/detail/binning.hpp --------------------------------------------------------
 // Which triangles each tile has to look at, in the order in which they were submitted.
 //
 // Triangles go through in chunks, in parallel. Neighbours in a mesh are mostly neighbours on the screen, so a chunk
@@ -11019,7 +11258,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// The image cut into square tiles of 2^log2_size pixels.
 struct tile_grid {
@@ -11185,14 +11426,16 @@ class tile_bins {
 
   private:
     std::vector<std::uint32_t> first_;
-    unfilled_vector<triangle_run> runs_;
+    uninitialized_vector<triangle_run> runs_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/core/double_double.hpp -----------------------------------------------------------
+// ------------ insonify/core/detail/double_double.hpp ----------------------------------------------------
 // Numbers of twice a double's precision, as the unevaluated sum of two: for the few pixels whose depth a double can't
 // round with certainty. Relative error of each operation below 2^-100.
 //
@@ -11202,7 +11445,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 struct double_double {
     double high = 0, low = 0;
@@ -11268,11 +11513,13 @@ struct double_double {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/depth.hpp -----------------------------------------------------------------
+// ------------ insonify/raster/detail/depth.hpp ----------------------------------------------------------
 // Depth between the vertices, correctly rounded: the float nearest to the plane through the three snapped corners.
 //
 // The plane is computed in double and goes with a bound of its error. Where that leaves two floats to choose from (near
@@ -11285,7 +11532,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// z(x, y) at pixel centres of a triangle's own box.
 struct depth_plane {
@@ -11346,11 +11595,13 @@ inline float nearest_depth(const screen_vertex& a, const screen_vertex& b, const
     return (sum / wide(share.a + share.b + share.c)).to_float();
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/clip.hpp ------------------------------------------------------------------
+// ------------ insonify/raster/detail/clip.hpp -----------------------------------------------------------
 // Clipping of the few triangles that need it: in front of the camera plane, beyond the depth range, or 2^50 sub-pixels
 // outside the picture. Everything else is left to the rectangle of the image.
 //
@@ -11359,7 +11610,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// A corner of a clipped piece: where it is, and what share each vertex of the whole triangle has in it.
 struct clip_corner {
@@ -11546,18 +11799,22 @@ class projection {
     bool exact_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/fold.hpp ------------------------------------------------------------------
+// ------------ insonify/raster/detail/fold.hpp -----------------------------------------------------------
 // A clipped triangle on the pixel grid. Rounding can fold a thin polygon over itself: a corner that lands on the wrong
 // side of an edge turns one of the triangles it is cut into around, and pixels beside the polygon would be hit. So the
 // winding number decides there, pixel by pixel, by the same top-left rule.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 class screen_polygon {
   public:
@@ -11638,221 +11895,24 @@ class screen_polygon {
     int area_sign_ = 0;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/raster/interpolatable.hpp --------------------------------------------------------
-// Whether a type consists of floats alone: what can be interpolated between the vertices of a triangle.
-//
-// An aggregate is looked into: it is initialized from values that convert to float, to vectors of float and to
-// aggregates of those, and from values that convert to any other scalar or class, too. If as many of the first kind fit
-// as of the second, all members are made of floats.
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-
-/// For classes that are no aggregates: specialize it as true for your own vector of floats.
-template <class V>
-inline constexpr bool is_vector_of_floats = requires {
-    requires std::is_same_v<typename V::value_type, float>;
-};
-template <>
-inline constexpr bool is_vector_of_floats<float> = true;
-
-namespace detail {
-
-template <class V>
-constexpr bool consists_of_floats();
-
-struct converts_to_floats {
-    template <class T>
-        requires(consists_of_floats<T>())
-    operator T() const;
-};
-struct converts_to_members {
-    template <class T>
-        requires(consists_of_floats<T>() || !std::is_aggregate_v<T>)
-    operator T() const;
-};
-
-template <class Value, std::size_t>
-using repeated = Value;
-template <class V, class Value, std::size_t... I>
-constexpr bool takes(std::index_sequence<I...>) {
-    return requires {
-        V{repeated<Value, I>{}...};
-    };
-}
-/// The largest number of values that initialize an aggregate.
-template <class V, class Value, std::size_t Count>
-constexpr std::size_t most_members() {
-    if constexpr (Count == 0)
-        return 0;
-    else if constexpr (takes<V, Value>(std::make_index_sequence<Count>{}))
-        return Count;
-    else
-        return most_members<V, Value, Count - 1>();
-}
-
-template <class V>
-constexpr bool consists_of_floats() {
-    if constexpr (!std::is_class_v<V> || is_vector_of_floats<V>) {
-        return is_vector_of_floats<V>;
-    } else if constexpr (std::is_empty_v<V>) {
-        return true;
-    } else if constexpr (!std::is_aggregate_v<V> || sizeof(V) % sizeof(float) != 0) {
-        return false;
-    } else {
-        constexpr std::size_t floats = sizeof(V) / sizeof(float);
-        return most_members<V, converts_to_floats, floats>() == most_members<V, converts_to_members, floats>();
-    }
-}
-
 }  // namespace detail
-
-/// Made of floats alone: float, glm::vec2..4, arrays and aggregates of those.
-template <class V>
-concept interpolatable = std::is_trivially_copyable_v<V> && detail::consists_of_floats<V>();
-
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
-// ------------ insonify/raster/shader.hpp ----------------------------------------------------------------
-// What people bring to a draw: a callable that places vertices, and one that is asked for each visible pixel.
-//
-// Both are plain callables, inlined into the loops. They must be pure: a vertex may be placed several times, and pixels
-// are asked for in any order and on any thread.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// What a vertex callable receives.
-struct vertex {
-    glm::vec3 position;
-    glm::vec3 normal;  ///< zero where the mesh has none
-    std::uint32_t index;
-};
-
-/// A vertex placed in clip space, with the values that pixels between the vertices shall see interpolated.
-/// Visible is -w <= x <= w, -w <= y <= w (y up), 0 <= z <= w.
-template <class Varyings>
-struct placed_vertex {
-    glm::vec4 clip;
-    Varyings varyings;
-};
-
-/// `shader(vertex)` gives a clip position, alone (glm::vec4) or with varyings (placed_vertex).
-template <class S>
-concept position_shader = requires(const S& shader, const vertex& v) {
-    { shader(v) } -> std::convertible_to<glm::vec4>;
-};
-template <class S>
-concept varying_shader = requires(const S& shader, const vertex& v) {
-    { shader(v).clip } -> std::convertible_to<glm::vec4>;
-    requires interpolatable<std::remove_cvref_t<decltype(shader(v).varyings)>>;
-};
-template <class S>
-concept vertex_shader = position_shader<S> || varying_shader<S>;
-
-/// Stands for the varyings of a shader that has none.
-struct no_varyings {};
-
-namespace detail {
-
-template <vertex_shader S>
-struct shader_varyings {
-    using type = no_varyings;
-};
-template <varying_shader S>
-struct shader_varyings<S> {
-    using type = std::remove_cvref_t<decltype(std::declval<const S&>()(std::declval<const vertex&>()).varyings)>;
-};
-
-inline glm::vec4 position_of(const glm::vec4& clip) {
-    return clip;
-}
-template <class Varyings>
-INSONIFY_INLINE glm::vec4 position_of(const placed_vertex<Varyings>& placed) {
-    return placed.clip;
-}
-
-/// A vertex callable that takes several vertices at a time, too: `shader(clip, varyings, position, normal)` sets the
-/// first two, float by float, and they are the same bits that `shader(vertex)` gives.
-template <class S, class Floats>
-concept lane_shader = vertex_shader<S> && requires(const S& shader, Floats (&four)[4], const Floats (&three)[3]) {
-    shader(four, &four[0], three, three);
-};
-
-template <vertex_shader S>
-INSONIFY_INLINE glm::vec4 clip_position(const S& shader, const vertex& v) {
-    return position_of(shader(v));
-}
-
-template <vertex_shader S>
-INSONIFY_INLINE auto varyings_at(const S& shader, const vertex& v) {
-    if constexpr (position_shader<S>)
-        return no_varyings{};
-    else
-        return shader(v).varyings;
-}
-
-/// The mean of three values by weights, float by float, each rounded once.
-template <class V>
-INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3& weights) {
-    if constexpr (std::is_empty_v<V>) {
-        return a;
-    } else {
-        using floats = std::array<float, sizeof(V) / sizeof(float)>;
-        const auto fa = numeric::bit_cast<floats>(a);
-        const auto fb = numeric::bit_cast<floats>(b);
-        const auto fc = numeric::bit_cast<floats>(c);
-        floats sum;
-        for (std::size_t i = 0; i < sum.size(); ++i)
-            sum[i] =
-                static_cast<float>(static_cast<double>(fa[i]) * weights.x + static_cast<double>(fb[i]) * weights.y +
-                                   static_cast<double>(fc[i]) * weights.z);
-        return numeric::bit_cast<V>(sum);
-    }
-}
-
-}  // namespace detail
-
-template <vertex_shader S>
-using varyings_of = typename detail::shader_varyings<S>::type;
-
-/// What a fragment callable receives: one visible pixel of one triangle.
-template <class Varyings>
-struct fragment {
-    int x, y;                ///< pixel, row 0 at the top
-    float depth;             ///< z / w at the pixel's centre
-    std::uint32_t triangle;  ///< index into mesh.triangles
-    glm::vec3 weights;       ///< of the triangle's three vertices, perspective-correct, sum 1
-    bool front;              ///< seen from its counter-clockwise side
-    Varyings varyings;       ///< interpolated perspective-correctly
-};
-
-/// `shader(fragment)` gives the pixel's new value, or nothing if it stores what it wants by itself: every visible pixel
-/// is asked for exactly once per draw, after all of the draw's triangles have been resolved against each other.
-template <class S, class Varyings, class Pixel>
-concept fragment_shader = requires(const S& shader, const fragment<Varyings>& f) {
-    requires std::is_void_v<Pixel> || std::is_convertible_v<decltype(shader(f)), Pixel>;
-};
-
-}  // namespace insonify::inline INSONIFY_ABI
-
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/small.hpp -----------------------------------------------------------------
+// ------------ insonify/raster/detail/small.hpp ----------------------------------------------------------
 // Small triangles, of which a fine mesh is made: several go through the set-up at a time, one per lane, in 32 bits.
 //
-// A triangle is small if it extends less than 2^15 sub-pixels, 8 pixels at 12 sub-pixel bits: then edge functions are sums
-// of two products of less than 2^30 each, and fit 32 bits. What is decided here is what setup.hpp decides for triangles of any size, in the same integers.
+// A triangle is small if it extends less than 2^15 sub-pixels, 8 pixels at 12 sub-pixel bits: then edge functions are
+// sums of two products of less than 2^30 each, and fit 32 bits. What is decided here is what setup.hpp decides for
+// triangles of any size, in the same integers.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// N boxes of pixels.
 template <int N>
@@ -11974,17 +12034,225 @@ struct small_setup {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/placement.hpp -------------------------------------------------------------
+// ------------ insonify/raster/interpolatable.hpp --------------------------------------------------------
+// Whether a type consists of floats alone: what can be interpolated between the vertices of a triangle.
+//
+// An aggregate is looked into: it is initialized from values that convert to float, to vectors of float and to
+// aggregates of those, and from values that convert to any other scalar or class, too. If as many of the first kind fit
+// as of the second, all members are made of floats.
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// For classes that are no aggregates: specialize it as true for your own vector of floats.
+template <class V>
+inline constexpr bool is_vector_of_floats = requires {
+    requires std::is_same_v<typename V::value_type, float>;
+};
+template <>
+inline constexpr bool is_vector_of_floats<float> = true;
+
+namespace detail {
+
+template <class V>
+constexpr bool consists_of_floats();
+
+struct converts_to_floats {
+    template <class T>
+        requires(consists_of_floats<T>())
+    operator T() const;
+};
+struct converts_to_members {
+    template <class T>
+        requires(consists_of_floats<T>() || !std::is_aggregate_v<T>)
+    operator T() const;
+};
+
+template <class Value, std::size_t>
+using repeated = Value;
+template <class V, class Value, std::size_t... I>
+constexpr bool takes(std::index_sequence<I...>) {
+    return requires {
+        V{repeated<Value, I>{}...};
+    };
+}
+/// The largest number of values that initialize an aggregate.
+template <class V, class Value, std::size_t Count>
+constexpr std::size_t most_members() {
+    if constexpr (Count == 0)
+        return 0;
+    else if constexpr (takes<V, Value>(std::make_index_sequence<Count>{}))
+        return Count;
+    else
+        return most_members<V, Value, Count - 1>();
+}
+
+template <class V>
+constexpr bool consists_of_floats() {
+    if constexpr (!std::is_class_v<V> || is_vector_of_floats<V>) {
+        return is_vector_of_floats<V>;
+    } else if constexpr (std::is_empty_v<V>) {
+        return true;
+    } else if constexpr (!std::is_aggregate_v<V> || sizeof(V) % sizeof(float) != 0) {
+        return false;
+    } else {
+        constexpr std::size_t floats = sizeof(V) / sizeof(float);
+        return most_members<V, converts_to_floats, floats>() == most_members<V, converts_to_members, floats>();
+    }
+}
+
+}  // namespace detail
+
+/// Made of floats alone: float, glm::vec2..4, arrays and aggregates of those.
+template <class V>
+concept interpolatable = std::is_trivially_copyable_v<V> && detail::consists_of_floats<V>();
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+// ------------ insonify/raster/shader.hpp ----------------------------------------------------------------
+// What people bring to a draw: a callable that places vertices, and one that is asked for each visible pixel.
+//
+// Both are plain callables, inlined into the loops. They must be pure: a vertex may be placed several times, and pixels
+// are asked for in any order and on any thread.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// What a vertex callable receives.
+struct vertex {
+    glm::vec3 position;
+    glm::vec3 normal;  ///< zero where the mesh has none
+    std::uint32_t index;
+};
+
+/// A vertex placed in clip space, with the values that pixels between the vertices shall see interpolated.
+/// Visible is -w <= x <= w, -w <= y <= w (y up), 0 <= z <= w.
+template <class Varyings>
+struct placed_vertex {
+    glm::vec4 clip;
+    Varyings varyings;
+};
+
+/// `shader(vertex)` gives a clip position, alone (glm::vec4) or with varyings (placed_vertex).
+template <class S>
+concept position_shader = requires(const S& shader, const vertex& v) {
+    { shader(v) } -> std::convertible_to<glm::vec4>;
+};
+template <class S>
+concept varying_shader = requires(const S& shader, const vertex& v) {
+    { shader(v).clip } -> std::convertible_to<glm::vec4>;
+    requires interpolatable<std::remove_cvref_t<decltype(shader(v).varyings)>>;
+};
+template <class S>
+concept vertex_shader = position_shader<S> || varying_shader<S>;
+
+/// Stands for the varyings of a shader that has none.
+struct no_varyings {};
+
+namespace detail {
+
+template <vertex_shader S>
+struct shader_varyings {
+    using type = no_varyings;
+};
+template <varying_shader S>
+struct shader_varyings<S> {
+    using type = std::remove_cvref_t<decltype(std::declval<const S&>()(std::declval<const vertex&>()).varyings)>;
+};
+
+inline glm::vec4 position_of(const glm::vec4& clip) {
+    return clip;
+}
+template <class Varyings>
+INSONIFY_INLINE glm::vec4 position_of(const placed_vertex<Varyings>& placed) {
+    return placed.clip;
+}
+
+/// A vertex callable that takes several vertices at a time, too: `shader(clip, varyings, position, normal)` sets the
+/// first two, float by float, and they are the same bits that `shader(vertex)` gives.
+template <class S, class Floats>
+concept lane_shader = vertex_shader<S> && requires(const S& shader, Floats (&four)[4], const Floats (&three)[3]) {
+    shader(four, &four[0], three, three);
+};
+
+template <vertex_shader S>
+INSONIFY_INLINE glm::vec4 clip_position(const S& shader, const vertex& v) {
+    return position_of(shader(v));
+}
+
+template <vertex_shader S>
+INSONIFY_INLINE auto varyings_at(const S& shader, const vertex& v) {
+    if constexpr (position_shader<S>)
+        return no_varyings{};
+    else
+        return shader(v).varyings;
+}
+
+/// The mean of three values by weights, float by float, each rounded once.
+template <class V>
+INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3& weights) {
+    if constexpr (std::is_empty_v<V>) {
+        return a;
+    } else {
+        using floats = std::array<float, sizeof(V) / sizeof(float)>;
+        const auto fa = numeric::bit_cast<floats>(a);
+        const auto fb = numeric::bit_cast<floats>(b);
+        const auto fc = numeric::bit_cast<floats>(c);
+        floats sum;
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] =
+                static_cast<float>(static_cast<double>(fa[i]) * weights.x + static_cast<double>(fb[i]) * weights.y +
+                                   static_cast<double>(fc[i]) * weights.z);
+        return numeric::bit_cast<V>(sum);
+    }
+}
+
+}  // namespace detail
+
+template <vertex_shader S>
+using varyings_of = typename detail::shader_varyings<S>::type;
+
+/// What a fragment callable receives: one visible pixel of one triangle.
+template <class Varyings>
+struct fragment {
+    int x, y;                ///< pixel, row 0 at the top
+    float depth;             ///< z / w at the pixel's centre
+    std::uint32_t triangle;  ///< index into mesh.triangles
+    glm::vec3 weights;       ///< of the triangle's three vertices, perspective-correct, sum 1
+    bool front;              ///< seen from its counter-clockwise side
+    Varyings varyings;       ///< interpolated perspective-correctly
+};
+
+/// `shader(fragment)` gives the pixel's new value, or nothing if it stores what it wants by itself: every visible pixel
+/// is asked for exactly once per draw, after all of the draw's triangles have been resolved against each other.
+template <class S, class Varyings, class Pixel>
+concept fragment_shader = requires(const S& shader, const fragment<Varyings>& f) {
+    requires std::is_void_v<Pixel> || std::is_convertible_v<decltype(shader(f)), Pixel>;
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/raster/detail/placement.hpp ------------------------------------------------------
 // Vertices on the screen: placed by the vertex callable one by one, divided by w and rounded to the grid several at a
 // time.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// A vertex on the screen, as millions of them are kept: sixteen bytes, which a lane takes in one load.
 template <class Real>
@@ -12005,8 +12273,8 @@ struct kept_vertex<double> {
 /// They are left as memory comes until they are set, every one.
 template <class Real>
 struct screen_vertices {
-    unfilled_vector<kept_vertex<Real>> kept;
-    unfilled_vector<double> inverse_w;  ///< where weights_at will be asked for
+    uninitialized_vector<kept_vertex<Real>> kept;
+    uninitialized_vector<double> inverse_w;  ///< where weights_at will be asked for
 
     screen_vertices(std::size_t count, bool weighed) : kept(count), inverse_w(weighed ? count : 0) {}
 
@@ -12163,11 +12431,13 @@ struct placement_kernel {
 #endif
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/assembly.hpp --------------------------------------------------------------
+// ------------ insonify/raster/detail/assembly.hpp -------------------------------------------------------
 // From mesh to screen: vertices placed and snapped, triangles culled, the few that need it clipped, all put into bins.
 //
 // Almost all triangles are compact: 32-bit coordinates, 64-bit decisions. The others go a slower way that no distance
@@ -12175,7 +12445,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Which side of a triangle is not drawn; its front is where its vertices run counter-clockwise.
 enum class cull_mode { none, back, front };
@@ -12488,11 +12759,12 @@ struct assembly_kernel {
 };
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/small_depth.hpp -----------------------------------------------------------
+// ------------ insonify/raster/detail/small_depth.hpp ----------------------------------------------------
 // Depths of small triangles: the set-up of several planes at a time, one per lane, and their values along a row.
 //
 // In double they are depth.hpp's planes, with a bound of the error, so that depths come out correctly rounded. In float
@@ -12501,7 +12773,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// Planes through the corners of N small triangles, in memory.
 template <int N, class Real>
@@ -12551,11 +12825,13 @@ struct small_planes {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/tile_buffer.hpp -----------------------------------------------------------
+// ------------ insonify/raster/detail/tile_buffer.hpp ----------------------------------------------------
 // What one tile shows so far.
 //
 // A tile resolves visibility in buffers of its own that stay in the first-level cache; who won is known before anything
@@ -12563,7 +12839,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// Depth of a tile's pixels and, where Winners, the name of the triangle that each shows.
 template <bool Winners>
@@ -12639,11 +12917,13 @@ INSONIFY_INLINE void keep_nearer(float* depth, std::uint32_t* winner, const lane
     }
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/small_fill.hpp ------------------------------------------------------------
+// ------------ insonify/raster/detail/small_fill.hpp -----------------------------------------------------
 // Pixels of small triangles: several triangles' set-up at hand, one per lane.
 //
 // A triangle of a fine mesh covers two or three pixels. Rows of eight would mostly miss, so where a group's triangles
@@ -12652,7 +12932,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// Draws up to N small triangles into a tile, in order.
 template <int N, class Real, bool Winners>
@@ -12870,16 +13152,20 @@ struct small_fill {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/tile.hpp ------------------------------------------------------------------
+// ------------ insonify/raster/detail/tile.hpp -----------------------------------------------------------
 // The pixel loop: one tile, its triangles in order, coverage and depth several pixels at a time.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// A triangle of any size, ready for the pixels of a box: its corners run clockwise on the screen, edges are named by
 /// their ends.
@@ -13111,11 +13397,13 @@ struct tile_kernel {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/fragment_lanes.hpp --------------------------------------------------------
+// ------------ insonify/raster/detail/fragment_lanes.hpp -------------------------------------------------
 // Shading of several pixels at a time, for who can write a shader in lanes: what a row's next N pixels show.
 //
 // Where a triangle of a fine mesh covers two or three pixels, most of the work is to fetch its corners. So what the
@@ -13124,7 +13412,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// Where the centres of a row's pixels lie on the grid. Unsigned: what is off the grid has no place, and from there it
 /// may be farther than an integer holds.
@@ -13313,7 +13603,9 @@ struct shading_kernel {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -13322,7 +13614,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -13473,7 +13766,7 @@ template <varying_shader VertexShader, class LaneShader, executor E>
 draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
                       std::span<const pixel_box> later, const draw_options& options, E& ex) {
     using varyings = varyings_of<VertexShader>;
-    unfilled_vector<vertex_record<varyings>> records(m.positions.size());
+    uninitialized_vector<vertex_record<varyings>> records(m.positions.size());
     const auto is_kept = [&](const pixel_box& tile) {
         return std::any_of(later.begin(), later.end(), [&](const pixel_box& b) { return !intersect(tile, b).empty(); });
     };
@@ -13543,11 +13836,12 @@ draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentSha
                                             shade);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/normals.hpp ---------------------------------------------------------------
+// ------------ insonify/seabed/detail/normals.hpp --------------------------------------------------------
 // Normals of a heightfield, by finite differences of its vertices.
 //
 // Central differences are what a mesh of the field needs: they see the relief that is drawn, and nothing finer,
@@ -13556,7 +13850,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 namespace detail {
 
@@ -13669,7 +13965,7 @@ class row_normals {
 template <executor_argument Executor = serial_executor>
 image<glm::vec3> normals(const heightfield& field, Executor&& ex = serial_executor{}) {
     validate(field);
-    image<glm::vec3> result(field.heights.width(), field.heights.height(), insonify::detail::unfilled{});
+    image<glm::vec3> result(field.heights.width(), field.heights.height(), insonify::detail::uninitialized{});
     ex.bulk(static_cast<std::size_t>(field.heights.height()), [&](std::size_t j) {
         const int row = static_cast<int>(j);
         detail::row_normals(field, row, result.row(row).data()).compute();
@@ -13677,7 +13973,9 @@ image<glm::vec3> normals(const heightfield& field, Executor&& ex = serial_execut
     return result;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -13686,7 +13984,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 namespace detail {
 
@@ -13770,11 +14070,13 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm
     return result;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/needed_vertices.hpp -------------------------------------------------------
+// ------------ insonify/seabed/detail/needed_vertices.hpp ------------------------------------------------
 // Which vertices of a heightfield a mesh needs, given how far off it may be.
 //
 // The hierarchy halves right triangles at the middle of their longest side. A middle is a vertex of the grid, and the
@@ -13787,7 +14089,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// How far a mesh may be from its heightfield.
 struct leeway {
@@ -14073,7 +14377,9 @@ class needed_vertices {
 
 }  // namespace detail
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -14082,7 +14388,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// A mesh of some vertices of a heightfield.
 struct adaptive_mesh {
@@ -14209,7 +14517,9 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
     return result;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -14374,7 +14684,7 @@ struct grid_heights {
     static constexpr int around = 4;  ///< rows of nothing on either side
 
     int pitch = 0;
-    insonify::detail::unfilled_vector<float> u;
+    insonify::detail::uninitialized_vector<float> u;
     float least = 0, greatest = 0;  ///< z
 
     template <executor E>
@@ -14561,7 +14871,7 @@ class horizon_bounds {
     grid_heights heights_;
     double margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
-    insonify::detail::unfilled_vector<horizon_bound> bounds_;
+    insonify::detail::uninitialized_vector<horizon_bound> bounds_;
 };
 
 }  // namespace shadow::detail
@@ -15023,7 +15333,7 @@ class plane_caster {
 
   private:
     std::span<const glm::uvec3> triangles_;
-    insonify::detail::unfilled_vector<plane_vertex> vertices_;
+    insonify::detail::uninitialized_vector<plane_vertex> vertices_;
     insonify::detail::tile_bins bins_;
 };
 
@@ -15436,8 +15746,9 @@ class exact_occlusion {
     /// What is known of whole triangles of a caster as a camera sees them: an answer for each, or none at all.
     /// @param eye  the camera
     template <executor E>
-    insonify::detail::unfilled_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye, E& ex) const {
-        insonify::detail::unfilled_vector<known> answers;
+    insonify::detail::uninitialized_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye,
+                                                                  E& ex) const {
+        insonify::detail::uninitialized_vector<known> answers;
         if (caster >= horizons_.size() || !horizons_[caster].bounds) return answers;
         const shadow::caster& c = casters_[caster];
         const horizon_state& state = horizons_[caster];
@@ -15528,7 +15839,7 @@ class exact_occlusion {
         glm::dvec3 travel{0};  ///< of the light, in the mesh's frame
         std::optional<detail::horizon_bounds> bounds;
     };
-    using receivers_of = insonify::detail::unfilled_vector<detail::receiver>;
+    using receivers_of = insonify::detail::uninitialized_vector<detail::receiver>;
     /// Points of a run of batches by tile.
     struct sorted_points {
         std::size_t first = 0;              ///< among all
@@ -15629,7 +15940,7 @@ class exact_occlusion {
         }
         if (tiles == 0) return;
         receivers_of found(most);
-        insonify::detail::unfilled_vector<std::uint32_t> keys(most);
+        insonify::detail::uninitialized_vector<std::uint32_t> keys(most);
         out.starts.assign(tiles + 1, 0);
         for (std::size_t part = first; part < last; ++part) {
             const points& some = at[part];
@@ -15726,12 +16037,14 @@ exact_occlusion exact::build(std::span<const caster> casters, const any_light& l
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/seabed_reach.hpp -----------------------------------------------------------
+// ------------ insonify/sonar/overhead/detail/seabed_reach.hpp -------------------------------------------
 // How far beyond the picture the seabed has to be there, so that whatever can throw a shadow into it does.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// A rectangle along the world's axes around the rig's position, metres.
 struct ground_box {
@@ -15790,16 +16103,20 @@ inline ground_box casting_ground(const overhead_geometry& view, const seabed::he
     return all;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/placed_mesh.hpp ------------------------------------------------------------
+// ------------ insonify/sonar/overhead/detail/placed_mesh.hpp --------------------------------------------
 // An object where the rig sees it, and which pixels it may concern.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// An object in the rig's frame.
 struct placed_mesh {
@@ -15849,11 +16166,13 @@ inline pixel_box shown_pixels(const overhead_geometry& view, const placed_mesh& 
     return shadowed_pixels(view, object, std::numeric_limits<double>::infinity());  // no shadow falls so high
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/shading.hpp ----------------------------------------------------------------
+// ------------ insonify/sonar/overhead/detail/shading.hpp ------------------------------------------------
 // From what a pixel shows to its light: the surface's smooth normal, the backscatter law, and what the surface sends
 // back without the light, several pixels at a time.
 //
@@ -16089,7 +16408,7 @@ class surface_shader {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/point_pass.hpp -------------------------------------------------------------
+// ------------ insonify/sonar/overhead/detail/point_pass.hpp ---------------------------------------------
 // From a visibility buffer to points: where the surfaces lie that pixels show, and which of them face the light.
 //
 // The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, held to
@@ -16107,9 +16426,9 @@ namespace detail {
 
 /// Room for the points of all pixels of a picture.
 struct point_arrays {
-    unfilled_vector<double> x, y, z;
-    unfilled_vector<std::uint32_t> mesh, triangle;
-    unfilled_vector<std::uint32_t> pixel;  ///< the caller's number of it
+    uninitialized_vector<double> x, y, z;
+    uninitialized_vector<std::uint32_t> mesh, triangle;
+    uninitialized_vector<std::uint32_t> pixel;  ///< the caller's number of it
 
     explicit point_arrays(std::size_t count)
         : x(count), y(count), z(count), mesh(count), triangle(count), pixel(count) {}
@@ -16336,7 +16655,7 @@ struct point_kernel {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/light_pass.hpp -------------------------------------------------------------
+// ------------ insonify/sonar/overhead/detail/light_pass.hpp ---------------------------------------------
 // From a shadow policy to the light on a tile: who casts, which points are tested, and what is named as the caster.
 //
 // Casters are numbered as they are named: a point in several shadows belongs to the target with the lowest number; else
@@ -16382,8 +16701,8 @@ inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh
 
 /// Room for what becomes of points.
 struct light_arrays {
-    unfilled_vector<float> lit;
-    unfilled_vector<std::uint32_t> caster;
+    uninitialized_vector<float> lit;
+    uninitialized_vector<std::uint32_t> caster;
 
     explicit light_arrays(std::size_t points) : lit(points), caster(points) {}
     shadow::shares part(std::size_t first, std::size_t count) {
@@ -16418,7 +16737,7 @@ struct point_batches {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/shadow_pass.hpp ------------------------------------------------------------
+// ------------ insonify/sonar/overhead/detail/shadow_pass.hpp --------------------------------------------
 // From a shadow policy to the shadows in a picture: the points of each tile are found and tested, and pixels lose the
 // light that does not arrive. Labels name the caster.
 
@@ -16477,7 +16796,7 @@ class shadow_pass {
         // What screening leaves, run by run.
         const std::size_t runs = is_collective ? (count + run - 1) / run : 0;
         point_arrays rest_of_points(runs * room);
-        unfilled_vector<float> direct(runs * room);
+        uninitialized_vector<float> direct(runs * room);
         std::vector<point_list> pending(runs);
         bulk_ranges(ex, count, run, [&](std::size_t first, std::size_t last) {
             point_arrays arrays(pixels);
@@ -16629,7 +16948,7 @@ class shadow_pass {
     const image<float>& rest_;
     image<float>& image_;
     Labels& labels_;
-    std::vector<unfilled_vector<shadow::known>> known_;  ///< of the surfaces' triangles, where anything is
+    std::vector<uninitialized_vector<shadow::known>> known_;  ///< of the surfaces' triangles, where anything is
     std::uint32_t targets_;
     int tile_;
     isa level_;
@@ -16641,12 +16960,13 @@ class shadow_pass {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/render.hpp -----------------------------------------------------------------
+// ------------ insonify/sonar/overhead/render.hpp --------------------------------------------------------
 // Paints a frame: the seabed sampled where the rig looks, shadows, the image in linear values, and its labels.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -16661,7 +16981,7 @@ class overhead_painter {
         out_.rows.step = 0;
         materials_ = resolved_bottom(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
-        out_.image = image<float>(rig.size.x, rig.size.y, unfilled{});  // the first draw fills it, and the depths
+        out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{});  // the first draw fills it, and the depths
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) {
@@ -16868,14 +17188,14 @@ class overhead_painter {
     template <executor E>
     void draw_all(E& ex) {
         const overhead& rig = view_.rig();
-        image<float> depth(rig.size.x, rig.size.y, unfilled{});
+        image<float> depth(rig.size.x, rig.size.y, uninitialized{});
         shaded_images into{out_.image};
         if constexpr (casts) {
-            rest_ = image<float>(rig.size.x, rig.size.y, unfilled{});
+            rest_ = image<float>(rig.size.x, rig.size.y, uninitialized{});
             into.rest = &rest_;
         }
         if constexpr (casts || labelled) {
-            ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, unfilled{});
+            ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, uninitialized{});
             into.ids = &ids_;
         }
         if constexpr (labelled) into.types = &out_.labels.seabed;
@@ -16922,7 +17242,7 @@ class overhead_painter {
     image<float> rest_;         ///< what pixels show without the light
     frame<Labels> out_;
     seabed::heightfield field_;
-    unfilled_mesh whole_bottom_;              ///< if every vertex is drawn
+    uninitialized_mesh whole_bottom_;         ///< if every vertex is drawn
     mesh sparse_bottom_;                      ///< if some are left out
     mesh_view bottom_;                        ///< one of them
     std::vector<seabed::type> bottom_types_;  ///< by vertex, or none where there is one type alone
@@ -16949,7 +17269,8 @@ visibility see(const scene& s, const overhead& rig, const render_options<shadow:
 }
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -16961,7 +17282,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::accuracy {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace accuracy {
 
 /// Errors of a picture, measured as `metrics.hpp` does; as a budget, what is tolerated.
 struct errors {
@@ -16979,9 +17302,13 @@ struct probe {
     double spare = 0.7;  ///< share of a budget that may be used where others have not been looked at
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::accuracy
+}  // namespace accuracy
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// Small pictures of a seabed, as fine as makes sense, to compare coarser ones with.
 class seabed_probe {
@@ -17144,7 +17471,9 @@ class seabed_probe {
     std::vector<picture> truths_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -17158,7 +17487,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::accuracy {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace accuracy {
 
 /// Errors that are tolerated, each above 0.
 using budget = errors;
@@ -17337,11 +17668,13 @@ inline settings<> exact(const overhead& rig) {
             .rig = rig};
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::accuracy
+}  // namespace accuracy
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/geometry/triangulate.hpp ---------------------------------------------------------
+// ------------ insonify/geometry/detail/triangulate.hpp --------------------------------------------------
 // Polygons into triangles: a fan where the polygon is convex, ear clipping where it is not.
 //
 // Based on: Joseph O'Rourke. Computational Geometry in C, 2nd edition, 1998, section 1.6 (clipping an ear changes
@@ -17349,7 +17682,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Concave polygons with more corners are cut into a fan, which covers too much: the work stays linear for any input.
 inline constexpr std::size_t ear_clipping_limit = 512;
@@ -17446,7 +17780,8 @@ inline void triangulate(std::span<const glm::vec3> corners, std::vector<glm::uve
     for (std::uint32_t i = 2; i < count; ++i) triangles.emplace_back(0u, i - 1, i);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -17457,7 +17792,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -17698,45 +18034,12 @@ inline mesh load_obj(const std::string& path) {
     }
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/geometry/objects/lattice_noise.hpp -----------------------------------------------
-// Noise for broken edges, relief and decay of objects.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-/// Value noise on the integer lattice, in [-1, 1], continuous with its slope.
-inline double lattice_noise(const glm::dvec3& p, const philox_key& key) {
-    std::int64_t cell[3];
-    double weight[3];
-    for (int i = 0; i < 3; ++i) {
-        cell[i] = numeric::floor_to_int(p[i]);
-        const double t = p[i] - static_cast<double>(cell[i]);
-        weight[i] = t * t * (3 - 2 * t);
-    }
-    double sum = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        philox_counter at{};
-        double share = 1;
-        for (int i = 0; i < 3; ++i) {
-            const int step = (corner >> i) & 1;
-            at[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(cell[i] + step);
-            share *= step == 1 ? weight[i] : 1 - weight[i];
-        }
-        sum += share * (2 * uniform_open(philox4x32(at, key)[0]) - 1);
-    }
-    return sum;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/geometry/objects/solids.hpp ------------------------------------------------------
+// ------------ insonify/geometry/objects/detail/solids.hpp -----------------------------------------------
 // Closed pieces that objects are assembled from: lofts of cross sections, boxes, bars and tubes.
 //
 // An object is a union of closed pieces that may overlap. Pieces never share an edge, so that the union stays closed by
@@ -17744,7 +18047,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// A closed polygon in space, without coincident corners.
 using section = std::vector<glm::dvec3>;
@@ -17869,11 +18174,200 @@ inline void append(mesh& into, mesh part, const affine& map = {}) {
     for (const glm::uvec3& t : part.triangles) into.triangles.push_back(t + first);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/geometry/objects/aeroplane_form.hpp ----------------------------------------------
+// ------------ insonify/geometry/objects/compound.hpp ----------------------------------------------------
+// Several meshes as one target, each with a reflectivity of its own.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// A part of a compound.
+struct compound_part {
+    mesh shape;  ///< with or without normals
+    pose placement;
+    float reflectivity = 1;  ///< relative to the target's material, >= 0: 1 for steel plating, less for rubber or wood
+};
+
+/// A list of parts that moves and is labelled as one target. Built from primitives, imported meshes and other objects.
+struct compound {
+    std::vector<compound_part> parts;
+
+    /// Adds a mesh, or anything that has a `to_mesh`.
+    template <class Shape>
+    compound& add(const Shape& shape, const pose& placement = {}, float reflectivity = 1) {
+        if constexpr (requires { shape.triangles; })
+            parts.push_back({shape, placement, reflectivity});
+        else
+            parts.push_back({to_mesh(shape), placement, reflectivity});
+        return *this;
+    }
+};
+
+/// A compound's parts in one mesh, and which triangle came from which part.
+struct merged_compound {
+    mesh shape;                           ///< with normals if every part has them
+    std::vector<std::uint16_t> part_ids;  ///< by triangle: an index of `reflectivities`
+    std::vector<float> reflectivities;    ///< by part
+};
+
+/// @throws invalid_input for a part without matching indices or normals, a reflectivity that is negative or not finite,
+///         or more than 65535 parts
+inline void validate(const compound& c) {
+    detail::require(c.parts.size() <= 65535, "compound.parts.size()", c.parts.size(), "at most 65535");
+    for (const compound_part& p : c.parts) {
+        validate(p.shape);
+        detail::require(numeric::is_finite(p.reflectivity) && p.reflectivity >= 0, "compound_part.reflectivity",
+                        p.reflectivity, "finite and at least 0");
+    }
+}
+
+/// The parts, placed, in one mesh. It is solid if every part is and no two parts share an edge.
+/// @throws invalid_input as `validate` and `to_world` do
+inline merged_compound merge(const compound& c) {
+    validate(c);
+    merged_compound out;
+    bool has_normals = true;
+    for (const compound_part& p : c.parts) has_normals = has_normals && !p.shape.normals.empty();
+    for (std::size_t i = 0; i < c.parts.size(); ++i) {
+        detail::append(out.shape, c.parts[i].shape, to_world(c.parts[i].placement));
+        out.part_ids.resize(out.shape.triangles.size(), static_cast<std::uint16_t>(i));
+        out.reflectivities.push_back(c.parts[i].reflectivity);
+    }
+    if (!has_normals) out.shape.normals.clear();
+    return out;
+}
+
+/// @throws invalid_input as `merge` does
+inline mesh to_mesh(const compound& c) {
+    return merge(c).shape;
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/creases.hpp -----------------------------------------------------
+// Shading normals that are smooth across gentle bends and sharp across edges.
+//
+// Based on: Grit Thuermer, Charles A. Wuethrich. Computing Vertex Normals from Polygonal Facets. Journal of Graphics
+// Tools 3(1), 1998 (the weight of a facet is its angle at the vertex).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// The same triangles with unit normals. A corner's normal is the mean of the facets around its position that bend away
+/// from its own facet by less than `angle`, so a position has as many vertices as sides of it look different.
+/// Facets without area keep their corners, with +z as normal.
+/// @param angle  radians; 0 makes every facet flat
+/// @throws invalid_input if an index has no position
+inline mesh with_creases(const mesh& m, float angle = 0.7f) {
+    validate(m);
+    const double smoothest = numeric::sin_cos(static_cast<double>(angle)).cosine;
+    const std::vector<std::uint32_t> first = weld(m.positions);
+
+    struct corner {
+        std::uint32_t position, triangle;
+        int number;
+        glm::dvec3 weighted;  // the facet's unit normal times its angle here
+    };
+    std::vector<glm::dvec3> facets(m.triangles.size(), glm::dvec3(0));
+    std::vector<corner> corners;
+    corners.reserve(3 * m.triangles.size());
+    for (std::uint32_t t = 0; t < m.triangles.size(); ++t) {
+        const glm::dvec3 p[3] = {m.positions[m.triangles[t].x], m.positions[m.triangles[t].y],
+                                 m.positions[m.triangles[t].z]};
+        const glm::dvec3 area = numeric::cross(p[1] - p[0], p[2] - p[0]);
+        const double length = numeric::square_root(numeric::dot(area, area));
+        if (length > 0 && numeric::is_finite(length)) facets[t] = area / length;
+        for (int i = 0; i < 3; ++i) {
+            const double turn = numeric::atan2(length, numeric::dot(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]));
+            corners.push_back({first[m.triangles[t][i]], t, i, turn * facets[t]});
+        }
+    }
+    std::sort(corners.begin(), corners.end(), [](const corner& a, const corner& b) {
+        return a.position != b.position   ? a.position < b.position
+               : a.triangle != b.triangle ? a.triangle < b.triangle
+                                          : a.number < b.number;
+    });
+
+    mesh out;
+    out.triangles = m.triangles;
+    for (std::size_t begin = 0, end; begin < corners.size(); begin = end) {
+        for (end = begin; end < corners.size() && corners[end].position == corners[begin].position;) ++end;
+        const auto fan = out.positions.size();
+        for (std::size_t i = begin; i < end; ++i) {
+            glm::dvec3 sum(0);
+            for (std::size_t j = begin; j < end; ++j)
+                if (i == j || numeric::dot(facets[corners[i].triangle], facets[corners[j].triangle]) > smoothest)
+                    sum += corners[j].weighted;
+            const double length = numeric::square_root(numeric::dot(sum, sum));
+            const glm::vec3 normal = length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
+            std::size_t vertex = fan;
+            while (vertex < out.normals.size() && out.normals[vertex] != normal) ++vertex;
+            if (vertex == out.normals.size()) {
+                out.positions.push_back(m.positions[corners[begin].position]);
+                out.normals.push_back(normal);
+            }
+            out.triangles[corners[i].triangle][corners[i].number] = static_cast<std::uint32_t>(vertex);
+        }
+    }
+    return out;
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/detail/lattice_noise.hpp ----------------------------------------
+// Noise for broken edges, relief and decay of objects.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// Value noise on the integer lattice, in [-1, 1], continuous with its slope.
+inline double lattice_noise(const glm::dvec3& p, const philox_key& key) {
+    std::int64_t cell[3];
+    double weight[3];
+    for (int i = 0; i < 3; ++i) {
+        cell[i] = numeric::floor_to_int(p[i]);
+        const double t = p[i] - static_cast<double>(cell[i]);
+        weight[i] = t * t * (3 - 2 * t);
+    }
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        philox_counter at{};
+        double share = 1;
+        for (int i = 0; i < 3; ++i) {
+            const int step = (corner >> i) & 1;
+            at[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(cell[i] + step);
+            share *= step == 1 ? weight[i] : 1 - weight[i];
+        }
+        sum += share * (2 * uniform_open(philox4x32(at, key)[0]) - 1);
+    }
+    return sum;
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/geometry/objects/detail/aeroplane_form.hpp ---------------------------------------
 // The form of an aeroplane: its parameters, the sections of its wings, and the bodies it is built from.
 //
 // Based on: Eastman N. Jacobs, Kenneth E. Ward, Robert M. Pinkerton. The Characteristics of 78 Related Airfoil
@@ -17881,7 +18375,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// An aeroplane on its belly, nose towards +x, its lowest point at z = 0: fuselage with canopy, tapered wings with
 /// dihedral, tailplane, fin, engines with propellers; whole, without wings, with its tail broken off, or on its back.
@@ -18054,152 +18549,8 @@ inline void append_propeller(mesh& into, const propeller& p, int corners) {
 }
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/geometry/objects/compound.hpp ----------------------------------------------------
-// Several meshes as one target, each with a reflectivity of its own.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// A part of a compound.
-struct compound_part {
-    mesh shape;  ///< with or without normals
-    pose placement;
-    float reflectivity = 1;  ///< relative to the target's material, >= 0: 1 for steel plating, less for rubber or wood
-};
-
-/// A list of parts that moves and is labelled as one target. Built from primitives, imported meshes and other objects.
-struct compound {
-    std::vector<compound_part> parts;
-
-    /// Adds a mesh, or anything that has a `to_mesh`.
-    template <class Shape>
-    compound& add(const Shape& shape, const pose& placement = {}, float reflectivity = 1) {
-        if constexpr (requires { shape.triangles; })
-            parts.push_back({shape, placement, reflectivity});
-        else
-            parts.push_back({to_mesh(shape), placement, reflectivity});
-        return *this;
-    }
-};
-
-/// A compound's parts in one mesh, and which triangle came from which part.
-struct merged_compound {
-    mesh shape;                           ///< with normals if every part has them
-    std::vector<std::uint16_t> part_ids;  ///< by triangle: an index of `reflectivities`
-    std::vector<float> reflectivities;    ///< by part
-};
-
-/// @throws invalid_input for a part without matching indices or normals, a reflectivity that is negative or not finite,
-///         or more than 65535 parts
-inline void validate(const compound& c) {
-    detail::require(c.parts.size() <= 65535, "compound.parts.size()", c.parts.size(), "at most 65535");
-    for (const compound_part& p : c.parts) {
-        validate(p.shape);
-        detail::require(numeric::is_finite(p.reflectivity) && p.reflectivity >= 0, "compound_part.reflectivity",
-                        p.reflectivity, "finite and at least 0");
-    }
-}
-
-/// The parts, placed, in one mesh. It is solid if every part is and no two parts share an edge.
-/// @throws invalid_input as `validate` and `to_world` do
-inline merged_compound merge(const compound& c) {
-    validate(c);
-    merged_compound out;
-    bool has_normals = true;
-    for (const compound_part& p : c.parts) has_normals = has_normals && !p.shape.normals.empty();
-    for (std::size_t i = 0; i < c.parts.size(); ++i) {
-        detail::append(out.shape, c.parts[i].shape, to_world(c.parts[i].placement));
-        out.part_ids.resize(out.shape.triangles.size(), static_cast<std::uint16_t>(i));
-        out.reflectivities.push_back(c.parts[i].reflectivity);
-    }
-    if (!has_normals) out.shape.normals.clear();
-    return out;
-}
-
-/// @throws invalid_input as `merge` does
-inline mesh to_mesh(const compound& c) {
-    return merge(c).shape;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/geometry/objects/creases.hpp -----------------------------------------------------
-// Shading normals that are smooth across gentle bends and sharp across edges.
-//
-// Based on: Grit Thuermer, Charles A. Wuethrich. Computing Vertex Normals from Polygonal Facets. Journal of Graphics
-// Tools 3(1), 1998 (the weight of a facet is its angle at the vertex).
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI {
-
-/// The same triangles with unit normals. A corner's normal is the mean of the facets around its position that bend away
-/// from its own facet by less than `angle`, so a position has as many vertices as sides of it look different.
-/// Facets without area keep their corners, with +z as normal.
-/// @param angle  radians; 0 makes every facet flat
-/// @throws invalid_input if an index has no position
-inline mesh with_creases(const mesh& m, float angle = 0.7f) {
-    validate(m);
-    const double smoothest = numeric::sin_cos(static_cast<double>(angle)).cosine;
-    const std::vector<std::uint32_t> first = weld(m.positions);
-
-    struct corner {
-        std::uint32_t position, triangle;
-        int number;
-        glm::dvec3 weighted;  // the facet's unit normal times its angle here
-    };
-    std::vector<glm::dvec3> facets(m.triangles.size(), glm::dvec3(0));
-    std::vector<corner> corners;
-    corners.reserve(3 * m.triangles.size());
-    for (std::uint32_t t = 0; t < m.triangles.size(); ++t) {
-        const glm::dvec3 p[3] = {m.positions[m.triangles[t].x], m.positions[m.triangles[t].y],
-                                 m.positions[m.triangles[t].z]};
-        const glm::dvec3 area = numeric::cross(p[1] - p[0], p[2] - p[0]);
-        const double length = numeric::square_root(numeric::dot(area, area));
-        if (length > 0 && numeric::is_finite(length)) facets[t] = area / length;
-        for (int i = 0; i < 3; ++i) {
-            const double turn = numeric::atan2(length, numeric::dot(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]));
-            corners.push_back({first[m.triangles[t][i]], t, i, turn * facets[t]});
-        }
-    }
-    std::sort(corners.begin(), corners.end(), [](const corner& a, const corner& b) {
-        return a.position != b.position   ? a.position < b.position
-               : a.triangle != b.triangle ? a.triangle < b.triangle
-                                          : a.number < b.number;
-    });
-
-    mesh out;
-    out.triangles = m.triangles;
-    for (std::size_t begin = 0, end; begin < corners.size(); begin = end) {
-        for (end = begin; end < corners.size() && corners[end].position == corners[begin].position;) ++end;
-        const auto fan = out.positions.size();
-        for (std::size_t i = begin; i < end; ++i) {
-            glm::dvec3 sum(0);
-            for (std::size_t j = begin; j < end; ++j)
-                if (i == j || numeric::dot(facets[corners[i].triangle], facets[corners[j].triangle]) > smoothest)
-                    sum += corners[j].weighted;
-            const double length = numeric::square_root(numeric::dot(sum, sum));
-            const glm::vec3 normal = length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 0, 1);
-            std::size_t vertex = fan;
-            while (vertex < out.normals.size() && out.normals[vertex] != normal) ++vertex;
-            if (vertex == out.normals.size()) {
-                out.positions.push_back(m.positions[corners[begin].position]);
-                out.normals.push_back(normal);
-            }
-            out.triangles[corners[i].triangle][corners[i].number] = static_cast<std::uint32_t>(vertex);
-        }
-    }
-    return out;
-}
-
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -18208,7 +18559,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -18413,7 +18765,8 @@ inline mesh to_mesh(const aeroplane& a) {
     return to_mesh(to_compound(a));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -18422,7 +18775,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A rock that stands on z = 0 and fills its box exactly. A boulder is larger than 0.256 m (C. K. Wentworth. A Scale of
 /// Grade and Class Terms for Clastic Sediments. Journal of Geology 30, 1922); the default proportions are those usual
@@ -18540,7 +18894,8 @@ inline mesh to_mesh(const boulder& b) {
     return with_creases(body, 0.5f);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -18549,7 +18904,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A hollow crate of boards on corner posts, standing on z = 0. Long sides along x.
 ///
@@ -18626,7 +18982,8 @@ inline mesh to_mesh(const crate& c) {
     return with_creases(body, 0);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -18638,7 +18995,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// The convex hull, counter-clockwise and without corners on straight edges, of the positions that are less than
 /// `height` above the lowest one, seen from above. Fewer than three corners if those lie on a line.
@@ -18675,16 +19033,18 @@ inline std::vector<glm::dvec2> footprint(const mesh_view& m, const pose& placeme
     return outline;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/geometry/objects/hull_form.hpp ---------------------------------------------------
+// ------------ insonify/geometry/objects/detail/hull_form.hpp --------------------------------------------
 // The form of a ship's hull: its parameters, and the lines that plating, decks and fittings follow.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 enum class stern_type : std::uint8_t { cruiser, transom };
 
@@ -18841,16 +19201,19 @@ class hull_lines {
 };
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/geometry/objects/hull_structure.hpp ----------------------------------------------
+// ------------ insonify/geometry/objects/detail/hull_structure.hpp ---------------------------------------
 // The steel of a ship's hull: plating, frames, bulkheads, decks with their hatches.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// A stretch of a hull's length.
 struct stretch_of_hull {
@@ -18957,16 +19320,20 @@ inline void append_coaming(mesh& into, const hull_lines& lines, const deck_plate
     }
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/geometry/objects/hull_fittings.hpp -----------------------------------------------
+// ------------ insonify/geometry/objects/detail/hull_fittings.hpp ----------------------------------------
 // What stands on a ship's decks and what falls off them: deckhouse, funnel, masts, boilers, debris.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// Where the deckhouse stands.
 inline stretch_of_hull house_of(const hull& h) {
@@ -19111,7 +19478,9 @@ inline void append_debris(mesh& into, const hull_lines& lines, const stretch_of_
     }
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -19120,7 +19489,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -19278,7 +19648,8 @@ inline mesh to_mesh(const hull& h) {
     return to_mesh(to_compound(h));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -19287,7 +19658,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A D-shaped creel along x, standing on z = 0: a slatted base, arched hoops over it, bars from hoop to hoop, the rings
 /// of two entrances, and a net of bars. The D shape with two entrances in its sides, diagonally opposite each other, is
@@ -19404,7 +19776,8 @@ inline mesh to_mesh(const lobster_pot& p) {
     return with_creases(body, 1.2f);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -19413,7 +19786,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A pipe along x, centred at the origin, open at both ends.
 ///
@@ -19491,7 +19865,8 @@ inline int segments_for(const open_pipe& p, float deviation) {
     return (std::max)(segments_for(0.5f * p.diameter + p.flange, deviation), 6);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -19500,7 +19875,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A truncated cone standing on z = 0 with a rounded shoulder, a boss on its top and lifting lugs on its side.
 ///
@@ -19583,7 +19959,8 @@ inline int segments_for(const truncated_cone& c, float deviation) {
     return (std::max)(segments_for(0.5f * c.diameter, deviation), 6);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -19592,7 +19969,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A tyre without its wheel, its axis along z, lying on z = 0: a hollow ring that is open towards its axis.
 ///
@@ -19662,7 +20040,8 @@ inline int segments_for(const tyre& t, float deviation) {
     return (std::max)(segments_for(0.5f * t.diameter, deviation), 6);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -19671,7 +20050,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A wedge standing on z = 0, nose towards +x: flat below, highest near its tail, with sloping sides. Such a shape
 /// reflects sound away from a sonar at most aspects.
@@ -19741,7 +20121,8 @@ inline mesh to_mesh(const wedge& w) {
     return with_creases(body, 0);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -19750,7 +20131,8 @@ INSONIFY_ARITHMETIC_END
 //
 // Based on: Yakov Shafranovich. Common Format and MIME Type for Comma-Separated Values (CSV) Files. RFC 4180, 2005.
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 template <class T>
@@ -19819,14 +20201,17 @@ class csv_table {
     std::string text_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 // ------------ insonify/seabed/area.hpp ------------------------------------------------------------------
 // Where a type of bottom lies: random patches, shapes, pictures; each as a signed distance to its border.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Patches strewn by a noise that exceeds a threshold.
 struct patches {
@@ -20011,7 +20396,9 @@ class outline {
 };
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -20026,7 +20413,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 namespace detail {
 
@@ -20265,7 +20654,9 @@ inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
     return field;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -20277,7 +20668,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 namespace detail {
 
@@ -20369,7 +20762,9 @@ void by_parts(const scanline& line, std::span<float> heights, std::span<type> ty
 }
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -20378,7 +20773,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class blend_sampler;
 
@@ -20445,7 +20842,9 @@ inline type blend::type_at(double x, double y) const {
     return at(prepare(), x, y).kind;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -20455,7 +20854,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class detailed_sampler;
 
@@ -20535,7 +20936,9 @@ inline float detailed::operator()(double x, double y) const {
     return at(prepare(), x, y).height;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -20550,7 +20953,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Scour around a footprint of any outline; `scour` is the same around a round one. The ground below the middle of the
 /// footprint stays, so that what lies on it keeps standing on it.
@@ -20634,7 +21039,9 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
 }
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -20643,7 +21050,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Adds a round hill with soft edges, or with a negative height a hollow.
 struct raise {
@@ -20941,7 +21350,9 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
 
 }  // namespace detail
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -20950,7 +21361,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class mixed_sampler;
 
@@ -21034,7 +21447,9 @@ inline type mixed::type_at(double x, double y) const {
     return at(prepare(), x, y).kind;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -21046,7 +21461,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class sculpt_sampler;
 
@@ -21137,7 +21554,9 @@ inline type sculpted::type_at(double x, double y) const {
     return at(prepare(), x, y).kind;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -21145,7 +21564,7 @@ INSONIFY_ARITHMETIC_END
 // Every seabed of the library.
 
 
-// ------------ insonify/shadow/height_map.hpp ------------------------------------------------------------
+// ------------ insonify/shadow/detail/height_map.hpp -----------------------------------------------------
 // Height maps of casters: for every ray of a parallel light, the height of the first surface that it meets.
 //
 // A height map is an image over the light's sheared frame (light.hpp), drawn by the rasterizer with height as depth.
@@ -21340,7 +21759,7 @@ class height_map {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/shadow/lookup.hpp ----------------------------------------------------------------
+// ------------ insonify/shadow/detail/lookup.hpp ---------------------------------------------------------
 // Looks a point up in a height map: at the nearest texel, or averaged over several (percentage-closer filtering).
 //
 // The point's own surface is in the map too. The plane of its facet is extended to each texel's centre before heights
@@ -21606,8 +22025,8 @@ class penumbra_occlusion {
     /// See occlusion.
     void test(const points& at, const shares& into) const {
         lights_.front().blocked.test(at, into);
-        insonify::detail::unfilled_vector<float> lit(at.size());
-        insonify::detail::unfilled_vector<std::uint32_t> blocking(at.size());
+        insonify::detail::uninitialized_vector<float> lit(at.size());
+        insonify::detail::uninitialized_vector<std::uint32_t> blocking(at.size());
         const shares one{lit, blocking};
         for (std::size_t i = 1; i < lights_.size(); ++i) {
             lights_[i].blocked.test(at, one);
@@ -21622,8 +22041,8 @@ class penumbra_occlusion {
         lights_.front().blocked.test(at, into, ex);
         std::size_t count = 0;
         for (const points& some : at) count += some.size();
-        insonify::detail::unfilled_vector<float> lit(count);
-        insonify::detail::unfilled_vector<std::uint32_t> blocking(count);
+        insonify::detail::uninitialized_vector<float> lit(count);
+        insonify::detail::uninitialized_vector<std::uint32_t> blocking(count);
         std::vector<shares> one;
         count = 0;
         for (const points& some : at) {
@@ -21727,7 +22146,69 @@ struct penumbra {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/bottom_tiles.hpp -----------------------------------------------------------
+// ------------ insonify/sonar/detail/smooth_noise.hpp ----------------------------------------------------
+// Noise without grain, for what drifts: gain from ping to ping, the brightness of the bottom from place to place.
+//
+// Standard normal numbers at the nodes of a lattice, blended with weights whose squares add up to one: the variance is
+// one everywhere, not only at the nodes. Each value is a function of (key, position).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// What a smooth field is drawn for; part of what a seed means.
+enum class drift_stream : std::uint32_t {
+    range_gain = 0x64726900,
+    ping_gain,
+    ping_jitter,
+    surface,
+    tone,
+    streaks,
+    patches
+};
+
+/// Where a position lies between two nodes, and the nodes' weights.
+struct lattice_place {
+    std::int64_t node;
+    double low, high;  // weights, of squares that add up to one
+
+    explicit lattice_place(double position) : node(numeric::floor_to_int(position)) {
+        const double t = position - static_cast<double>(node), s = t * t * (3 - 2 * t);
+        const double norm = 1 / numeric::square_root(s * s + (1 - s) * (1 - s));
+        low = (1 - s) * norm, high = s * norm;
+    }
+};
+
+inline double lattice_normal(std::int64_t i, std::int64_t j, std::uint32_t layer, const philox_key& key) {
+    const auto row = static_cast<std::uint64_t>(j);
+    const philox_counter word = philox4x32(
+        {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(row >> 32), layer},
+        key);
+    return normal_pair(word[0], word[1])[0];
+}
+
+/// Of mean 0 and variance 1. Values two nodes apart, and more, are independent.
+inline double smooth_noise(double position, const philox_key& key) {
+    const lattice_place p(position);
+    return p.low * lattice_normal(p.node, 0, 0, key) + p.high * lattice_normal(p.node + 1, 0, 0, key);
+}
+
+/// The same over a plane.
+inline double smooth_noise(double x, double y, std::uint32_t layer, const philox_key& key) {
+    const lattice_place p(x), q(y);
+    const auto at = [&](int i, int j) { return lattice_normal(p.node + i, q.node + j, layer, key); };
+    return q.low * (p.low * at(0, 0) + p.high * at(1, 0)) + q.high * (p.low * at(0, 1) + p.high * at(1, 1));
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/side_scan/detail/bottom_tiles.hpp ------------------------------------------
 // The bottom under a track that goes anywhere: heights and slopes in square tiles, sampled where pings look and nowhere
 // else.
 //
@@ -21735,7 +22216,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// The bottom at a vertex, and between vertices.
 struct bottom_vertex {
@@ -21922,74 +22405,20 @@ class bottom_tiles {
     std::uint64_t sampled_ = 0;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/smooth_noise.hpp -----------------------------------------------------------
-// Noise without grain, for what drifts: gain from ping to ping, the brightness of the bottom from place to place.
-//
-// Standard normal numbers at the nodes of a lattice, blended with weights whose squares add up to one: the variance is
-// one everywhere, not only at the nodes. Each value is a function of (key, position).
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify::inline INSONIFY_ABI::detail {
-
-/// What a smooth field is drawn for; part of what a seed means.
-enum class drift_stream : std::uint32_t {
-    range_gain = 0x64726900,
-    ping_gain,
-    ping_jitter,
-    surface,
-    tone,
-    streaks,
-    patches
-};
-
-/// Where a position lies between two nodes, and the nodes' weights.
-struct lattice_place {
-    std::int64_t node;
-    double low, high;  // weights, of squares that add up to one
-
-    explicit lattice_place(double position) : node(numeric::floor_to_int(position)) {
-        const double t = position - static_cast<double>(node), s = t * t * (3 - 2 * t);
-        const double norm = 1 / numeric::square_root(s * s + (1 - s) * (1 - s));
-        low = (1 - s) * norm, high = s * norm;
-    }
-};
-
-inline double lattice_normal(std::int64_t i, std::int64_t j, std::uint32_t layer, const philox_key& key) {
-    const auto row = static_cast<std::uint64_t>(j);
-    const philox_counter word = philox4x32(
-        {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(row >> 32), layer},
-        key);
-    return normal_pair(word[0], word[1])[0];
-}
-
-/// Of mean 0 and variance 1. Values two nodes apart, and more, are independent.
-inline double smooth_noise(double position, const philox_key& key) {
-    const lattice_place p(position);
-    return p.low * lattice_normal(p.node, 0, 0, key) + p.high * lattice_normal(p.node + 1, 0, 0, key);
-}
-
-/// The same over a plane.
-inline double smooth_noise(double x, double y, std::uint32_t layer, const philox_key& key) {
-    const lattice_place p(x), q(y);
-    const auto at = [&](int i, int j) { return lattice_normal(p.node + i, q.node + j, layer, key); };
-    return q.low * (p.low * at(0, 0) + p.high * at(1, 0)) + q.high * (p.low * at(0, 1) + p.high * at(1, 1));
-}
-
-}  // namespace insonify::inline INSONIFY_ABI::detail
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/name_tally.hpp -------------------------------------------------------------
+// ------------ insonify/sonar/side_scan/detail/name_tally.hpp --------------------------------------------
 // Which of several names has most of a bin: lengths or powers are summed by bin and name.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 class name_tally {
   public:
@@ -22034,11 +22463,13 @@ class name_tally {
     std::vector<entry> entries_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/ping_fan.hpp ---------------------------------------------------------------
+// ------------ insonify/sonar/side_scan/detail/ping_fan.hpp ----------------------------------------------
 // The rays of a ping, in the vertical plane across the track: nadir first, one after the other outwards.
 //
 // Level ground is met at equal steps. Beyond its end come rays for what stands up there, at equal angles: neighbours
@@ -22046,7 +22477,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// Parameters of a fan. Heights are rounded so that few different fans serve a whole track.
 struct fan_shape {
@@ -22158,7 +22591,9 @@ class ping_fan {
     double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond it: the first number, radians
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -22249,14 +22684,16 @@ class plane_tree {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/target_slices.hpp ----------------------------------------------------------
+// ------------ insonify/sonar/side_scan/detail/target_slices.hpp -----------------------------------------
 // Slices of targets by the plane of a ping.
 
 #include <map>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// A piece of outline in the plane of a ping.
 struct outline_piece {
@@ -22357,11 +22794,13 @@ inline std::vector<sliced_target> sliced_targets(const scene& s) {
     return all;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/target_hits.hpp ------------------------------------------------------------
+// ------------ insonify/sonar/side_scan/detail/target_hits.hpp -------------------------------------------
 // First hits of a ping's rays with the targets, with exact fractional coverage of each ray's width.
 //
 // The outline of the targets in a ping's plane is a set of straight pieces. Within each ray's width the pieces' ends
@@ -22370,7 +22809,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// The part of a ray that a target stops.
 struct target_hit {
@@ -22587,11 +23028,13 @@ class target_hits {
     std::vector<double> ends_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/ping_echo.hpp --------------------------------------------------------------
+// ------------ insonify/sonar/side_scan/detail/ping_echo.hpp ---------------------------------------------
 // Computes the echo of one ping, bin by bin.
 //
 // Source and receiver coincide: the first surface along a ray is both insonified and heard. Each ray's
@@ -22601,7 +23044,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// Power and contents of a range bin; lengths are in bins.
 struct echo_bin {
@@ -22956,11 +23401,13 @@ class ping_listener {
     name_tally echoing_, casting_, types_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/sonar_equation.hpp ---------------------------------------------------------
+// ------------ insonify/sonar/side_scan/sonar_equation.hpp -----------------------------------------------
 // The sonar equation as a list of parts: what is not in the list is not computed, and not compiled.
 //
 // A picture's pixels are intensities (power), linear. Without any part, a bin holds the backscattering cross-section of
@@ -22973,7 +23420,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// 10^(decibels / 10): for powers.
 inline double from_decibels(double decibels) {
@@ -23191,17 +23639,19 @@ class sonar_equation {
     std::tuple<Parts...> parts_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/slant_range.hpp ------------------------------------------------------------
+// ------------ insonify/sonar/side_scan/slant_range.hpp --------------------------------------------------
 // Side-scan pictures, pings by ranges: water column, first return, layover and shadows, with labels for every bin. See
 // ping_echo.hpp for the echo of one ping.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Options of recordings. What the types leave out is not compiled.
 template <class Labels = labels, backscatter_law Law = lambert_backscatter, class Equation = sonar_equation<level_gain>>
@@ -23518,16 +23968,18 @@ frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
     return out;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/swath.hpp ------------------------------------------------------------------
+// ------------ insonify/sonar/side_scan/swath.hpp --------------------------------------------------------
 // Both sides of the track in one picture.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// The picture with left and right exchanged: what grew to the right grows to the left.
 template <class T>
@@ -23613,7 +24065,8 @@ frame<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
     return both_sides(port, render(s, rig, options, ex));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -23629,7 +24082,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// The fluctuation of a sediment, as the table has it.
 constexpr speckle_law speckle_of(seabed::sediment s) {
@@ -23864,7 +24318,8 @@ frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex
     return r;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -23879,7 +24334,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Levels in decibels that are added to a bottom's; all of them 0 is none.
 struct bottom_tone {
@@ -24013,7 +24469,8 @@ frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const b
     return r;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -24029,7 +24486,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What a class of sonars has in common.
 struct instrument {
@@ -24094,7 +24552,8 @@ inline const instrument& instrument_named(std::string_view name) {
                                 "synthetic_aperture"));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -24286,7 +24745,7 @@ auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusio
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/ping_gain.hpp --------------------------------------------------------------
+// ------------ insonify/sonar/side_scan/ping_gain.hpp ----------------------------------------------------
 // What a receiver's gain leaves behind: brightness that drifts across range, and from ping to ping.
 //
 // Recordings are corrected for spreading, absorption and beam pattern by models that don't hold exactly, so a level
@@ -24297,7 +24756,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -24400,11 +24860,12 @@ struct ping_banding {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/range_geometry.hpp ---------------------------------------------------------
+// ------------ insonify/sonar/side_scan/range_geometry.hpp -----------------------------------------------
 // The closed forms of side-scan geometry over a level bottom: ranges, shadows, layover and what is measured from them.
 //
 // Lengths are metres. `altitude` is the sonar's above the bottom, `ground` a distance across the track on the bottom,
@@ -24415,7 +24876,9 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::range_geometry {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace range_geometry {
 
 /// Distance from the sonar to a point.
 inline double slant_range(double ground, double altitude, double height = 0) {
@@ -24475,16 +24938,19 @@ inline double along_track_footprint(double slant, double beam_width) {
     return slant * beam_width;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::range_geometry
+}  // namespace range_geometry
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/slant_to_ground.hpp --------------------------------------------------------
+// ------------ insonify/sonar/side_scan/slant_to_ground.hpp ----------------------------------------------
 // Slant-range correction: a recording laid out on the bottom, as if that were level.
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Lays a recording out on a level bottom at the datum: the water column goes, what is raised stays shifted towards the
 /// sonar by its layover. Intensities are interpolated linearly between the centres of bins and labels are those of the
@@ -24537,11 +25003,12 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
     return out;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/water_column.hpp -----------------------------------------------------------
+// ------------ insonify/sonar/side_scan/water_column.hpp -------------------------------------------------
 // What a receiver hears besides the bottom: its noise, which time-varied gain lifts with range, scatterers in the
 // water, and the sea surface.
 //
@@ -24551,7 +25018,8 @@ INSONIFY_ARITHMETIC_END
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -24648,7 +25116,8 @@ struct water_column {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
@@ -24664,7 +25133,7 @@ INSONIFY_ARITHMETIC_END
 //     #include <insonify/insonify.hpp>
 //
 // This list is what one defines and the others leave to it. Other shadow policies, laws and seabeds work too: include
-// the header that draws with them (sonar/render.hpp), and the unit compiles what the list lacks.
+// the header that draws with them (sonar/overhead/render.hpp), and the unit compiles what the list lacks.
 
 #if defined(INSONIFY_COMPILED)
 
@@ -24674,7 +25143,8 @@ INSONIFY_ARITHMETIC_END
 #define INSONIFY_ONCE extern template
 #endif
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -24702,7 +25172,8 @@ INSONIFY_SEABED(rock)
 #undef INSONIFY_SEABED
 
 }  // namespace seabed
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 #undef INSONIFY_ONCE
 #endif

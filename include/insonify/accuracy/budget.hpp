@@ -15,7 +15,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::accuracy {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace accuracy {
 
 /// Errors that are tolerated, each above 0.
 using budget = errors;
@@ -194,6 +196,8 @@ inline settings<> exact(const overhead& rig) {
             .rig = rig};
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::accuracy
+}  // namespace accuracy
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -13,7 +13,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::accuracy {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace accuracy {
 
 /// Counts of pixels; a pixel other than 0 belongs to the mask.
 struct mask_difference {
@@ -59,9 +61,13 @@ struct pixel_difference {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::accuracy
+}  // namespace accuracy
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 template <class T>
 void require_same_size(image_view<const T> result, image_view<const T> truth) {
@@ -90,9 +96,13 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
     return out;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
-namespace insonify::inline INSONIFY_ABI::accuracy {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace accuracy {
 
 /// @throws invalid_input if the sizes differ
 inline mask_difference compare_masks(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
@@ -124,6 +134,8 @@ inline pixel_difference compare_images(image_view<const std::uint8_t> result, im
     return detail::compare_pixels(result, truth);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::accuracy
+}  // namespace accuracy
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -5,13 +5,15 @@
 #pragma once
 
 #include <insonify/accuracy/metrics.hpp>
-#include <insonify/sonar/render.hpp>
+#include <insonify/sonar/overhead/render.hpp>
 
 #include <array>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::accuracy {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace accuracy {
 
 /// Errors of a picture, measured as `metrics.hpp` does; as a budget, what is tolerated.
 struct errors {
@@ -29,9 +31,13 @@ struct probe {
     double spare = 0.7;  ///< share of a budget that may be used where others have not been looked at
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::accuracy
+}  // namespace accuracy
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
-namespace insonify::inline INSONIFY_ABI::detail {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
 
 /// Small pictures of a seabed, as fine as makes sense, to compare coarser ones with.
 class seabed_probe {
@@ -194,6 +200,8 @@ class seabed_probe {
     std::vector<picture> truths_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::detail
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

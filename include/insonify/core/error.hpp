@@ -5,7 +5,7 @@
 #pragma once
 
 #include <insonify/config.hpp>
-#include <insonify/core/portable.hpp>
+#include <insonify/core/detail/portable.hpp>
 
 #include <exception>
 #include <stdexcept>
@@ -13,7 +13,8 @@
 #include <string_view>
 #include <type_traits>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// An argument that cannot be right. `what()` names the argument, its value, and what was expected.
 struct invalid_input : std::invalid_argument {
@@ -66,4 +67,5 @@ void require(bool holds, std::string_view argument, Number value, std::string_vi
 }
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

@@ -7,7 +7,8 @@
 #include <cstddef>
 #include <type_traits>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// `ex.bulk(count, fn)` calls `fn(i)` once for every i in [0, count), in any order and on any thread, and returns when
 /// all calls have returned. If calls throw, it rethrows one of their exceptions after the others have ended.
@@ -66,4 +67,5 @@ void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
     });
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

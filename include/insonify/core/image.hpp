@@ -1,8 +1,8 @@
 // Pixels that own their memory.
 #pragma once
 
+#include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/image_view.hpp>
-#include <insonify/core/unfilled.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -10,7 +10,8 @@
 #include <limits>
 #include <utility>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Red, green and blue, in that order in memory.
 template <class T>
@@ -33,7 +34,7 @@ class image {
     image(int width, int height, T fill = T{})
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), fill) {}
 
-    image(int width, int height, detail::unfilled)
+    image(int width, int height, detail::uninitialized)
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area()) {}
 
     /// Rows written out, for tests and small tables: `image<float>{{0, 1}, {2, 3}}`.
@@ -50,7 +51,7 @@ class image {
     }
 
     /// A packed copy of what a view shows.
-    explicit image(image_view<const T> source) : image(source.width(), source.height(), detail::unfilled{}) {
+    explicit image(image_view<const T> source) : image(source.width(), source.height(), detail::uninitialized{}) {
         for (int y = 0; y < height_; ++y) {
             const auto from = source.row(y);
             std::copy(from.begin(), from.end(), row(y).begin());
@@ -97,14 +98,14 @@ class image {
 
     int width_ = 0;
     int height_ = 0;
-    detail::unfilled_vector<T> pixels_;
+    detail::uninitialized_vector<T> pixels_;
 };
 
 /// The image with every pixel replaced by `fn(pixel)`; the size stays, the type is what `fn` returns.
 template <class T, class Fn>
 auto map_pixels(image_view<const T> source, Fn&& fn) {
     using result = std::decay_t<decltype(fn(std::declval<const T&>()))>;
-    image<result> out(source.width(), source.height(), detail::unfilled{});
+    image<result> out(source.width(), source.height(), detail::uninitialized{});
     for (int y = 0; y < source.height(); ++y) {
         const auto from = source.row(y);
         std::transform(from.begin(), from.end(), out.row(y).begin(), fn);
@@ -116,4 +117,5 @@ auto map_pixels(const image<T>& source, Fn&& fn) {
     return map_pixels(source.view(), fn);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

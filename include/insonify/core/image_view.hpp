@@ -8,7 +8,8 @@
 #include <span>
 #include <type_traits>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Non-owning, strided view of row-major pixels; row 0 is at the top. Copying it copies no pixel.
 template <class T>
@@ -70,4 +71,5 @@ class image_view {
     std::ptrdiff_t stride_ = 0;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

@@ -9,7 +9,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::numeric {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace numeric {
 
 template <class T>
 INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
@@ -53,6 +55,8 @@ T determinant(const glm::mat<3, 3, T>& m) {
     return dot(m[0], cross(m[1], m[2]));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::numeric
+}  // namespace numeric
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

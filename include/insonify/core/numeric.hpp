@@ -4,8 +4,8 @@
 // reaches a pixel is computed here: + - * / and the correctly rounded square root alone, in a fixed order.
 #pragma once
 
+#include <insonify/core/detail/portable.hpp>
 #include <insonify/core/error.hpp>
-#include <insonify/core/portable.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -14,7 +14,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace literals {
 /// Angles are radians in the API: `6_deg` is 0.10472.
@@ -175,6 +176,7 @@ inline double atan2(double y, double x) {
 }
 
 }  // namespace numeric
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

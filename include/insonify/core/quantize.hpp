@@ -1,8 +1,8 @@
 // From [0, 1] to codes of 8 or 16 bits and back: the one rounding rule of filters and files.
 #pragma once
 
-#include <insonify/core/dispatch.hpp>
-#include <insonify/core/lanes.hpp>
+#include <insonify/core/simd/dispatch.hpp>
+#include <insonify/core/simd/lanes.hpp>
 
 #include <array>
 #include <concepts>
@@ -12,7 +12,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What a gray file or screen stores for a pixel.
 template <class T>
@@ -124,6 +125,7 @@ void dequantize_row(std::span<const Code> from, std::span<float> to) {
     }
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

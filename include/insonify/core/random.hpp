@@ -6,7 +6,7 @@
 // SC11, 2011 (Philox4x32-10; checked against the known answers of Random123).
 #pragma once
 
-#include <insonify/core/random_lanes.hpp>
+#include <insonify/core/simd/random_lanes.hpp>
 
 #include <array>
 #include <bit>
@@ -14,7 +14,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 using philox_counter = std::array<std::uint32_t, 4>;
 using philox_key = std::array<std::uint32_t, 2>;
@@ -94,6 +95,7 @@ class random_sequence {
     std::size_t used_ = 4;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

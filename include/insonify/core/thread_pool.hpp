@@ -11,7 +11,8 @@
 #include <type_traits>
 #include <vector>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A fixed number of threads that share the calls of one `bulk` at a time; the calling thread is one of them.
 /// A `bulk` that finds the pool at work, called from inside a running call or from another thread, runs on its calling
@@ -149,4 +150,5 @@ class thread_pool {
     bool stopping_ = false;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

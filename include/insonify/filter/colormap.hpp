@@ -12,7 +12,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// The colour of each gray level. Floats in [0, 1] take the colour of the nearest level; NaN that of level 0.
 struct color_table {
@@ -102,6 +103,7 @@ inline constexpr color_table inverse_gray = tabulate_colors([](int level) {
 });
 
 }  // namespace colormap
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

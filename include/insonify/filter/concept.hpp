@@ -21,7 +21,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -94,6 +95,7 @@ concept pixel_filter = pixel_function<const F, Pixel> || requires(const F& f) {
 template <class F, class Pixel>
 concept filter_for = image_filter<F, Pixel> || measured_filter<F, Pixel> || pixel_filter<F, Pixel>;
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

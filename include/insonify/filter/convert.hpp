@@ -8,7 +8,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -51,6 +52,7 @@ inline constexpr detail::to_code<std::uint16_t> to_uint16{};
 /// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` takes it back exactly.
 inline constexpr detail::to_unit to_float{};
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -8,16 +8,17 @@
 // 24, 1976 (the K-distribution).
 #pragma once
 
-#include <insonify/core/gamma.hpp>
-#include <insonify/filter/correlated.hpp>
+#include <insonify/core/detail/gamma.hpp>
+#include <insonify/filter/detail/correlated.hpp>
+#include <insonify/filter/detail/rejection.hpp>
 #include <insonify/filter/parameter.hpp>
-#include <insonify/filter/rejection.hpp>
 
 #include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What the pixels of an image of echoes hold. An amplitude is the square root of an intensity.
 enum class echo { amplitude, intensity };
@@ -291,6 +292,7 @@ struct rician {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -23,7 +23,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// How many pixels there are of each level. Level k of n stands for the value k / (n - 1) and takes what is nearest to
 /// it, ties up; values outside [0, 1] count at the ends. Those of many images add up to that of a data set:
@@ -380,6 +381,7 @@ class match_binned {
     histogram wanted_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

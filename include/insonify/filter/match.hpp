@@ -5,9 +5,9 @@
 // with linear interpolation between values that are present.
 #pragma once
 
+#include <insonify/core/detail/portable.hpp>
 #include <insonify/core/image.hpp>
 #include <insonify/core/numeric.hpp>
-#include <insonify/core/portable.hpp>
 #include <insonify/core/quantize.hpp>
 #include <insonify/filter/histogram.hpp>
 
@@ -20,7 +20,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// The distinct values of an image in rising order, and how many pixels have at most that value.
 struct distribution {
@@ -222,6 +223,7 @@ class match_histogram {
     std::shared_ptr<const distribution> reference_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -10,15 +10,16 @@
 // Mathematical Statistics 29, 1958.
 #pragma once
 
-#include <insonify/filter/correlated.hpp>
-#include <insonify/filter/noise_pass.hpp>
+#include <insonify/filter/detail/correlated.hpp>
+#include <insonify/filter/detail/noise_pass.hpp>
 #include <insonify/filter/parameter.hpp>
 
 #include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -215,6 +216,7 @@ struct salt_and_pepper {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

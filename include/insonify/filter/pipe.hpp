@@ -9,7 +9,7 @@
 // declare `is_filter`) or a chain; `filter_chain<>{} | mine | yours` starts one without.
 #pragma once
 
-#include <insonify/filter/level_sweep.hpp>
+#include <insonify/filter/detail/level_sweep.hpp>
 
 #include <algorithm>
 #include <concepts>
@@ -19,7 +19,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -160,7 +161,7 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
         sweep(look_at(source), source.view(), pass, ex, origin);
         return std::move(source);
     } else {
-        image<to> out(source.width(), source.height(), unfilled{});
+        image<to> out(source.width(), source.height(), uninitialized{});
         sweep(look_at(source), out.view(), pass, ex, origin);
         return out;
     }
@@ -207,7 +208,7 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     } else if constexpr (measured_filter<F, pixel>) {
         if constexpr (std::same_as<pixel, float> && level_filter<F>) {
             // Levels are a quarter of what the pixels are.
-            image<std::uint8_t> levels(source.width(), source.height(), unfilled{});
+            image<std::uint8_t> levels(source.width(), source.height(), uninitialized{});
             if (const auto counted = sweep_levels(look_at(source), levels.view(), pass, run.ex, run.origin))
                 return run_stages(std::move(levels), stage.pass(*counted), run, rest...);
         }
@@ -350,6 +351,7 @@ auto operator|(F&& f, G&& g) {
         std::tuple_cat(detail::as_stages(std::forward<F>(f)), detail::as_stages(std::forward<G>(g))));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -4,11 +4,12 @@
 // Mathematics and Economics 12, 1993 (algorithm PTRS, means of 256 and above; below there are tables).
 #pragma once
 
-#include <insonify/filter/poisson_tables.hpp>
+#include <insonify/filter/detail/poisson_tables.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -135,6 +136,7 @@ struct matlab_poisson {
     auto pass() const { return detail::exact_poisson(0, seed, frame); }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -1,10 +1,10 @@
 // Axis-aligned boxes, for fitting cameras and culling.
 #pragma once
 
-#include <insonify/core/dispatch.hpp>
 #include <insonify/core/executor.hpp>
-#include <insonify/core/lanes.hpp>
 #include <insonify/core/numeric.hpp>
+#include <insonify/core/simd/dispatch.hpp>
+#include <insonify/core/simd/lanes.hpp>
 #include <insonify/geometry/mesh.hpp>
 
 #include <algorithm>
@@ -14,7 +14,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// The points p with lower <= p <= upper in each coordinate, in metres; by default none at all.
 struct bounding_box {
@@ -115,6 +116,7 @@ bounding_box bounds(const mesh_view& m, E&& ex = {}) {
     return box;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -8,7 +8,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A cone standing on its base, tip towards +z, centred at mid-height: the base is at z = -height / 2.
 struct cone {
@@ -51,6 +52,7 @@ inline int segments_for(const cone& shape, float deviation) {
     return segments_for((std::max)(shape.radius, shape.top_radius), deviation);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -10,7 +10,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A box centred at the origin, edges along the axes.
 struct cube {
@@ -44,6 +45,7 @@ inline mesh to_mesh(const cube& shape) {
     return out;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

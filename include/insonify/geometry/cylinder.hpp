@@ -8,7 +8,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A cylinder along x, centred at the origin, with flat ends.
 struct cylinder {
@@ -69,6 +70,7 @@ inline int segments_for(const capsule& shape, float deviation) {
     return detail::round_segments_for(shape.radius, deviation, [](int segments) { return 2 * ((segments + 3) / 4); });
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -1,8 +1,8 @@
 // Indexed triangle meshes as plain data, and views of them.
 #pragma once
 
+#include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/error.hpp>
-#include <insonify/core/unfilled.hpp>
 
 #include <cstdint>
 #include <span>
@@ -10,7 +10,8 @@
 
 #include <glm/vec3.hpp>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// An indexed triangle mesh. Counter-clockwise triangles face the viewer; positions are metres in the mesh's own frame.
 struct mesh {
@@ -34,9 +35,9 @@ struct mesh_view {
 namespace detail {
 
 /// A mesh with uninitialized storage, for meshes that are rebuilt in every picture.
-struct unfilled_mesh {
-    unfilled_vector<glm::vec3> positions, normals;
-    unfilled_vector<glm::uvec3> triangles;
+struct uninitialized_mesh {
+    uninitialized_vector<glm::vec3> positions, normals;
+    uninitialized_vector<glm::uvec3> triangles;
 
     operator mesh_view() const { return {positions, normals, triangles}; }
 };
@@ -53,4 +54,5 @@ inline void validate(const mesh& m) {
     }
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

@@ -16,7 +16,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// One unit normal per position: the mean of the triangles around it, weighted by their angle there, so that it does
 /// not depend on how a face was cut into triangles. Triangles without area or with non-finite corners do not count; a
@@ -62,6 +63,7 @@ inline std::size_t wind_by_normals(mesh& m) {
     return turned;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -5,9 +5,9 @@
 
 #include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
+#include <insonify/geometry/detail/triangulate.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/geometry/normals.hpp>
-#include <insonify/geometry/triangulate.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -25,7 +25,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -266,6 +267,7 @@ inline mesh load_obj(const std::string& path) {
     }
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -2,10 +2,10 @@
 // that callers need no flag and a wrong flag cannot change a result.
 #pragma once
 
-#include <insonify/core/dispatch.hpp>
 #include <insonify/core/executor.hpp>
-#include <insonify/core/lanes.hpp>
 #include <insonify/core/numeric.hpp>
+#include <insonify/core/simd/dispatch.hpp>
+#include <insonify/core/simd/lanes.hpp>
 #include <insonify/geometry/mesh.hpp>
 
 #include <algorithm>
@@ -18,7 +18,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Vertex (i, j) is number j columns + i and lies at origin + i right + j up in x and y, at any height; rows may go
 /// down from the top, as those of pictures, `up` being to the right of `right`. Each cell is cut into two triangles the
@@ -167,6 +168,7 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
     return grid;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -13,7 +13,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 enum class axis { x, y, z };
 
@@ -158,6 +159,7 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
 }
 #endif
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

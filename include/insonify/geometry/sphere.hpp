@@ -12,7 +12,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A sphere centred at the origin, stretched along x, y and z by `aspect`: the semi-axes are radius * aspect.
 /// An edge of its mesh deviates as an edge of the circle does (`segments_for`), the middle of a face up to twice that.
@@ -81,6 +82,7 @@ inline int segments_for(const hemisphere& shape, float deviation) {
                                       [](int segments) { return 2 * ((segments + 3) / 4); });
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -16,7 +16,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What a mesh is as a surface, with vertices in the same place taken as one (sharp edges split them for their
 /// normals).
@@ -116,6 +117,7 @@ inline topology inspect(const mesh& m) {
     return out;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

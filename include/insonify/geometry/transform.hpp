@@ -16,7 +16,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Where an object stands and how it is turned: scaled first, then rolled, pitched, yawed, and moved.
 ///
@@ -113,6 +114,7 @@ inline mesh transformed(mesh m, const affine& map) {
     return m;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

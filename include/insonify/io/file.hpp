@@ -21,7 +21,8 @@
 extern "C" __declspec(dllimport) int __stdcall MoveFileExA(const char* from, const char* to, unsigned long flags);
 #endif
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -167,4 +168,5 @@ inline void write_file(const std::string& path, std::string_view bytes) {
     file.commit();
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

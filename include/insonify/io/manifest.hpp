@@ -12,7 +12,8 @@
 #include <string_view>
 #include <type_traits>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 template <class T>
@@ -81,4 +82,5 @@ class csv_table {
     std::string text_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

@@ -10,8 +10,8 @@
 // Based on: Jef Poskanzer and others. Netpbm, pgm(5) and ppm(5). Paul Debevec. PFM Portable FloatMap.
 #pragma once
 
+#include <insonify/core/detail/portable.hpp>
 #include <insonify/core/image.hpp>
-#include <insonify/core/portable.hpp>
 #include <insonify/io/file.hpp>
 
 #include <charconv>
@@ -24,7 +24,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -277,6 +278,7 @@ void write_netpbm(const std::string& path, const image<Pixel>& source) {
     write_netpbm(path, source.view());
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

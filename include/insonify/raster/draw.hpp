@@ -1,16 +1,17 @@
 // The public entry of the rasterizer: a mesh, what to do with vertices and pixels, and where to leave the result.
 #pragma once
 
-#include <insonify/raster/assembly.hpp>
-#include <insonify/raster/fragment_lanes.hpp>
-#include <insonify/raster/tile.hpp>
+#include <insonify/raster/detail/assembly.hpp>
+#include <insonify/raster/detail/fragment_lanes.hpp>
+#include <insonify/raster/detail/tile.hpp>
 
 #include <bit>
 #include <optional>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -161,7 +162,7 @@ template <varying_shader VertexShader, class LaneShader, executor E>
 draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
                       std::span<const pixel_box> later, const draw_options& options, E& ex) {
     using varyings = varyings_of<VertexShader>;
-    unfilled_vector<vertex_record<varyings>> records(m.positions.size());
+    uninitialized_vector<vertex_record<varyings>> records(m.positions.size());
     const auto is_kept = [&](const pixel_box& tile) {
         return std::any_of(later.begin(), later.end(), [&](const pixel_box& b) { return !intersect(tile, b).empty(); });
     };
@@ -231,6 +232,7 @@ draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentSha
                                             shade);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

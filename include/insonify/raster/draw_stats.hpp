@@ -5,7 +5,8 @@
 
 #include <cstdint>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What became of a mesh's triangles. Nothing that a draw meets by the million is an error.
 /// Each of `triangles` is counted once among drawn, culled, missed, degenerate and not_finite. What lies outside of
@@ -34,4 +35,5 @@ struct draw_stats {
     friend bool operator==(const draw_stats&, const draw_stats&) = default;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

@@ -5,7 +5,8 @@
 
 #include <limits>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Which of two surfaces a pixel shows.
 enum class keep_depth {
@@ -49,4 +50,5 @@ struct framebuffer<void> {
     image_view<float> depth;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

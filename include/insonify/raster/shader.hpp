@@ -4,8 +4,8 @@
 // are asked for in any order and on any thread.
 #pragma once
 
+#include <insonify/core/detail/portable.hpp>
 #include <insonify/core/error.hpp>
-#include <insonify/core/portable.hpp>
 #include <insonify/raster/interpolatable.hpp>
 
 #include <array>
@@ -19,7 +19,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What a vertex callable receives.
 struct vertex {
@@ -133,6 +134,7 @@ concept fragment_shader = requires(const S& shader, const fragment<Varyings>& f)
     requires std::is_void_v<Pixel> || std::is_convertible_v<decltype(shader(f)), Pixel>;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

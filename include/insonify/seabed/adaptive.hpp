@@ -1,11 +1,13 @@
 // Adaptive tessellation: the surface of a heightfield by few triangles, within a tolerance of all of them.
 #pragma once
 
-#include <insonify/seabed/needed_vertices.hpp>
+#include <insonify/seabed/detail/needed_vertices.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// A mesh of some vertices of a heightfield.
 struct adaptive_mesh {
@@ -132,6 +134,8 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
     return result;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

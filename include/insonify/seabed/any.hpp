@@ -11,7 +11,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// A prepared seabed of any model; shares ownership of the model.
 class any_sampler {
@@ -111,6 +113,8 @@ class any {
     std::shared_ptr<const interface_type> held_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <insonify/core/image.hpp>
-#include <insonify/seabed/noise.hpp>
+#include <insonify/seabed/detail/noise.hpp>
 
 #include <variant>
 #include <vector>
@@ -11,7 +11,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Patches strewn by a noise that exceeds a threshold.
 struct patches {
@@ -196,6 +198,8 @@ class outline {
 };
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

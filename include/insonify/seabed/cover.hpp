@@ -9,7 +9,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 namespace detail {
 
@@ -101,6 +103,8 @@ void by_parts(const scanline& line, std::span<float> heights, std::span<type> ty
 }
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -2,12 +2,14 @@
 // resolves centimetres.
 #pragma once
 
+#include <insonify/seabed/detail/noise.hpp>
 #include <insonify/seabed/heightfield.hpp>
-#include <insonify/seabed/noise.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class detailed_sampler;
 
@@ -87,6 +89,8 @@ inline float detailed::operator()(double x, double y) const {
     return at(prepare(), x, y).height;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -6,7 +6,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Adds a round hill with soft edges, or with a negative height a hollow.
 struct raise {
@@ -304,6 +306,8 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
 
 }  // namespace detail
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

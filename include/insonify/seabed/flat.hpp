@@ -1,11 +1,13 @@
 // Flat sand: nothing but the roughness that the sea left.
 #pragma once
 
-#include <insonify/seabed/noise.hpp>
+#include <insonify/seabed/detail/noise.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class flat_sampler;
 
@@ -45,6 +47,8 @@ inline float flat::operator()(double x, double y) const {
     return height_at(prepare(), x, y);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -14,7 +14,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Scour around a footprint of any outline; `scour` is the same around a round one. The ground below the middle of the
 /// footprint stays, so that what lies on it keeps standing on it.
@@ -98,6 +100,8 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
 }
 
 }  // namespace detail
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -29,7 +29,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Equally spaced samples along x: sample i lies at (x(i), y), metres in the world. Each position is computed from i
 /// alone, never accumulated, and parts of a row keep their origin: cutting a row changes no bit of it.
@@ -242,6 +244,8 @@ float height_at(const S& prepared, double x, double y) {
     return height;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

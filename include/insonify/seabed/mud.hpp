@@ -1,13 +1,15 @@
 // Mud: gentle relief with the mounds and pock marks of what lives and seeps in it, and the tracks of trawls.
 #pragma once
 
-#include <insonify/seabed/noise.hpp>
-#include <insonify/seabed/strewn.hpp>
-#include <insonify/seabed/trawls.hpp>
+#include <insonify/seabed/detail/noise.hpp>
+#include <insonify/seabed/detail/strewn.hpp>
+#include <insonify/seabed/detail/trawls.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class mud_sampler;
 
@@ -72,6 +74,8 @@ inline float mud::operator()(double x, double y) const {
     return height_at(prepare(), x, y);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -7,7 +7,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// The absence of a seabed. Heights are NaN everywhere, nothing is drawn, and nothing rests on it.
 struct none {
@@ -23,6 +25,8 @@ struct none {
     float operator()(double, double) const { return std::numeric_limits<float>::quiet_NaN(); }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

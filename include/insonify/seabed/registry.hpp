@@ -13,7 +13,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Types named after their relief, with the gray values of the paper's pictures.
 inline constexpr type_properties relief_types[] = {
@@ -111,6 +113,8 @@ constexpr type_properties properties_of(type t) {
     return {t, "", built_in_types[0].reflectivity, built_in_types[0].speckle};
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -1,12 +1,14 @@
 // Sand ripples: one system of crests, or two that cross, and what lies on them.
 #pragma once
 
-#include <insonify/seabed/noise.hpp>
-#include <insonify/seabed/ripple_train.hpp>
+#include <insonify/seabed/detail/noise.hpp>
+#include <insonify/seabed/detail/ripple_train.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class ripples_sampler;
 
@@ -74,6 +76,8 @@ inline float ripples::operator()(double x, double y) const {
     return height_at(prepare(), x, y);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -1,12 +1,14 @@
 // Rock: outcrops that step up from the bottom, broken into blocks, boulders and rubble.
 #pragma once
 
-#include <insonify/seabed/blocks.hpp>
-#include <insonify/seabed/noise.hpp>
+#include <insonify/seabed/detail/blocks.hpp>
+#include <insonify/seabed/detail/noise.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 class rock_sampler;
 
@@ -154,6 +156,8 @@ INSONIFY_FUNCTION void rock_sampler::row(const scanline& line, std::span<float> 
 }
 #endif
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -6,7 +6,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// Where to sample: vertex (i, j) at origin + spacing * (first + (i, j)), metres in the world. Parts of one grid share
 /// their vertices to the last bit if they differ in `first` and not in the origin.
@@ -44,8 +46,8 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 /// parameters of the model out of their range
 template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
-    constexpr insonify::detail::unfilled unfilled;
-    heightfield result{.heights = image<float>(where.width, where.height, unfilled),
+    constexpr insonify::detail::uninitialized uninitialized;
+    heightfield result{.heights = image<float>(where.width, where.height, uninitialized),
                        .origin = where.origin + where.spacing * glm::dvec2(where.first),
                        .spacing = where.spacing};
     for (const type_properties& t : legend_of(source))
@@ -53,7 +55,7 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     if (const std::optional<type> only = only_type(source))
         result.fallback = *only;
     else
-        result.types = image<type>(where.width, where.height, unfilled);
+        result.types = image<type>(where.width, where.height, uninitialized);
     validate(result);
 
     const auto prepared = prepare(source);
@@ -69,6 +71,8 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     return result;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

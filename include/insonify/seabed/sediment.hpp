@@ -15,7 +15,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 /// The rows of `sediments`; each has the value of its label.
 enum class sediment : std::uint8_t {
@@ -91,6 +93,8 @@ inline ripples rippled(sediment s, ripples shape = {}) {
     return shape;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -3,12 +3,14 @@
 
 #include <insonify/core/executor.hpp>
 #include <insonify/geometry/mesh.hpp>
+#include <insonify/seabed/detail/normals.hpp>
 #include <insonify/seabed/heightfield.hpp>
-#include <insonify/seabed/normals.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::seabed {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
 
 namespace detail {
 
@@ -92,6 +94,8 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm
     return result;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI::seabed
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -96,8 +96,9 @@ class exact_occlusion {
     /// What is known of whole triangles of a caster as a camera sees them: an answer for each, or none at all.
     /// @param eye  the camera
     template <executor E>
-    insonify::detail::unfilled_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye, E& ex) const {
-        insonify::detail::unfilled_vector<known> answers;
+    insonify::detail::uninitialized_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye,
+                                                                  E& ex) const {
+        insonify::detail::uninitialized_vector<known> answers;
         if (caster >= horizons_.size() || !horizons_[caster].bounds) return answers;
         const shadow::caster& c = casters_[caster];
         const horizon_state& state = horizons_[caster];
@@ -188,7 +189,7 @@ class exact_occlusion {
         glm::dvec3 travel{0};  ///< of the light, in the mesh's frame
         std::optional<detail::horizon_bounds> bounds;
     };
-    using receivers_of = insonify::detail::unfilled_vector<detail::receiver>;
+    using receivers_of = insonify::detail::uninitialized_vector<detail::receiver>;
     /// Points of a run of batches by tile.
     struct sorted_points {
         std::size_t first = 0;              ///< among all
@@ -289,7 +290,7 @@ class exact_occlusion {
         }
         if (tiles == 0) return;
         receivers_of found(most);
-        insonify::detail::unfilled_vector<std::uint32_t> keys(most);
+        insonify::detail::uninitialized_vector<std::uint32_t> keys(most);
         out.starts.assign(tiles + 1, 0);
         for (std::size_t part = first; part < last; ++part) {
             const points& some = at[part];

@@ -13,7 +13,9 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI::shadow {
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow {
 
 /// Light from infinitely far away.
 struct directional_light {
@@ -59,6 +61,8 @@ class light_frame {
     double cot_;
 };
 
-}  // namespace insonify::inline INSONIFY_ABI::shadow
+}  // namespace shadow
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

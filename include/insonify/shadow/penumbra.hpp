@@ -37,8 +37,8 @@ class penumbra_occlusion {
     /// See occlusion.
     void test(const points& at, const shares& into) const {
         lights_.front().blocked.test(at, into);
-        insonify::detail::unfilled_vector<float> lit(at.size());
-        insonify::detail::unfilled_vector<std::uint32_t> blocking(at.size());
+        insonify::detail::uninitialized_vector<float> lit(at.size());
+        insonify::detail::uninitialized_vector<std::uint32_t> blocking(at.size());
         const shares one{lit, blocking};
         for (std::size_t i = 1; i < lights_.size(); ++i) {
             lights_[i].blocked.test(at, one);
@@ -53,8 +53,8 @@ class penumbra_occlusion {
         lights_.front().blocked.test(at, into, ex);
         std::size_t count = 0;
         for (const points& some : at) count += some.size();
-        insonify::detail::unfilled_vector<float> lit(count);
-        insonify::detail::unfilled_vector<std::uint32_t> blocking(count);
+        insonify::detail::uninitialized_vector<float> lit(count);
+        insonify::detail::uninitialized_vector<std::uint32_t> blocking(count);
         std::vector<shares> one;
         count = 0;
         for (const points& some : at) {

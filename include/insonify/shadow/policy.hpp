@@ -5,8 +5,8 @@
 // points. The built-in policies (map, pcf, exact, penumbra) are models of these concepts, and so are those of users.
 #pragma once
 
+#include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/executor.hpp>
-#include <insonify/core/unfilled.hpp>
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/transform.hpp>
@@ -141,7 +141,7 @@ enum class known : std::uint8_t { lit, dark, nothing };
 template <class S>
 concept triangle_occlusion = collective_occlusion<S> &&
     requires(const S& structure, std::uint32_t caster, const glm::dvec3& eye, serial_executor& ex) {
-    { structure.known_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::unfilled_vector<known>>;
+    { structure.known_triangles(caster, eye, ex) } -> std::same_as<insonify::detail::uninitialized_vector<known>>;
 };
 
 }  // namespace shadow

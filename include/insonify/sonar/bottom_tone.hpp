@@ -7,12 +7,13 @@
 // twice, from either side, has the same tone.
 #pragma once
 
-#include <insonify/sonar/smooth_noise.hpp>
+#include <insonify/sonar/detail/smooth_noise.hpp>
 #include <insonify/sonar/speckle.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Levels in decibels that are added to a bottom's; all of them 0 is none.
 struct bottom_tone {
@@ -146,6 +147,7 @@ frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const b
     return r;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

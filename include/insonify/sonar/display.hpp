@@ -15,7 +15,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A filter that makes gray values in [0, 1] of intensities by a power: (intensity / white)^exponent. The default is
 /// their square root, the amplitude, which is what most sonars show. NaN is black.
@@ -112,6 +113,7 @@ struct automatic_display {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

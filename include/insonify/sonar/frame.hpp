@@ -3,7 +3,7 @@
 
 #include <insonify/raster/draw_stats.hpp>
 #include <insonify/sonar/labels.hpp>
-#include <insonify/sonar/side_scan.hpp>
+#include <insonify/sonar/side_scan/side_scan.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 

@@ -8,7 +8,7 @@
 // 20 %).
 #pragma once
 
-#include <insonify/sonar/sonar_equation.hpp>
+#include <insonify/sonar/side_scan/sonar_equation.hpp>
 #include <insonify/sonar/speckle.hpp>
 
 #include <array>
@@ -17,7 +17,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What a class of sonars has in common.
 struct instrument {
@@ -82,6 +83,7 @@ inline const instrument& instrument_named(std::string_view name) {
                                 "synthetic_aperture"));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

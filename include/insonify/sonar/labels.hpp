@@ -1,7 +1,7 @@
 // Ground truth per pixel: target instances, seabed labels, and shadows with their casters.
 #pragma once
 
-#include <insonify/core/filled.hpp>
+#include <insonify/core/detail/filled.hpp>
 #include <insonify/sonar/scene.hpp>
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A rectangle of pixels: left, top, width and height, as COCO writes boxes.
 struct label_box {
@@ -119,6 +120,7 @@ INSONIFY_FUNCTION void describe_targets(labels& l, const std::vector<target>& ta
 }
 #endif
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -7,7 +7,7 @@
 #include <insonify/seabed/tessellate.hpp>
 #include <insonify/shadow/exact.hpp>
 #include <insonify/sonar/labels.hpp>
-#include <insonify/sonar/rig.hpp>
+#include <insonify/sonar/overhead/rig.hpp>
 #include <insonify/sonar/scene.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN

@@ -15,7 +15,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// An object with a class of its own. Both sides of its triangles show and block light; it may be open or closed.
 struct target {
@@ -106,6 +107,7 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
     return placement;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -8,7 +8,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 using seabed::sediment;
 
@@ -28,10 +29,12 @@ inline constexpr float by_seabed_model = -1;
 constexpr bottom_materials default_bottom() {
     bottom_materials bottom{};
     bottom.fill({by_seabed_model});
-    for (const seabed::type_properties& t : seabed::built_in_types) bottom[seabed::index_of(t.label)] = {t.reflectivity};
+    for (const seabed::type_properties& t : seabed::built_in_types)
+        bottom[seabed::index_of(t.label)] = {t.reflectivity};
     return bottom;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

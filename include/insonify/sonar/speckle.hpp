@@ -8,14 +8,15 @@
 // Transactions on Mathematical Software 26, 2000.
 #pragma once
 
-#include <insonify/core/correlation.hpp>
+#include <insonify/core/detail/correlation.hpp>
+#include <insonify/core/detail/gamma.hpp>
 #include <insonify/core/executor.hpp>
-#include <insonify/core/gamma.hpp>
-#include <insonify/sonar/swath.hpp>
+#include <insonify/sonar/side_scan/swath.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// The fluctuation of a sediment, as the table has it.
 constexpr speckle_law speckle_of(seabed::sediment s) {
@@ -250,6 +251,7 @@ frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex
     return r;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -16,7 +16,8 @@
 #include <string>
 #include <utility>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Catch2's form of a picture matcher.
 template <class Matcher>
@@ -42,7 +43,8 @@ auto matches(picture_matcher<Compare> matcher) {
     return catch_picture_matcher<picture_matcher<Compare>>(std::move(matcher));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 /// What Catch2 prints of a picture.
 template <class Pixel>

@@ -14,7 +14,8 @@
 #error "insonify/io/png.hpp needs stb_image_write.h (Debian: libstb-dev) on the include path."
 #endif
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -54,4 +55,5 @@ inline void write_png(const std::string& path, image_view<const float> source) {
     write_png(path, map_pixels(source, quantize<std::uint8_t>));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

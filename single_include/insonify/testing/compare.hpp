@@ -11,7 +11,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// What a test lets pass. The default lets nothing pass but the same values.
 struct picture_tolerance {
@@ -143,6 +144,7 @@ image<rgb8> difference_picture(const image<Pixel>& found, const image<Pixel>& ex
     return picture;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -16,7 +16,8 @@
 #include <type_traits>
 #include <utility>
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// Whether the environment variable INSONIFY_UPDATE_GOLDEN is set to anything but nothing or 0.
 inline bool golden_update_requested() {
@@ -127,4 +128,5 @@ struct golden_pictures {
     }
 };
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

@@ -3,7 +3,7 @@
 
 #include <insonify/core/quantize.hpp>
 #include <insonify/core/thread_pool.hpp>
-#include <insonify/sonar/render.hpp>
+#include <insonify/sonar/overhead/render.hpp>
 
 #include <span>
 #include <utility>

@@ -1,6 +1,6 @@
 // Draws in lanes of floats: the draws of random.hpp to their rounding, the same at every instruction set.
-#include <insonify/core/draw_lanes.hpp>
 #include <insonify/core/random.hpp>
+#include <insonify/core/simd/draw_lanes.hpp>
 
 #include <algorithm>
 #include <bit>

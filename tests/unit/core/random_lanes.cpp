@@ -1,7 +1,7 @@
 // Draws in lanes are the draws of random.hpp, bit for bit.
-#include <insonify/core/dispatch.hpp>
 #include <insonify/core/random.hpp>
-#include <insonify/core/random_lanes.hpp>
+#include <insonify/core/simd/dispatch.hpp>
+#include <insonify/core/simd/random_lanes.hpp>
 
 #include <bit>
 #include <cmath>

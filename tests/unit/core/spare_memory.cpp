@@ -1,6 +1,6 @@
 // Memory given back waits for who asks for as much next; a thread holds hardly more than it has had in use at once.
-#include <insonify/core/spare_memory.hpp>
-#include <insonify/core/unfilled.hpp>
+#include <insonify/core/detail/spare_memory.hpp>
+#include <insonify/core/detail/uninitialized.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -57,7 +57,7 @@ TEST_CASE("Pictures of one size, made one after another, share their memory") {
         INFO(bytes);
         const float* seen = nullptr;
         for (int i = 0; i < 3; ++i) {
-            const in::detail::unfilled_vector<float> picture(bytes / sizeof(float));
+            const in::detail::uninitialized_vector<float> picture(bytes / sizeof(float));
             if (i > 0 && INSONIFY_KEEP_MEMORY) CHECK(picture.data() == seen);
             seen = picture.data();
         }
@@ -65,8 +65,8 @@ TEST_CASE("Pictures of one size, made one after another, share their memory") {
         in::release_memory();
         CHECK(spare_memory::mine()->kept() == 0);
     }
-    const in::detail::unfilled_vector<char> little(memory_block::least - 1);
-    CHECK(in::detail::unfilled_vector<char>(little).size() == little.size());
+    const in::detail::uninitialized_vector<char> little(memory_block::least - 1);
+    CHECK(in::detail::uninitialized_vector<char>(little).size() == little.size());
     CHECK(spare_memory::mine()->kept() == 0);
 }
 
@@ -172,10 +172,10 @@ TEST_CASE("More than the system has is refused, and nothing is lost") {
 }
 
 TEST_CASE("Memory may be given back on another thread, and after the thread's own end") {
-    in::detail::unfilled_vector<char> picture;
+    in::detail::uninitialized_vector<char> picture;
     std::thread([&] { picture.resize(4 * page, 'x'); }).join();
     CHECK(picture.back() == 'x');
     std::thread([last = std::move(picture)]() mutable { last = {}; }).join();
-    static const in::detail::unfilled_vector<char> until_the_end(2 * page);
+    static const in::detail::uninitialized_vector<char> until_the_end(2 * page);
     CHECK(until_the_end.size() == 2 * page);
 }

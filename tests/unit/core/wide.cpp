@@ -1,5 +1,5 @@
 // The arithmetic behind exact geometry: 128-bit integers, numbers of twice a double's precision, products of vectors.
-#include <insonify/core/double_double.hpp>
+#include <insonify/core/detail/double_double.hpp>
 #include <insonify/core/linear.hpp>
 #include <insonify/core/random.hpp>
 

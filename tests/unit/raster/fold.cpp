@@ -1,6 +1,6 @@
 // Polygons that rounding has folded over themselves, against a sum of triangles that an exact oracle has judged.
 #include <insonify/core/random.hpp>
-#include <insonify/raster/fold.hpp>
+#include <insonify/raster/detail/fold.hpp>
 
 #include "../../catch.hpp"
 #include "pixel_space.hpp"

@@ -5,9 +5,9 @@
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/sculpt.hpp>
 #include <insonify/sonar/occlusion.hpp>
-#include <insonify/sonar/render.hpp>
+#include <insonify/sonar/overhead/render.hpp>
+#include <insonify/sonar/side_scan/swath.hpp>
 #include <insonify/sonar/speckle.hpp>
-#include <insonify/sonar/swath.hpp>
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 #include <insonify/shadow/map.hpp>
 #include <insonify/shadow/penumbra.hpp>
 #include <insonify/sonar/occlusion.hpp>
-#include <insonify/sonar/render.hpp>
+#include <insonify/sonar/overhead/render.hpp>
 
 #include <cmath>
 

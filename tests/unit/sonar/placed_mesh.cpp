@@ -1,8 +1,8 @@
 // Which pixels may show a target, and which its shadow may darken: elsewhere nobody asks for it.
 #include <insonify/core/random.hpp>
 #include <insonify/geometry/cube.hpp>
-#include <insonify/sonar/placed_mesh.hpp>
-#include <insonify/sonar/render.hpp>
+#include <insonify/sonar/overhead/detail/placed_mesh.hpp>
+#include <insonify/sonar/overhead/render.hpp>
 
 #include <algorithm>
 #include <vector>

@@ -5,7 +5,7 @@
 #include <insonify/geometry/cylinder.hpp>
 #include <insonify/geometry/sphere.hpp>
 #include <insonify/shadow/map.hpp>
-#include <insonify/sonar/render.hpp>
+#include <insonify/sonar/overhead/render.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,16 +1,17 @@
 // Aeroplanes, whole, without wings or tail, or on their back.
 #pragma once
 
-#include <insonify/geometry/objects/aeroplane_form.hpp>
 #include <insonify/geometry/objects/compound.hpp>
 #include <insonify/geometry/objects/creases.hpp>
+#include <insonify/geometry/objects/detail/aeroplane_form.hpp>
 
 #include <algorithm>
 #include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -215,6 +216,7 @@ inline mesh to_mesh(const aeroplane& a) {
     return to_mesh(to_compound(a));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

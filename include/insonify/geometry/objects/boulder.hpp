@@ -2,8 +2,8 @@
 #pragma once
 
 #include <insonify/geometry/objects/creases.hpp>
-#include <insonify/geometry/objects/lattice_noise.hpp>
-#include <insonify/geometry/objects/solids.hpp>
+#include <insonify/geometry/objects/detail/lattice_noise.hpp>
+#include <insonify/geometry/objects/detail/solids.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -11,7 +11,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A rock that stands on z = 0 and fills its box exactly. A boulder is larger than 0.256 m (C. K. Wentworth. A Scale of
 /// Grade and Class Terms for Clastic Sediments. Journal of Geology 30, 1922); the default proportions are those usual
@@ -129,6 +130,7 @@ inline mesh to_mesh(const boulder& b) {
     return with_creases(body, 0.5f);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -1,7 +1,7 @@
 // Several meshes as one target, each with a reflectivity of its own.
 #pragma once
 
-#include <insonify/geometry/objects/solids.hpp>
+#include <insonify/geometry/objects/detail/solids.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A part of a compound.
 struct compound_part {
@@ -72,6 +73,7 @@ inline mesh to_mesh(const compound& c) {
     return merge(c).shape;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <insonify/geometry/objects/creases.hpp>
-#include <insonify/geometry/objects/solids.hpp>
+#include <insonify/geometry/objects/detail/solids.hpp>
 
 #include <algorithm>
 #include <cstdint>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A hollow crate of boards on corner posts, standing on z = 0. Long sides along x.
 ///
@@ -86,6 +87,7 @@ inline mesh to_mesh(const crate& c) {
     return with_creases(body, 0);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -17,7 +17,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// The same triangles with unit normals. A corner's normal is the mean of the facets around its position that bend away
 /// from its own facet by less than `angle`, so a position has as many vertices as sides of it look different.
@@ -78,6 +79,7 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
     return out;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

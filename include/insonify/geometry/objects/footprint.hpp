@@ -15,7 +15,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// The convex hull, counter-clockwise and without corners on straight edges, of the positions that are less than
 /// `height` above the lowest one, seen from above. Fewer than three corners if those lie on a line.
@@ -52,6 +53,7 @@ inline std::vector<glm::dvec2> footprint(const mesh_view& m, const pose& placeme
     return outline;
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

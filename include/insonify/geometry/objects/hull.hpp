@@ -3,7 +3,7 @@
 
 #include <insonify/geometry/objects/compound.hpp>
 #include <insonify/geometry/objects/creases.hpp>
-#include <insonify/geometry/objects/hull_fittings.hpp>
+#include <insonify/geometry/objects/detail/hull_fittings.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 namespace detail {
 
@@ -170,6 +171,7 @@ inline mesh to_mesh(const hull& h) {
     return to_mesh(to_compound(h));
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <insonify/geometry/objects/creases.hpp>
-#include <insonify/geometry/objects/solids.hpp>
+#include <insonify/geometry/objects/detail/solids.hpp>
 
 #include <algorithm>
 #include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A D-shaped creel along x, standing on z = 0: a slatted base, arched hoops over it, bars from hoop to hoop, the rings
 /// of two entrances, and a net of bars. The D shape with two entrances in its sides, diagonally opposite each other, is
@@ -126,6 +127,7 @@ inline mesh to_mesh(const lobster_pot& p) {
     return with_creases(body, 1.2f);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

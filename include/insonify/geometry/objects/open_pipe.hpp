@@ -2,7 +2,7 @@
 #pragma once
 
 #include <insonify/geometry/objects/creases.hpp>
-#include <insonify/geometry/objects/solids.hpp>
+#include <insonify/geometry/objects/detail/solids.hpp>
 #include <insonify/geometry/revolution.hpp>
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A pipe along x, centred at the origin, open at both ends.
 ///
@@ -89,6 +90,7 @@ inline int segments_for(const open_pipe& p, float deviation) {
     return (std::max)(segments_for(0.5f * p.diameter + p.flange, deviation), 6);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <insonify/geometry/objects/creases.hpp>
-#include <insonify/geometry/objects/solids.hpp>
+#include <insonify/geometry/objects/detail/solids.hpp>
 #include <insonify/geometry/revolution.hpp>
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A truncated cone standing on z = 0 with a rounded shoulder, a boss on its top and lifting lugs on its side.
 ///
@@ -93,6 +94,7 @@ inline int segments_for(const truncated_cone& c, float deviation) {
     return (std::max)(segments_for(0.5f * c.diameter, deviation), 6);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <insonify/geometry/objects/creases.hpp>
-#include <insonify/geometry/objects/solids.hpp>
+#include <insonify/geometry/objects/detail/solids.hpp>
 #include <insonify/geometry/revolution.hpp>
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A tyre without its wheel, its axis along z, lying on z = 0: a hollow ring that is open towards its axis.
 ///
@@ -80,6 +81,7 @@ inline int segments_for(const tyre& t, float deviation) {
     return (std::max)(segments_for(0.5f * t.diameter, deviation), 6);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

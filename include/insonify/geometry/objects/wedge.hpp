@@ -2,13 +2,14 @@
 #pragma once
 
 #include <insonify/geometry/objects/creases.hpp>
-#include <insonify/geometry/objects/solids.hpp>
+#include <insonify/geometry/objects/detail/solids.hpp>
 
 #include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
 
-namespace insonify::inline INSONIFY_ABI {
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 /// A wedge standing on z = 0, nose towards +x: flat below, highest near its tail, with sloping sides. Such a shape
 /// reflects sound away from a sonar at most aspects.
@@ -78,6 +79,7 @@ inline mesh to_mesh(const wedge& w) {
     return with_creases(body, 0);
 }
 
-}  // namespace insonify::inline INSONIFY_ABI
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
 
 INSONIFY_ARITHMETIC_END

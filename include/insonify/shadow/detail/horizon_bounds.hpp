@@ -12,9 +12,9 @@
 // Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. 1988
 #pragma once
 
-#include <insonify/core/dispatch.hpp>
-#include <insonify/core/lanes.hpp>
-#include <insonify/core/unfilled.hpp>
+#include <insonify/core/detail/uninitialized.hpp>
+#include <insonify/core/simd/dispatch.hpp>
+#include <insonify/core/simd/lanes.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/transform.hpp>
 #include <insonify/shadow/policy.hpp>
@@ -82,7 +82,7 @@ struct grid_heights {
     static constexpr int around = 4;  ///< rows of nothing on either side
 
     int pitch = 0;
-    insonify::detail::unfilled_vector<float> u;
+    insonify::detail::uninitialized_vector<float> u;
     float least = 0, greatest = 0;  ///< z
 
     template <executor E>
@@ -269,7 +269,7 @@ class horizon_bounds {
     grid_heights heights_;
     double margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
-    insonify::detail::unfilled_vector<horizon_bound> bounds_;
+    insonify::detail::uninitialized_vector<horizon_bound> bounds_;
 };
 
 }  // namespace shadow::detail

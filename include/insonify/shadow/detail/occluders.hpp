@@ -2,10 +2,10 @@
 // that touch it.
 #pragma once
 
-#include <insonify/core/dispatch.hpp>
-#include <insonify/core/lanes.hpp>
-#include <insonify/geometry/indices.hpp>
-#include <insonify/raster/binning.hpp>
+#include <insonify/core/simd/dispatch.hpp>
+#include <insonify/core/simd/lanes.hpp>
+#include <insonify/geometry/detail/indices.hpp>
+#include <insonify/raster/detail/binning.hpp>
 #include <insonify/shadow/detail/light_planes.hpp>
 #include <insonify/shadow/policy.hpp>
 
@@ -227,7 +227,7 @@ class plane_caster {
 
   private:
     std::span<const glm::uvec3> triangles_;
-    insonify::detail::unfilled_vector<plane_vertex> vertices_;
+    insonify::detail::uninitialized_vector<plane_vertex> vertices_;
     insonify::detail::tile_bins bins_;
 };
 

@@ -1,9 +1,9 @@
 // The points of one tile of a light's plane, sorted into cells, so that the points under a triangle are a few runs.
 #pragma once
 
-#include <insonify/core/lanes.hpp>
+#include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/numeric.hpp>
-#include <insonify/core/unfilled.hpp>
+#include <insonify/core/simd/lanes.hpp>
 #include <insonify/shadow/policy.hpp>
 
 #include <algorithm>

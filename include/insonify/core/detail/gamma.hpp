@@ -1,0 +1,92 @@
+// Gamma-distributed numbers: what averages of looks and textures of the seabed are.
+//
+// Based on: George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM Transactions on
+// Mathematical Software 26, 2000.
+#pragma once
+
+#include <insonify/core/random.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// One trial at N gamma-distributed numbers of mean one, from four words each; `settled` where it succeeded, as 19 of
+/// 20 do.
+///
+/// @param shape  above 0
+template <int N>
+INSONIFY_INLINE void try_gamma(lanes<double, N>& number, lanes<std::int64_t, N>& settled,
+                               const lanes<std::uint64_t, N> (&word)[4], const lanes<double, N>& shape) {
+    using doubles = lanes<double, N>;
+    using flags = lanes<std::int64_t, N>;
+    // Shapes below one are those of one more, times a power of a uniform number.
+    const doubles d = (shape < 1.0 ? shape + 1.0 : shape) - 1.0 / 3;
+    doubles c, x, other, u, log_v;
+    square_root<N>(c, 9.0 * d);
+    c = 1.0 / c;
+    normal_lanes<N>(x, other, word[0], word[1]);
+    uniform_lanes<N>(u, word[2]);
+    const doubles root = 1.0 + c * x, v = root * root * root;
+    log_lanes<N>(u, u);
+    log_lanes<N>(log_v, v > 0.0 ? v : doubles{} + 1.0);
+    settled = flags(v > 0.0) & flags(u < 0.5 * x * x + d * (1.0 - v + log_v));
+    number = d * v / shape;
+    for (int k = 0; k < N; ++k) {
+        if (lane(shape, k) < 1) {
+            const double power =
+                numeric::pow(uniform_open(static_cast<std::uint32_t>(lane(word[3], k))), 1 / lane(shape, k));
+            set_lane(number, k, lane(number, k) * power);
+        }
+    }
+}
+
+/// A gamma-distributed number of mean one.
+///
+/// @param draw  draw(trial) makes four fresh words
+template <class Draw>
+double gamma_of_mean_one(double shape, const Draw& draw) {
+    for (std::uint32_t trial = 0;; ++trial) {
+        const philox_counter words = draw(trial);
+        const std::uint64_t word[4] = {words[0], words[1], words[2], words[3]};
+        double number;
+        std::int64_t settled;
+        try_gamma<1>(number, settled, word, shape);
+        if (settled != 0) return number;
+    }
+}
+
+/// The mean of the square root of a gamma-distributed number of mean one: Gamma(shape + 1/2) / (Gamma(shape)
+/// sqrt(shape)), to 1e-12, by its asymptotic series beyond 20.
+inline double mean_root_of_gamma(double shape) {
+    double factor = 1, x = shape;
+    for (; x < 20; x += 1) factor *= x / (x + 0.5);
+    const double i = 1 / x;
+    const double series =
+        1 + i * (-1.0 / 8 + i * (1.0 / 128 + i * (5.0 / 1024 + i * (-21.0 / 32768 + i * (-399.0 / 262144)))));
+    return factor * numeric::square_root(x / shape) * series;
+}
+
+/// The mean of |s + n| where n is complex normal noise of unit power and s^2 = `steady`, over sqrt(1 + steady); to
+/// 1e-6. Stephen O. Rice. Mathematical Analysis of Random Noise. Bell System Technical Journal 24, 1945 (eq. 3.10-12).
+inline double mean_of_rice(double steady) {
+    const double half_root_pi = 0.88622692545275801;
+    if (steady > 300) {
+        const double i = 1 / steady;
+        return numeric::square_root(1 / (1 + i)) * (1 + i * (1.0 / 4 + i * (1.0 / 32 + i * (3.0 / 128))));
+    }
+    // exp(-steady) times the confluent hypergeometric function (3/2; 1; steady), whose terms are all positive.
+    double term = 1, sum = 1;
+    for (int n = 0; term > 1e-16 * sum; ++n) {
+        term *= (n + 1.5) / (static_cast<double>(n + 1) * (n + 1)) * steady;
+        sum += term;
+    }
+    return half_root_pi * sum * numeric::exp(-steady) / numeric::square_root(1 + steady);
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,317 @@
+// Several values that go through one instruction: GNU vector types, or a plain value where N is 1.
+//
+// Kernels write `mask ? a : b` and + - * < & on these and read the same for one lane and for eight. Lanes stay local:
+// they cross function boundaries by reference or inside always-inlined code only, because a 32-byte vector by value
+// means something else to a caller compiled without AVX.
+#pragma once
+
+#include <insonify/config.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+template <class T, int N>
+struct lanes_of {
+#if INSONIFY_SIMD
+    typedef T type __attribute__((vector_size(N * sizeof(T))));
+#else
+    static_assert(N == 1, "this build is scalar");
+#endif
+};
+template <class T>
+struct lanes_of<T, 1> {
+    using type = T;
+};
+
+template <class T, int N>
+using lanes = typename lanes_of<T, N>::type;
+
+/// Something that will be read soon.
+INSONIFY_INLINE void prefetch(const void* address) {
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+#else
+    (void)address;
+#endif
+}
+
+template <class T, class Lanes>
+INSONIFY_INLINE void load(Lanes& into, const T* from) {
+    std::memcpy(&into, from, sizeof into);
+}
+template <class T, class Lanes>
+INSONIFY_INLINE void store(T* into, const Lanes& from) {
+    std::memcpy(into, &from, sizeof from);
+}
+
+/// One value for every lane: where it is read as a whole vector, it takes no instruction to spread it.
+template <class T>
+struct spread {
+    alignas(64) T values[16];
+    spread(T value = {}) {
+        for (T& v : values) v = value;
+    }
+};
+template <class T, class Lanes>
+INSONIFY_INLINE void load(Lanes& into, const spread<T>& from) {
+    std::memcpy(&into, from.values, sizeof into);
+}
+
+/// Each lane as a cast would make it.
+template <class To, class From>
+INSONIFY_INLINE void convert(To& into, const From& from) {
+#if INSONIFY_SIMD
+    if constexpr (!std::is_arithmetic_v<To>)
+        into = __builtin_convertvector(from, To);
+    else
+#endif
+        into = static_cast<To>(from);
+}
+
+/// Whether any lane of a mask is set.
+template <class Mask>
+INSONIFY_INLINE bool any(const Mask& mask) {
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (sizeof mask == 16) {
+        lanes<float, 4> bits;
+        std::memcpy(&bits, &mask, sizeof bits);
+        return __builtin_ia32_movmskps(bits) != 0;
+    } else if constexpr (sizeof mask > 16) {
+        lanes<std::int64_t, sizeof mask / 16> low, high;
+        std::memcpy(&low, &mask, sizeof low);
+        std::memcpy(&high, reinterpret_cast<const char*>(&mask) + sizeof low, sizeof high);
+        low |= high;
+        return any(low);
+    } else
+#endif
+    {
+        std::uint64_t words[(sizeof mask + 7) / 8] = {};
+        std::memcpy(words, &mask, sizeof mask);
+        std::uint64_t all = 0;
+        for (const std::uint64_t word : words) all |= word;
+        return all != 0;
+    }
+}
+
+/// Bit k is set where lane k of a mask is; for 1, 4, 8 or 16 lanes of 32 bits.
+template <int N>
+INSONIFY_INLINE unsigned set_lanes(const lanes<std::int32_t, N>& mask) {
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (N == 4) {
+        return static_cast<unsigned>(__builtin_ia32_movmskps(lanes<float, 4>(mask)));
+    } else if constexpr (N > 4) {
+        return [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+            const lanes<std::int32_t, N / 2> low = __builtin_shufflevector(mask, mask, I...),
+                                             high = __builtin_shufflevector(mask, mask, N / 2 + I...);
+            return set_lanes<N / 2>(low) | set_lanes<N / 2>(high) << N / 2;
+        }
+        (std::make_integer_sequence<int, N / 2>{});
+    } else
+#endif
+    {
+        std::int32_t values[static_cast<unsigned>(N)];
+        std::memcpy(values, &mask, sizeof values);
+        unsigned bits = 0;
+        for (int k = 0; k < N; ++k) bits |= values[k] != 0 ? 1u << k : 0u;
+        return bits;
+    }
+}
+
+/// One lane, to look at and to change.
+template <class Lanes>
+INSONIFY_INLINE auto lane(const Lanes& lanes, int i) {
+    if constexpr (std::is_arithmetic_v<Lanes>)
+        return lanes;
+    else
+        return lanes[i];
+}
+template <class Lanes, class T>
+INSONIFY_INLINE void set_lane(Lanes& lanes, int i, T value) {
+    if constexpr (std::is_arithmetic_v<Lanes>)
+        lanes = value;
+    else
+        lanes[i] = value;
+}
+
+/// Lane i is from(i).
+template <int N, class Lanes, class From>
+INSONIFY_INLINE void gather(Lanes& into, const From& from) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        into = Lanes{from(I)...};
+    }
+    (std::make_integer_sequence<int, N>{});
+}
+
+#if INSONIFY_SIMD
+/// What `work(half, from)` makes of the lower half of N lanes and of the upper one.
+template <int N, class Lanes, class Work>
+INSONIFY_INLINE void in_halves(Lanes& into, const Lanes& of, const Work& work) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        auto low = __builtin_shufflevector(of, of, I...), high = __builtin_shufflevector(of, of, N / 2 + I...);
+        work(low, low);
+        work(high, high);
+        into = __builtin_shufflevector(low, high, I..., N / 2 + I...);
+    }
+    (std::make_integer_sequence<int, N / 2>{});
+}
+#endif
+
+/// Correctly rounded, as numeric::square_root.
+template <int N>
+INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& of) {
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (N == 4) {
+        into = __builtin_ia32_sqrtps(of);
+    } else if constexpr (N % 4 == 0) {
+        in_halves<N>(into, of, [](auto& half, const auto& from) { square_root<N / 2>(half, from); });
+    } else
+#endif
+        gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
+}
+
+/// body(0), body(1), ... body(Count - 1), written out, which g++ doesn't do at -O2: what a body keeps in an array may
+/// then live in registers, and what hangs on the count alone is a constant.
+template <int Count, class Body>
+INSONIFY_INLINE void unroll(const Body& body) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        (body(I), ...);
+    }
+    (std::make_integer_sequence<int, Count>{});
+}
+
+/// Two neighbouring 32-bit values at N places: lane k of `first` and `second` is what from(k) points to.
+template <int N, class Lanes, class From>
+INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        // Pairs 0 1 4 5 ... and 2 3 6 7 ...: so both shuffles stay within sixteen bytes, where they are cheap.
+        constexpr int half = N / 2, run = half < 2 ? half : 2;
+        lanes<std::int64_t, half> low, high;
+        const auto pair = [&](int k) INSONIFY_INLINE_LAMBDA {
+            std::int64_t bits;
+            std::memcpy(&bits, from(k), sizeof bits);
+            return bits;
+        };
+        gather<half>(low, [&](int k) INSONIFY_INLINE_LAMBDA { return pair(k / run * 2 * run + k % run); });
+        gather<half>(high, [&](int k) INSONIFY_INLINE_LAMBDA { return pair((k / run * 2 + 1) * run + k % run); });
+        [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+            constexpr auto at = [](int k) { return k / run % 2 * N + k / (2 * run) * 2 * run + k % run * 2; };
+            first = __builtin_shufflevector(Lanes(low), Lanes(high), at(I)...);
+            second = __builtin_shufflevector(Lanes(low), Lanes(high), (at(I) + 1)...);
+        }
+        (std::make_integer_sequence<int, N>{});
+    } else
+#endif
+    {
+        std::memcpy(&first, from(0), sizeof first);
+        std::memcpy(&second, from(0) + 1, sizeof second);
+    }
+}
+
+#if INSONIFY_SIMD
+/// Lane i is lane `from(i)` of two vectors side by side.
+template <int N, class From, class Into, class Lanes>
+INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second, const From&) {
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        into = __builtin_shufflevector(first, second, From{}(I)...);
+    }
+    (std::make_integer_sequence<int, N>{});
+}
+
+/// Four values from each of N / 4 places.
+template <int N, class From>
+INSONIFY_INLINE void load_fours(lanes<float, N>& into, const From& from) {
+    if constexpr (N == 4) {
+        load(into, from(0));
+    } else {
+        lanes<float, N / 2> low, high;
+        load_fours<N / 2>(low, from);
+        load_fours<N / 2>(high, [&](int i) { return from(N / 8 + i); });
+        shuffle<N>(into, low, high, [](int i) { return i; });
+    }
+}
+
+/// Within every four lanes, lane i of row[k] becomes lane k of into[i]; for N of 4, 8 or 16.
+template <int N>
+INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N> (&row)[4]) {
+    lanes<float, N> low[2], high[2];
+    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
+        const auto &a = row[2 * k], &b = row[2 * k + 1];
+        shuffle<N>(low[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2; });
+        shuffle<N>(high[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2 + 2; });
+    });
+    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
+        const auto &a = k == 0 ? low[0] : high[0], &b = k == 0 ? low[1] : high[1];
+        shuffle<N>(into[2 * k], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2; });
+        shuffle<N>(into[2 * k + 1], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2 + 2; });
+    });
+}
+#endif
+
+#if INSONIFY_SIMD
+/// Four rows of three floats, one after another, as three columns.
+INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* rows) {
+    lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
+    load(a, rows), load(b, rows + 4), load(c, rows + 8);
+    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
+                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
+    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
+    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
+    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
+}
+#endif
+
+/// Lane k of both, side by side: gather_pairs the other way.
+template <int N>
+INSONIFY_INLINE void store_pairs(float* into, const lanes<float, N>& first, const lanes<float, N>& second) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        lanes<float, N> low, high;
+        shuffle<N>(low, first, second, [](int i) { return i / 2 + i % 2 * N; });
+        shuffle<N>(high, first, second, [](int i) { return N / 2 + i / 2 + i % 2 * N; });
+        store(into, low);
+        store(into + N, high);
+    } else
+#endif
+    {
+        into[0] = first;
+        into[1] = second;
+    }
+}
+
+/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 1, 4, 8 or 16.
+template <int N, class Rows>
+INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        // Four lanes of many lie side by side with the other fours and go the same way.
+        lanes<float, N> row[4];
+        unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
+        transpose_fours<N>(into, row);
+    } else
+#endif
+        std::memcpy(into, rows(0), 4 * sizeof(float));
+}
+
+/// 0, 1, ... N - 1.
+template <class T, int N>
+INSONIFY_INLINE void count_up(lanes<T, N>& into) {
+    T values[static_cast<unsigned>(N)];
+    for (int i = 0; i < N; ++i) values[i] = static_cast<T>(i);
+    load(into, values);
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

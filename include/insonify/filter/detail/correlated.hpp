@@ -1,0 +1,110 @@
+// Normal draws that are like their neighbours: white noise under a Gaussian filter, row by row.
+#pragma once
+
+#include <insonify/core/detail/correlation.hpp>
+#include <insonify/filter/detail/noise_pass.hpp>
+
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Over how many pixels noise stays alike: where its correlation has fallen to 1 / e, or for what echoes make, that of
+/// their intensity (a tenth less at 1, where a filter has few taps). 0: not at all.
+struct correlation_length {
+    float x = 0, y = 0;  ///< 0 to 16
+};
+
+namespace detail {
+
+inline void require_correlation(const char* name, const correlation_length& length) {
+    for (const float pixels : {length.x, length.y})
+        require(pixels >= 0 && pixels <= 16, name, pixels, "0 to 16 pixels");
+}
+
+/// Standard normal draws, one for each pixel and field, that are correlated along rows and columns. What a pixel gets
+/// depends on its place alone; rows that follow each other share their work.
+class correlated_draws {
+  public:
+    /// @param x, y  taps of the filters along rows and columns
+    correlated_draws(noise_key noise, std::vector<float> x, std::vector<float> y)
+        : noise_(noise), taps_x_(std::move(x)), taps_y_(std::move(y)) {}
+
+    /// The draws of a run, in `into`.
+    void row(float* into, std::uint32_t field, const noise_run& run) {
+        strip& s = strip_of(field, run);
+        const int reach = static_cast<int>(taps_y_.size()) - 1, rows = 2 * reach + 1;
+        // The strip holds the rows up to y + reach, blurred along x, in a ring.
+        const bool follows = s.filled && run.y > s.y && run.y - s.y < rows;
+        for (int y = follows ? s.y + reach + 1 : run.y - reach; y <= run.y + reach; ++y)
+            blur_row(s.at(y), field, {run.x, y, run.count, run.channel, run.levels});
+        s.y = run.y;
+        s.filled = true;
+        for (int j = -reach; j <= reach; ++j) {
+            const float tap = taps_y_[static_cast<std::size_t>(j < 0 ? -j : j)];
+            const float* const from = s.at(run.y + j);
+            for (int i = 0; i < run.count; ++i) into[i] = (j == -reach ? 0.0f : into[i]) + tap * from[i];
+        }
+    }
+
+  private:
+    /// The last rows of one column of runs.
+    struct strip {
+        std::uint32_t field, channel;
+        int x, count;
+        int y = 0;
+        bool filled = false;
+        std::vector<float> ring;
+
+        float* at(int row) {
+            const auto rows = static_cast<std::int64_t>(ring.size() / run_length);
+            const std::int64_t place = (std::int64_t{row} % rows + rows) % rows;
+            return ring.data() + place * run_length;
+        }
+    };
+
+    /// Runs come in the same order in each row, so the next is usually the one behind the last.
+    strip& strip_of(std::uint32_t field, const noise_run& run) {
+        for (std::size_t i = 0; i < strips_.size(); ++i) {
+            last_ = last_ + 1 < strips_.size() ? last_ + 1 : 0;
+            strip& s = strips_[last_];
+            if (s.x == run.x && s.count == run.count && s.field == field && s.channel == run.channel) return s;
+        }
+        last_ = strips_.size();
+        strips_.push_back({field, run.channel, run.x, run.count, 0, false,
+                           std::vector<float>((2 * taps_y_.size() - 1) * run_length)});
+        return strips_.back();
+    }
+
+    /// White noise of a row, blurred along it.
+    void blur_row(float* into, std::uint32_t field, const noise_run& run) const {
+        const int reach = static_cast<int>(taps_x_.size()) - 1;
+        draw_buffer buffer;
+        std::vector<float> white;
+        for (int x = run.x - reach; x < run.x + run.count + reach; x += run_length) {
+            const int count = (std::min)(run_length, run.x + run.count + reach - x);
+            const float* const draws =
+                white_draws<normal_draws>(buffer, noise_, field, {x, run.y, count, run.channel, run.levels});
+            white.insert(white.end(), draws, draws + count);
+        }
+        const float* const middle = white.data() + reach;
+        for (int i = 0; i < run.count; ++i) into[i] = taps_x_[0] * middle[i];
+        for (int j = 1; j <= reach; ++j) {
+            const float tap = taps_x_[static_cast<std::size_t>(j)];
+            for (int i = 0; i < run.count; ++i) into[i] += tap * (middle[i - j] + middle[i + j]);
+        }
+    }
+
+    noise_key noise_;
+    std::vector<float> taps_x_, taps_y_;
+    std::vector<strip> strips_;
+    std::size_t last_ = 0;
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,254 @@
+// How noise goes over an image: by runs of a row, whatever the pixels are and wherever the run begins.
+//
+// Noise is defined on floats in [0, 1]. Codes of 8 and 16 bits are taken there and back, as MATLAB's imnoise does, and
+// each channel of a colour has noise of its own.
+#pragma once
+
+#include <insonify/core/image.hpp>
+#include <insonify/core/quantize.hpp>
+#include <insonify/core/random.hpp>
+#include <insonify/core/simd/draw_lanes.hpp>
+#include <insonify/filter/concept.hpp>
+
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// One stream per kind of noise; the numbers are part of what a seed means.
+enum class noise_stream : std::uint32_t {
+    gaussian = 0x6E6F6900,
+    speckle,
+    gaussian_speckle,
+    rayleigh,
+    poisson,
+    salt_and_pepper,
+    gamma_speckle,
+    k_speckle,
+    rician,
+    texture,
+    quick_poisson,
+    small_poisson
+};
+
+/// What the draws of one filter hang on, besides the pixel.
+struct noise_key {
+    philox_key key;
+    std::uint32_t frame;
+
+    noise_key(std::uint64_t seed, noise_stream stream, std::uint32_t frame_)
+        : key(stream_key(seed, static_cast<std::uint32_t>(stream))), frame(frame_) {}
+};
+
+/// A run of pixels of one channel.
+struct noise_run {
+    int x, y;               // of the first pixel
+    int count;              // 1 to run_length
+    std::uint32_t channel;  // 0 to 2
+    int levels;             // the largest code that the pixels had, 1 for floats
+};
+
+constexpr float clip_to_unit(float value) {
+    return value < 0 ? 0.0f : value > 1 ? 1.0f : value;
+}
+
+/// NaN stays.
+template <int N>
+INSONIFY_INLINE void clip_lanes(lanes<float, N>& value) {
+    value = value < 0.0f ? lanes<float, N>{} : value;
+    value = value > 1.0f ? lanes<float, N>{} + 1.0f : value;
+}
+
+/// What a pixel holds that noise can be added to: floats in [0, 1], codes, or colours of either.
+template <class T>
+concept noise_channel = std::same_as<T, float> || pixel_code<T>;
+template <class T>
+inline constexpr bool is_noise_color = false;
+template <noise_channel T>
+inline constexpr bool is_noise_color<rgb<T>> = true;
+template <class T>
+concept noise_pixel = noise_channel<T> || is_noise_color<T>;
+
+inline void to_floats(const float* from, float* to, int count, std::size_t step) {
+    for (int i = 0; i < count; ++i) to[i] = from[static_cast<std::size_t>(i) * step];
+}
+template <pixel_code Code>
+void to_floats(const Code* from, float* to, int count, std::size_t step) {
+    const auto size = static_cast<std::size_t>(count);
+    if (step == 1) return dequantize_row(std::span<const Code>(from, size), std::span<float>(to, size));
+    for (int i = 0; i < count; ++i) to[i] = dequantize(from[static_cast<std::size_t>(i) * step]);
+}
+
+/// A law of noise, `law.row(from, to, run)` on floats, as a pass over pixels of every kind.
+template <class Law>
+class noise_pass {
+  public:
+    explicit noise_pass(Law law) : law_(std::move(law)) {}
+
+    template <noise_pixel Pixel>
+    Pixel operator()(const Pixel& pixel, int x, int y) {
+        Pixel result{};
+        row(&pixel, &result, 1, x, y);
+        return result;
+    }
+
+    template <noise_pixel Pixel>
+    void row(const Pixel* from, Pixel* to, int count, int x, int y) {
+        if constexpr (std::same_as<Pixel, float>) {
+            law_.row(from, to, {x, y, count, 0, 1});
+        } else if constexpr (pixel_code<Pixel>) {
+            channel(from, to, 1, {x, y, count, 0, (std::numeric_limits<Pixel>::max)()});
+        } else {
+            using value = decltype(Pixel::r);
+            constexpr int levels = std::same_as<value, float> ? 1 : (std::numeric_limits<value>::max)();
+            if (from != to) std::copy_n(from, count, to);
+            channel(&to->r, &to->r, 3, {x, y, count, 0, levels});
+            channel(&to->g, &to->g, 3, {x, y, count, 1, levels});
+            channel(&to->b, &to->b, 3, {x, y, count, 2, levels});
+        }
+    }
+
+    void place(const pixel_area& area) { law_.place(area); }
+
+  private:
+    template <noise_channel Channel>
+    void channel(const Channel* from, Channel* to, std::size_t step, const noise_run& run) {
+        float values[run_length];
+        to_floats(from, values, run.count, step);
+        law_.row(values, values, run);
+        if constexpr (std::same_as<Channel, float>) {
+            for (int i = 0; i < run.count; ++i) to[static_cast<std::size_t>(i) * step] = values[i];
+        } else {
+            const auto count = static_cast<std::size_t>(run.count);
+            const std::span<const float> noisy(values, count);
+            if (step == 1) return quantize_row(noisy, std::span<Channel>(to, count));
+            Channel codes[run_length];
+            quantize_row(noisy, std::span<Channel>(codes, count));
+            for (std::size_t i = 0; i < count; ++i) to[i * step] = codes[i];
+        }
+    }
+
+    Law law_;
+};
+
+/// Four draws from four words, by kind.
+struct normal_draws {
+    template <int N>
+    static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
+        normal_lanes<N>(into[0], into[1], word[0], word[1]);
+        normal_lanes<N>(into[2], into[3], word[2], word[3]);
+    }
+};
+struct symmetric_draws {
+    template <int N>
+    static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { symmetric_lanes<N>(into[i], word[i]); });
+    }
+};
+struct unit_draws {
+    template <int N>
+    static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { unit_lanes<N>(into[i], word[i]); });
+    }
+};
+struct word_draws {  // as they are, to be taken for whole numbers again
+    template <int N>
+    static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { std::memcpy(&into[i], &word[i], sizeof into[i]); });
+    }
+};
+struct radius_draws {
+    template <int N>
+    static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { radius_lanes<N>(into[i], word[i]); });
+    }
+};
+
+/// The draws of a run of a row; four pixels in a row share a block of Philox.
+template <class Draws>
+struct draw_kernel {
+    static constexpr int widest = 16;
+
+    float* into;
+    int count;
+    std::uint32_t counter[4];
+    philox_key key;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        for (int i = 0; i < count; i += 4 * N) {
+            const std::uint32_t at[4] = {counter[0] + static_cast<std::uint32_t>(i / 4), counter[1], counter[2],
+                                         counter[3]};
+            lanes<std::uint32_t, N> word[4];
+            philox_words<N>(word, at, key[0], key[1]);
+            lanes<float, N> draw[4];
+            Draws::template draw<N>(draw, word);
+            store_draws<N>(into + i, draw);
+        }
+    }
+};
+
+/// Room for the draws of a run: those of its first block that lie before it, and those of the last lanes behind it.
+using draw_buffer = float[run_length + 64];
+
+/// Independent draws, one for each pixel and `field`, in `buffer` from the place that is returned on.
+template <class Draws>
+float* white_draws(draw_buffer& buffer, const noise_key& noise, std::uint32_t field, const noise_run& run) {
+    const int before = run.x & 3;
+    dispatch(draw_kernel<Draws>{buffer,
+                                run.count + before,
+                                {static_cast<std::uint32_t>(run.x >> 2), static_cast<std::uint32_t>(run.y),
+                                 run.channel | field << 2, noise.frame},
+                                noise.key},
+             best_isa());
+    return buffer + before;
+}
+
+/// to = clipped rule(clipped from, draw, scale), several pixels at a time.
+template <class Rule>
+struct rule_kernel {
+    Rule rule;
+    const float* from;
+    const float* draw;
+    const float* scale;
+    float* to;
+    int count;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        const rule_kernel own = *this;  // which nothing that is stored can change
+        int i = 0;
+        for (; i + N <= own.count; i += N) own.at<N>(i);
+        for (; i < own.count; ++i) own.at<1>(i);
+    }
+
+  private:
+    template <int N>
+    INSONIFY_INLINE void at(int i) const {
+        lanes<float, N> value, drawn, scaled;
+        load(value, from + i);
+        load(drawn, draw + i);
+        load(scaled, scale + i);
+        clip_lanes<N>(value);
+        rule.template apply<N>(value, drawn, scaled);
+        clip_lanes<N>(value);
+        store(to + i, value);
+    }
+};
+
+template <class Rule>
+void apply_rule(const Rule& rule, const float* from, const float* draw, const float* scale, float* to, int count) {
+    dispatch(rule_kernel<Rule>{rule, from, draw, scale, to, count}, best_isa());
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

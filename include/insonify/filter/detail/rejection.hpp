@@ -1,0 +1,76 @@
+// Draws by trial: pixels whose trial fails go on to the next, side by side with others that failed.
+#pragma once
+
+#include <insonify/filter/detail/noise_pass.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// Pixels of a run, by their place in it.
+struct pixel_list {
+    int count = 0;
+    std::uint16_t places[run_length + 8];
+};
+
+/// Adds a place to those of a list without a jump, because what comes next is anyone's guess.
+INSONIFY_INLINE void add_if(bool wanted, int place, std::uint16_t* places, int& count) {
+    places[count] = static_cast<std::uint16_t>(place);
+    count += wanted ? 1 : 0;
+}
+
+/// Draws a number for each pixel of a list.
+///
+/// `method.template attempt<N>(result, words, parameter, trial)` makes one trial of N pixels and returns which of them
+/// it settled; `words` are those of block `method.block(trial)` of each pixel.
+template <class Method>
+struct rejection_kernel {
+    Method method;
+    const double* parameter;
+    double* result;
+    pixel_list* list;
+    noise_run at;
+    noise_key noise;
+
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        constexpr int N = Width > 1 ? Width / 2 : 1;
+        using words = lanes<std::uint64_t, N>;
+        using doubles = lanes<double, N>;
+        std::uint16_t* const places = list->places;
+        int count = list->count;
+        for (std::uint32_t trial = 0; count > 0; ++trial) {
+            int left = 0;
+            for (int first = 0; first < count; first += N) {
+                // Lanes behind the last pixel do it again.
+                int place[static_cast<unsigned>(N)];
+                for (int k = 0; k < N; ++k) place[k] = places[first + k < count ? first + k : count - 1];
+                words block[4];
+                gather<N>(block[0], [&](int k) {
+                    return std::uint64_t{static_cast<std::uint32_t>(at.x) + static_cast<std::uint32_t>(place[k])};
+                });
+                block[1] = words{} + std::uint64_t{static_cast<std::uint32_t>(at.y)};
+                block[2] = words{} + std::uint64_t{method.block(trial) | at.channel << 24};
+                block[3] = words{} + std::uint64_t{noise.frame};
+                philox_lanes<N>(block, noise.key[0], noise.key[1]);
+                doubles given, made;
+                gather<N>(given, [&](int k) { return parameter[place[k]]; });
+                lanes<std::int64_t, N> settled;
+                method.template attempt<N>(made, settled, block, given, trial);
+                for (int k = 0; k < N && first + k < count; ++k) {
+                    result[place[k]] = lane(made, k);
+                    add_if(lane(settled, k) == 0, place[k], places, left);
+                }
+            }
+            count = left;
+        }
+    }
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,120 @@
+// Polygons into triangles: a fan where the polygon is convex, ear clipping where it is not.
+//
+// Based on: Joseph O'Rourke. Computational Geometry in C, 2nd edition, 1998, section 1.6 (clipping an ear changes
+// whether its two neighbours are ears, and no other: quadratic in all).
+#pragma once
+
+#include <insonify/core/linear.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Concave polygons with more corners are cut into a fan, which covers too much: the work stays linear for any input.
+inline constexpr std::size_t ear_clipping_limit = 512;
+
+namespace detail {
+
+/// A polygon seen along its normal: counter-clockwise in the plane of the two axes it is widest in.
+class flat_polygon {
+  public:
+    explicit flat_polygon(std::span<const glm::vec3> corners) : corners_(corners) {
+        // Newell's area vector, from the first corner so that a polygon far from the origin keeps its digits.
+        glm::dvec3 area(0);
+        const glm::dvec3 origin(corners[0]);
+        for (std::size_t i = 2; i < corners.size(); ++i) {
+            area += numeric::cross(glm::dvec3(corners[i - 1]) - origin, glm::dvec3(corners[i]) - origin);
+        }
+        const glm::dvec3 extent = area * area;
+        const int away = extent.x > extent.y ? (extent.x > extent.z ? 0 : 2) : (extent.y > extent.z ? 1 : 2);
+        u_ = (away + (area[away] < 0 ? 2 : 1)) % 3;
+        v_ = (away + (area[away] < 0 ? 1 : 2)) % 3;
+    }
+
+    /// Twice the area of the triangle, positive for a left turn at b.
+    double turn(std::size_t a, std::size_t b, std::size_t c) const {
+        const glm::dvec2 p = at(a), q = at(b), r = at(c);
+        return (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x);
+    }
+    /// Inside or on the border of the triangle, but not in the place of one of its corners.
+    bool covered(std::size_t point, std::size_t a, std::size_t b, std::size_t c) const {
+        const glm::dvec2 p = at(point);
+        return turn(a, b, point) >= 0 && turn(b, c, point) >= 0 && turn(c, a, point) >= 0 && p != at(a) && p != at(b) &&
+               p != at(c);
+    }
+
+  private:
+    glm::dvec2 at(std::size_t i) const { return {corners_[i][u_], corners_[i][v_]}; }
+
+    std::span<const glm::vec3> corners_;
+    int u_, v_;
+};
+
+inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vector<glm::uvec3>& triangles) {
+    struct corner {
+        std::uint32_t previous, next;
+        bool reflex, ear;
+    };
+    std::vector<corner> ring(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        ring[i] = {(i + count - 1) % count, (i + 1) % count, false, false};
+        ring[i].reflex = polygon.turn(ring[i].previous, i, ring[i].next) < 0;
+    }
+
+    // An ear is cut off by a diagonal inside the polygon; if anything is in the way, some reflex corner is.
+    const auto is_ear = [&](std::uint32_t i) {
+        const auto [previous, next, reflex, ear] = ring[i];
+        if (reflex) return false;
+        for (std::uint32_t r = ring[next].next; r != previous; r = ring[r].next) {
+            if (ring[r].reflex && polygon.covered(r, previous, i, next)) return false;
+        }
+        return true;
+    };
+    for (std::uint32_t i = 0; i < count; ++i) ring[i].ear = is_ear(i);
+
+    std::uint32_t tip = 0;
+    for (std::uint32_t left = count; left > 3; --left) {
+        // A simple polygon always has an ear. One that crosses itself may not: then any corner will do.
+        for (std::uint32_t walked = 0; !ring[tip].ear && walked < left; ++walked) tip = ring[tip].next;
+        const std::uint32_t a = ring[tip].previous, b = ring[tip].next;
+        triangles.emplace_back(a, tip, b);
+        ring[a].next = b;
+        ring[b].previous = a;
+        for (const std::uint32_t i : {a, b}) ring[i].reflex = polygon.turn(ring[i].previous, i, ring[i].next) < 0;
+        for (const std::uint32_t i : {a, b}) ring[i].ear = is_ear(i);
+        tip = ring[b].next;  // every other ear first: fewer slivers
+    }
+    triangles.emplace_back(ring[tip].previous, tip, ring[tip].next);
+}
+
+}  // namespace detail
+
+/// Appends `corners.size() - 2` triangles that cover the polygon and face as it does, as numbers of its corners.
+/// Exact for simple polygons, also slightly bent ones; one that crosses itself is covered somehow. Nothing is appended
+/// for fewer than three corners.
+inline void triangulate(std::span<const glm::vec3> corners, std::vector<glm::uvec3>& triangles) {
+    const auto count = static_cast<std::uint32_t>(corners.size());
+    if (count > 3 && count <= ear_clipping_limit) {
+        const detail::flat_polygon polygon(corners);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (polygon.turn(i, (i + 1) % count, (i + 2) % count) < 0) {
+                return detail::clip_ears(polygon, count, triangles);
+            }
+        }
+    }
+    for (std::uint32_t i = 2; i < count; ++i) triangles.emplace_back(0u, i - 1, i);
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,214 @@
+// Clipping of the few triangles that need it: in front of the camera plane, beyond the depth range, or 2^50 sub-pixels
+// outside the picture. Everything else is left to the rectangle of the image.
+//
+// Where an edge crosses a plane, the new vertex is the same to the bit from whichever end it is computed. Both
+// triangles that share the edge get it: no crack opens, however many planes cut.
+#pragma once
+
+#include <insonify/core/detail/portable.hpp>
+#include <insonify/core/simd/lanes.hpp>
+#include <insonify/raster/detail/setup.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// A corner of a clipped piece: where it is, and what share each vertex of the whole triangle has in it.
+struct clip_corner {
+    glm::dvec4 position;
+    glm::dvec3 shares;
+};
+
+/// A convex piece of a triangle: three corners and at most one more for each plane.
+struct clip_polygon {
+    static constexpr int planes = 7;
+    std::array<clip_corner, 3 + planes> corners;
+    int count = 0;
+    bool cut = false;  ///< by any plane
+};
+
+/// From clip space to the fixed-point grid.
+class projection {
+  public:
+    /// @param exact  divides by w; else multiplies by 1 / w, which is as good but for the last bit. Exact places are
+    ///               the nearest on the grid up to 2^27 sub-pixels from its middle; beyond, but for 2^-52 of the way
+    projection(const pixel_grid& grid, keep_depth keep, bool exact = true)
+        : grid_(grid),
+          half_width_(0.5 * grid.width),
+          half_height_(0.5 * grid.height),
+          compact_x_(grid.reach(pixel_grid::compact_bits) / half_width_),
+          compact_y_(grid.reach(pixel_grid::compact_bits) / half_height_),
+          widest_x_(grid.reach(pixel_grid::widest_bits) / half_width_),
+          widest_y_(grid.reach(pixel_grid::widest_bits) / half_height_),
+          right_(grid, grid.width, half_width_),
+          down_(grid, grid.height, -half_height_),
+          sign_(keep == keep_depth::smaller ? 1.0 : -1.0),
+          exact_(exact) {}
+
+    /// Distance to each clipping plane in clip space, >= 0 inside. The first keeps w away from zero.
+    double distance(int plane, const glm::dvec4& p) const {
+        switch (plane) {
+            case 0: return p.w - smallest_w;
+            case 1: return p.z;
+            case 2: return p.w - p.z;
+            case 3: return widest_x_ * p.w + p.x;
+            case 4: return widest_x_ * p.w - p.x;
+            case 5: return widest_y_ * p.w + p.y;
+            default: return widest_y_ * p.w - p.y;
+        }
+    }
+
+    /// Inside all planes and compact on the grid; false for NaN and infinity too.
+    bool is_compact(const glm::dvec4& p) const {
+        const double x = numeric::magnitude(p.x), y = numeric::magnitude(p.y);
+        return p.w >= smallest_w && p.z >= 0 && p.z <= p.w && x <= compact_x_ * p.w && y <= compact_y_ * p.w &&
+               p.w <= static_cast<double>((std::numeric_limits<float>::max)());
+    }
+
+    /// Internally smaller depth always wins; a target that keeps the larger one sees it negated.
+    screen_vertex to_screen(const glm::dvec4& p) const {
+        const double inverse_w = 1 / p.w;
+        const glm::dvec3 over_w = exact_ ? glm::dvec3(p.x / p.w, p.y / p.w, p.z / p.w)
+                                         : glm::dvec3(p.x * inverse_w, p.y * inverse_w, p.z * inverse_w);
+        return {grid_.snap(over_w.x * half_width_, grid_.width), grid_.snap(-over_w.y * half_height_, grid_.height),
+                sign_ * over_w.z, inverse_w};
+    }
+
+    /// The same for N positions, by axis. What isn't compact gets the place of what is off the grid.
+    template <int N>
+    INSONIFY_INLINE void to_screen(const lanes<double, N> (&p)[4], lanes<std::int64_t, N>& x, lanes<std::int64_t, N>& y,
+                                   lanes<double, N>& z, lanes<double, N>& inverse_w) const {
+        using doubles = lanes<double, N>;
+        using masks = lanes<std::int64_t, N>;
+        const doubles& w = p[3];
+        const doubles size_x = p[0] < 0.0 ? 0.0 - p[0] : p[0], size_y = p[1] < 0.0 ? 0.0 - p[1] : p[1];
+        const masks compact = masks(w >= smallest_w) & masks(p[2] >= 0.0) & masks(p[2] <= w) &
+                              masks(size_x <= compact_x_ * w) & masks(size_y <= compact_y_ * w) &
+                              masks(w <= static_cast<double>((std::numeric_limits<float>::max)()));
+        inverse_w = 1.0 / w;
+        const auto over_w = [&](doubles& into, const doubles& value) INSONIFY_INLINE_LAMBDA {
+            if (exact_)
+                into = value / w;
+            else
+                into = value * inverse_w;
+        };
+        doubles right, down;
+        over_w(right, p[0]);
+        over_w(down, p[1]);
+        over_w(z, p[2]);
+        z = z * sign_;
+        snap<N>(x, right * right_.units, right_.origin);
+        snap<N>(y, down * down_.units, down_.origin);
+        x = compact ? x : masks{} + std::int64_t{grid_place::no_x};
+        y = compact ? y : masks{};
+    }
+
+    /// The part of a triangle that lies inside all planes (Sutherland and Hodgman, 1974).
+    clip_polygon clip(const std::array<glm::dvec4, 3>& triangle) const {
+        clip_polygon piece;
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 share{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
+            piece.corners[static_cast<std::size_t>(i)] = {triangle[static_cast<std::size_t>(i)], share};
+        }
+        piece.count = 3;
+        for (int plane = 0; plane < clip_polygon::planes && piece.count > 0; ++plane) piece = cut(piece, plane);
+        for (int i = 0; i < piece.count; ++i) move_inside(piece.corners[static_cast<std::size_t>(i)].position);
+        return piece;
+    }
+
+  private:
+    static constexpr double smallest_w = 1e-30;
+
+    /// An axis of the way from clip space over w to the grid, as pixel_grid::snap goes it: to scale by a power of two
+    /// at once changes no rounding.
+    struct axis {
+        double units;          ///< sub-pixels
+        std::uint64_t origin;  ///< of the picture, less what the magic number leaves
+        axis(const pixel_grid& grid, int extent, double half)
+            : units(half * static_cast<double>(grid.unit())),
+              origin(static_cast<std::uint64_t>(extent * grid.half() -
+                                                numeric::bit_cast<std::int64_t>(pixel_grid::magic))) {}
+    };
+    template <int N>
+    INSONIFY_INLINE static void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& units,
+                                     std::uint64_t origin) {
+        const lanes<double, N> sum = units + pixel_grid::magic;
+        lanes<std::uint64_t, N> bits;  // what isn't compact may wrap around
+        std::memcpy(&bits, &sum, sizeof bits);
+        bits = bits + origin;
+        std::memcpy(&into, &bits, sizeof into);
+    }
+
+    /// What rounding has left outside of a plane, by a little or, next to the eye, by a lot. It depends on the position
+    /// alone, so neighbours go on sharing their corners.
+    void move_inside(glm::dvec4& p) const {
+        p.w = (std::max)(p.w, smallest_w);
+        p.x = std::clamp(p.x, -widest_x_ * p.w, widest_x_ * p.w);
+        p.y = std::clamp(p.y, -widest_y_ * p.w, widest_y_ * p.w);
+        p.z = std::clamp(p.z, 0.0, p.w);
+    }
+
+    clip_polygon cut(const clip_polygon& whole, int plane) const {
+        clip_polygon kept;
+        kept.cut = whole.cut;
+        const auto keep = [&](const clip_corner& corner) {
+            kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
+        };
+        for (int i = 0; i < whole.count; ++i) {
+            const clip_corner& here = whole.corners[static_cast<std::size_t>(i)];
+            const clip_corner& next = whole.corners[static_cast<std::size_t>((i + 1) % whole.count)];
+            const double d_here = distance(plane, here.position), d_next = distance(plane, next.position);
+            const bool here_inside = d_here >= 0, next_inside = d_next >= 0;
+            if (here_inside) keep(here);
+            kept.cut |= !here_inside;
+            if (here_inside == next_inside) continue;
+            clip_corner crossed = crossing(here, d_here, next, d_next);
+            if (plane == 0) crossed.position = next_to_eye(here.position, next.position);
+            keep(crossed);
+        }
+        return kept;
+    }
+
+    /// Where the edge between two corners on either side of a plane meets it. Both shares are positive, so a crossing
+    /// next to the eye doesn't cancel out beside an end that is far away; and exchanging the corners changes no bit.
+    static clip_corner crossing(const clip_corner& a, double d_a, const clip_corner& b, double d_b) {
+        const double share_a = d_b / (d_b - d_a), share_b = d_a / (d_a - d_b);
+        return {share_a * a.position + share_b * b.position, share_a * a.shares + share_b * b.shares};
+    }
+
+    /// Where an edge crosses w = smallest_w. Interpolated, x, y and z would be what rounding leaves of two large
+    /// numbers, and nothing beside it. Products of floats are exact in doubles, so here an edge with z = w, or one
+    /// through the eye, keeps its proportions. Exchanging the ends changes no bit.
+    static glm::dvec4 next_to_eye(const glm::dvec4& a, const glm::dvec4& b) {
+        const double run = b.w - a.w;
+        glm::dvec4 p(0, 0, 0, smallest_w);
+        for (int i = 0; i < 3; ++i) p[i] = ((a[i] * b.w - b[i] * a.w) + smallest_w * (b[i] - a[i])) / run;
+        // What both ends are inside of, everything between them is.
+        if (a.z >= 0 && b.z >= 0) p.z = (std::max)(p.z, 0.0);
+        if (a.z <= a.w && b.z <= b.w) p.z = (std::min)(p.z, smallest_w);
+        return p;
+    }
+
+    pixel_grid grid_;
+    double half_width_, half_height_;
+    double compact_x_, compact_y_;  ///< |x| / w and |y| / w up to which vertices are compact
+    double widest_x_, widest_y_;    ///< and up to which they are not clipped
+    axis right_, down_;
+    double sign_;
+    bool exact_;
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

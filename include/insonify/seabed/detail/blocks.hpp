@@ -1,0 +1,186 @@
+// Angular blocks strewn over the plane: what broken rock is made of.
+//
+// Each cell of a lattice may hold one flat-topped, tilted, eight-sided block with steep walls; the surface is the
+// highest of the blocks that reach a point. Where blocks are many they meet in Voronoi-like edges, where they are few
+// they are boulders.
+//
+// Based on: Steven Worley. A Cellular Texture Basis Function. SIGGRAPH, 1996.
+#pragma once
+
+#include <insonify/seabed/detail/strewn.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed::detail {
+
+/// One size class of blocks. Continuous; walls no steeper than `steepness`.
+class block_layer {
+  public:
+    /// @param cell       metres: blocks reach 0.3 to 0.9 of it from their centre
+    /// @param share      in [0, 1]: how many cells hold a block
+    /// @param height     metres: of the highest blocks
+    /// @param steepness  slope of the walls
+    block_layer(double cell, float share, float height, float steepness, cell_hash hash)
+        : lattice_(lattice::shifted(cell, hash)),
+          hash_(hash),
+          share_(static_cast<std::int32_t>(share * 65536)),
+          height_(height),
+          wall_(steepness * static_cast<float>(cell)) {}
+
+    /// The share of their height that the grid of a stretch carries.
+    float carried_by(const stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
+
+    /// Raises the values along a stretch, metres, to those of the blocks: 0 stays 0 between them.
+    template <int N>
+    INSONIFY_INLINE void raise(const stretch& part, float* values) const {
+        const lattice_coordinate v(lattice_.v(part.y));
+        for (int j = -1; j <= 1; ++j) {
+            const cell_hash::row hash = hash_[v.cell + j];
+            const float dy = v.fraction - static_cast<float>(j) - 0.5f;
+            visit_columns(lattice_, part, 1, [&](std::int64_t first, std::int64_t count) INSONIFY_INLINE_LAMBDA {
+                for (std::int64_t column = first; column < first + count; column += N) {
+                    found<N> some;
+                    if (!some.look(*this, hash, dy, static_cast<std::uint32_t>(column), first + count - column))
+                        continue;
+                    for (int k = 0; k < N; ++k)
+                        if (some.there[k] != 0) draw<N>(part, values, column + k, block(*this, some, k));
+                }
+            });
+        }
+    }
+
+    /// No block is higher, metres: the middle of the widest has 0.9 * 1.1 of the height; a top tilts by half the height
+    /// per cell along each axis, and its corners are 0.975 of a cell away.
+    double most() const { return 1.00001 * (0.99 + 0.5 * 1.41422 * 0.975) * static_cast<double>(height_); }
+
+  private:
+    /// What a row meets of the blocks of N cells side by side: most cells are done with here.
+    template <int N>
+    struct found {
+        static constexpr std::size_t size = static_cast<std::size_t>(N);
+        alignas(32) std::int32_t there[size];
+        alignas(32) std::uint32_t lots[size];
+        alignas(32) float x[size], y[size], radius[size], chord[size];  // in cells, from the block's centre
+
+        INSONIFY_INLINE bool look(const block_layer& layer, const cell_hash::row& hash, float dy, std::uint32_t column,
+                                  std::int64_t most) {
+            using words = lanes<std::uint32_t, N>;
+            using ints = lanes<std::int32_t, N>;
+            using floats = lanes<float, N>;
+            words number, first, second;
+            insonify::detail::count_up<std::uint32_t, N>(number);
+            hash.mixed(first, words(number + column));
+            second = (first ^ (first >> 15)) * 0x2C1B3C6Du;
+            second = (second ^ (second >> 12)) * 0x297A2D39u;
+            second = second ^ (second >> 15);
+            const auto number_of = [](floats& into, const words& bits) INSONIFY_INLINE_LAMBDA {
+                insonify::detail::convert(into, ints(ints(bits) >> 16));  // the upper half, in [-1/2, 1/2)
+                into = into * 0x1p-16f;
+            };
+            floats up, form, along;
+            number_of(up, first);
+            number_of(along, second);
+            number_of(form, words(second << 16));
+            up = dy - up;
+            // Middling sizes are the most common.
+            const floats reach = 0.6f + 1.2f * form * (form < 0.0f ? -form : form);
+            // The corners of an octagon lie 1 / cos(pi / 8) from its centre, at most 0.975 of a cell: none is missed.
+            floats half = reach * reach * 1.1715729f - up * up;
+            const ints zero{}, one = zero + 1;
+            const auto limit = static_cast<std::uint32_t>((std::min)(most, std::int64_t{N}));
+            const ints lot = ints(first & 0xFFFFu);
+            const ints met = (half > 0.0f ? one : zero) & (lot < layer.share_ ? one : zero) &
+                             (ints(number) < static_cast<std::int32_t>(limit) ? one : zero);
+            if (!insonify::detail::any(ints(met != 0))) return false;
+            half = half > 0.0f ? half : floats{};
+            insonify::detail::square_root<N>(half, half);
+            insonify::detail::store(there, met);
+            insonify::detail::store(lots, words(first ^ second));
+            insonify::detail::store(x, along);
+            insonify::detail::store(y, up);
+            insonify::detail::store(radius, reach);
+            insonify::detail::store(chord, half);
+            return true;
+        }
+    };
+
+    /// A block as one row sees it: everything that depends on y is already in.
+    struct block {
+        template <int N>
+        INSONIFY_INLINE block(const block_layer& layer, const found<N>& some, int k) {
+            const std::uint64_t bits = scramble(some.lots[k] * std::uint64_t{0x9E3779B97F4A7C15u});
+            const auto part = [&](int shift) {
+                return static_cast<float>(static_cast<std::int16_t>(static_cast<std::uint16_t>(bits >> shift))) *
+                       0x1p-15f;
+            };
+            const float y = some.y[k];
+            x = 0.5f + some.x[k];
+            radius = some.radius[k];
+            chord = some.chord[k];
+            // An octagon is the same an eighth of a turn on: cosines of 16 headings up to there.
+            constexpr float headings[] = {1.0f,        0.99879546f, 0.99518473f, 0.98917651f, 0.98078528f, 0.97003125f,
+                                          0.95694034f, 0.94154407f, 0.92387953f, 0.90398929f, 0.88192126f, 0.85772861f,
+                                          0.83146961f, 0.80320753f, 0.77301045f, 0.74095113f};
+            constexpr float sines[] = {0.0f,        0.049067674f, 0.09801714f, 0.14673047f, 0.19509032f, 0.24298018f,
+                                       0.29028468f, 0.33688985f,  0.38268343f, 0.42755509f, 0.47139674f, 0.51410274f,
+                                       0.55557023f, 0.59569930f,  0.63439328f, 0.67155895f};
+            cosine = headings[bits & 15];
+            sine = sines[bits & 15];
+            u = y * sine;
+            v = y * cosine;
+            wall = layer.wall_;
+            // Wide blocks are high ones; a tilted top makes one side a ramp and the other a cliff.
+            const float middle = layer.height_ * radius * (0.7f + 0.4f * part(48));
+            tilt = 0.5f * layer.height_ * part(16);
+            top = middle + 0.5f * layer.height_ * part(32) * y;
+        }
+
+        float x;             // of the centre, in cells from the side of its own
+        float cosine, sine;  // of its heading
+        float u, v;          // what y adds to the coordinates along and across the heading
+        float radius;        // in cells
+        float chord;         // half of what the row cuts out of the circle around it
+        float wall;          // metres per cell
+        float top, tilt;     // metres at x, and metres per cell along the row
+
+        template <class Lanes>
+        INSONIFY_INLINE void height_at(Lanes& height, const Lanes& dx) const {
+            Lanes along = dx * cosine + u, across = v - dx * sine;
+            along = along < 0.0f ? -along : along;
+            across = across < 0.0f ? -across : across;
+            // The octagon norm: the widest of the four pairs of sides.
+            const Lanes wider = along > across ? along : across, corner = 0.70710678f * (along + across);
+            const Lanes distance = wider > corner ? wider : corner;
+            const Lanes roof = top + tilt * dx, side = (radius - distance) * wall;
+            height = roof < side ? roof : side;
+        }
+    };
+
+    template <int N>
+    INSONIFY_INLINE void draw(const stretch& part, float* values, std::int64_t column, const block& b) const {
+        const double from = static_cast<double>(column) - lattice_.offset_x, cell = 1 / lattice_.frequency;
+        const double middle = from + static_cast<double>(b.x), reach = static_cast<double>(b.chord);
+        const stretch::range reached = part.within((middle - reach) * cell, (middle + reach) * cell);
+        for (std::size_t i = reached.begin; i < reached.end; i += N) {
+            lanes<float, N> dx, height, highest;
+            offsets<N>(dx, &part.x[i], lattice_.frequency, -from);
+            b.height_at(height, lanes<float, N>(dx - b.x));
+            insonify::detail::load(highest, values + i);
+            highest = height > highest ? height : highest;
+            insonify::detail::store(values + i, highest);
+        }
+    }
+
+    lattice lattice_;
+    cell_hash hash_;
+    std::int32_t share_;  // of 65536
+    float height_, wall_;
+};
+
+}  // namespace seabed::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,273 @@
+// The world's lattices: where positions lie on them, and random bits for their cells.
+//
+// Random draws are keyed by lattice cell, so that a place looks the same in any grid, tile or order of evaluation.
+// Cells are found in double; what goes to float is the way across a cell alone, so precision is that of home at 10^7 m
+// from it.
+//
+// Based on: Guy L. Steele, Doug Lea, Christine H. Flood. Fast Splittable Pseudorandom Number Generators. OOPSLA, 2014
+// (the finaliser "variant 13"). Chris Wellons. Prospecting for Hash Functions. 2018 (the 32-bit finaliser "lowbias32").
+#pragma once
+
+#include <insonify/core/numeric.hpp>
+#include <insonify/core/random.hpp>
+#include <insonify/core/simd/dispatch.hpp>
+#include <insonify/core/simd/lanes.hpp>
+#include <insonify/seabed/model.hpp>
+
+#include <array>
+#include <cstdint>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed::detail {
+
+using insonify::detail::dispatch;
+using insonify::detail::lanes;
+
+/// Random streams: every layer of every model has its own.
+enum class stream : std::uint32_t {
+    sand = 0x5EAB0000,
+    ripples,
+    mud,
+    mounds,
+    outcrops,
+    blocks,
+    rubble,
+    mask,
+    second_ripples,
+    trawls,
+    survey,
+};
+
+constexpr std::uint64_t scramble(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+}
+
+/// 64 random bits for each cell of a plane: a pure function of (seed, stream, layer, column, row). Philox draws the
+/// key; the cells themselves are hashed by two finalisers, five times cheaper and the row's shared along it.
+class cell_hash {
+  public:
+    cell_hash(std::uint64_t seed, stream purpose, std::uint32_t layer = 0) {
+        const philox_key key = stream_key(seed, static_cast<std::uint32_t>(purpose) + (layer << 8));
+        key_ = (std::uint64_t{key[1]} << 32) | key[0];
+    }
+
+    class row {
+      public:
+        row() = default;
+        explicit row(std::uint64_t key) : key_(key) {}
+        std::uint64_t operator()(std::int64_t column) const {
+            return scramble(key_ + static_cast<std::uint64_t>(column) * 0x9E3779B97F4A7C15u);
+        }
+        /// 32 bits for each of several columns at once, by the last 32 bits of their numbers: other bits than above,
+        /// which come again after 2^32 columns.
+        template <class Columns>
+        INSONIFY_INLINE void mixed(Columns& bits, const Columns& columns) const {
+            bits = columns ^ static_cast<std::uint32_t>(key_);
+            bits = (bits ^ (bits >> 16)) * 0x7FEB352Du;
+            bits = bits + static_cast<std::uint32_t>(key_ >> 32);
+            bits = (bits ^ (bits >> 15)) * 0x846CA68Bu;
+            bits = bits ^ (bits >> 16);
+        }
+
+      private:
+        std::uint64_t key_ = 0;
+    };
+    row operator[](std::int64_t index) const {
+        return row(scramble(key_ + static_cast<std::uint64_t>(index) * 0xD1342543DE82EF95u));
+    }
+
+  private:
+    std::uint64_t key_;
+};
+
+/// Two numbers in [-1, 1) from 64 bits.
+struct pair_of_bits {
+    float a, b;
+    explicit constexpr pair_of_bits(std::uint64_t bits)
+        : a(static_cast<float>(static_cast<std::int32_t>(static_cast<std::uint32_t>(bits))) * 0x1p-31f),
+          b(static_cast<float>(static_cast<std::int32_t>(bits >> 32)) * 0x1p-31f) {}
+};
+
+/// A square lattice laid over the world, in cells per metre and cells of offset.
+struct lattice {
+    double frequency = 1;
+    double offset_x = 0, offset_y = 0;
+
+    /// Shifted by its own hash: what is special at lattice lines must not line up over the layers of a sum.
+    static lattice shifted(double cell, const cell_hash& hash) {
+        const pair_of_bits shift(hash[0x7FFFFFFF](0x7FFFFFFF));
+        return {1 / cell, static_cast<double>(shift.a), static_cast<double>(shift.b)};
+    }
+    double u(double x) const { return x * frequency + offset_x; }
+    double v(double y) const { return y * frequency + offset_y; }
+};
+
+/// The nearest length of eight bits: its multiples are exact, so places that are multiples of it are the same in
+/// whatever row they are sampled.
+inline double eight_bits(double length) {
+    double unit = 1;
+    while (unit * 256 <= length) unit *= 2;
+    while (unit * 128 > length) unit /= 2;
+    return static_cast<double>(numeric::floor_to_int(length / unit + 0.5)) * unit;
+}
+
+/// Where a coordinate lies on a lattice.
+struct lattice_coordinate {
+    std::int64_t cell;
+    float fraction;
+    explicit lattice_coordinate(double cells)
+        : cell(numeric::floor_to_int(cells)), fraction(static_cast<float>(cells - static_cast<double>(cell))) {}
+};
+
+/// The part of a row that is worked on at a time: its positions, and the last of them again to fill whole vectors.
+struct stretch {
+    static constexpr std::size_t padded = chunk;  // which is a multiple of every lane count
+
+    double y, spacing;
+    double grid_spacing;                       ///< see scanline
+    std::size_t count;                         ///< at least 1
+    alignas(32) std::array<double, padded> x;  ///< rising
+
+    stretch(const scanline& line, std::size_t samples)
+        : y(line.y), spacing(line.spacing), grid_spacing(line.grid_spacing), count(samples) {
+        // As line.x(i) has it; counted by fours, so that no sum waits for the one before.
+        auto number = static_cast<double>(line.first);
+        for (std::size_t i = 0; i < whole(); i += 4, number += 4) {
+            x[i] = line.origin + line.spacing * number;
+            x[i + 1] = line.origin + line.spacing * (number + 1);
+            x[i + 2] = line.origin + line.spacing * (number + 2);
+            x[i + 3] = line.origin + line.spacing * (number + 3);
+        }
+        for (std::size_t i = count; i < whole(); ++i) x[i] = x[count - 1];
+    }
+    /// The count rounded up to whole vectors.
+    std::size_t whole() const { return (count + 15) & ~std::size_t{15}; }
+    double last() const { return x[count - 1]; }
+
+    /// The samples that may lie in [low, high], as whole vectors: a few more, never one less.
+    struct range {
+        std::size_t begin, end;
+    };
+    range within(double low, double high) const {
+        const double n = static_cast<double>(count), per_metre = 1 / (std::max)(spacing, 1e-9);
+        const double first = (low - x[0]) * per_metre - 1, past = (high - x[0]) * per_metre + 2;
+        if (first >= n || past <= 0) return {0, 0};
+        const auto begin = first > 0 ? static_cast<std::size_t>(first) : 0;
+        const auto end = past < n ? static_cast<std::size_t>(past) : count;
+        return {begin & ~std::size_t{15}, (end + 15) & ~std::size_t{15}};
+    }
+};
+
+/// A float for each position of a stretch.
+struct alignas(32) stretch_values : std::array<float, stretch::padded> {};
+
+/// Cuts a row into stretches, calls `fill(stretch, values)` for each, which writes or adds to whole vectors of values
+/// that begin at 0, and copies them out.
+template <class Fill>
+void by_stretches(const scanline& line, std::span<float> heights, Fill&& fill) {
+    for (std::size_t i = 0; i < heights.size(); i += chunk) {
+        const stretch part(line.from(i), (std::min)(chunk, heights.size() - i));
+        stretch_values values{};
+        fill(part, values);
+        std::copy_n(values.begin(), part.count, heights.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+}
+
+/// Two halves as one vector.
+template <int N, class Whole, class Half>
+INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
+#if INSONIFY_SIMD
+    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+        into = __builtin_shufflevector(low, high, I...);
+    }
+    (std::make_integer_sequence<int, N>{});
+#else
+    static_cast<void>(high);
+    into = low;
+#endif
+}
+
+/// Largest whole number not above a coordinate whose size is below 2^51.
+template <class Doubles>
+INSONIFY_INLINE void floor_of(Doubles& floor, const Doubles& u) {
+    constexpr double whole = 0x1.8p52;  // added, it leaves the nearest integer in the last bits
+    const Doubles nearest = (u + whole) - whole;
+    floor = nearest > u ? nearest - 1.0 : nearest;
+}
+
+/// N positions on a lattice: the way across their cells in [0, 1], and which cells they are, counted from `first`.
+template <int N>
+INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cell, const double* x, double frequency,
+                            double offset, double first) {
+    if constexpr (N == 1) {
+        double floor;
+        const double u = *x * frequency + offset;
+        floor_of(floor, u);
+        cell = static_cast<std::int32_t>(floor - first);
+        across = static_cast<float>(u - floor);
+    } else {
+        constexpr int half = N / 2;
+        lanes<float, half> part[2];
+        lanes<std::int32_t, half> name[2];
+        for (int k = 0; k < 2; ++k) {
+            lanes<double, half> u, floor;
+            insonify::detail::load(u, x + k * half);
+            u = u * frequency + offset;
+            floor_of(floor, u);
+            insonify::detail::convert(name[k], lanes<double, half>(floor - first));
+            insonify::detail::convert(part[k], lanes<double, half>(u - floor));
+        }
+        join<N>(across, part[0], part[1]);
+        join<N>(cell, name[0], name[1]);
+    }
+}
+
+/// x[i] frequency + offset as a float, for N positions whose distance from the offset's origin is short.
+template <int N>
+INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double frequency, double offset) {
+    if constexpr (N == 1) {
+        into = static_cast<float>(*x * frequency + offset);
+    } else {
+        constexpr int half = N / 2;
+        lanes<float, half> part[2];
+        for (int k = 0; k < 2; ++k) {
+            lanes<double, half> u;
+            insonify::detail::load(u, x + k * half);
+            u = u * frequency + offset;
+            insonify::detail::convert(part[k], u);
+        }
+        join<N>(into, part[0], part[1]);
+    }
+}
+
+/// Perlin's quintic: 0 to 1 with two derivatives zero at both ends.
+template <class T>
+INSONIFY_INLINE constexpr void fade(T& into, const T& t) {
+    into = t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
+}
+constexpr float fade(float t) {
+    return t * t * t * (t * (t * 6 - 15) + 10);
+}
+constexpr float mix(float a, float b, float t) {
+    return a + t * (b - a);
+}
+[[nodiscard]] constexpr float clamp01(float t) {
+    return t < 0 ? 0 : t > 1 ? 1 : t;
+}
+template <class Lanes>
+INSONIFY_INLINE void clamp_lanes(Lanes& t) {
+    const Lanes zero{}, one = zero + 1.0f;
+    t = t > 0.0f ? t : zero;
+    t = t < 1.0f ? t : one;
+}
+
+}  // namespace seabed::detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

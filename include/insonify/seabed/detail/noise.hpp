@@ -1,0 +1,240 @@
+// Gradient noise on the world's lattice, and power-law relief made of its octaves.
+//
+// Along a row, the height of a cell's noise is a fixed pair of lines blended by the fade curve, so hashing and the
+// whole y direction are paid for once per cell crossed, not once per sample.
+//
+// Based on: Ken Perlin. Improving Noise. SIGGRAPH, 2002 (gradients on a lattice, quintic fade).
+#pragma once
+
+#include <insonify/seabed/detail/lattice.hpp>
+
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+/// Gradient noise: mean 0, variance 1, twice differentiable, waves of about one to three cells.
+class gradient_noise {
+  public:
+    /// Brings the variance to 1: that of the sum over the corners is 8/3 (181/462) (535/18018) for gradients uniform in
+    /// the square, by integrating the squared weights over the cell.
+    static constexpr float gain = 5.6777169f;
+    /// What it never exceeds. Along each axis the corners weigh fade(t) and 1 - fade(t), and a gradient of 1 gives t or
+    /// 1 - t there: t + fade(t) (1 - 2 t) at most, which is 1/2 in the middle and less elsewhere; both axes make 1.
+    static constexpr double most = 1.00001 * static_cast<double>(gain);
+    /// Mean square of the gradient, times the square of the cell: 324744/19367, by the same integral.
+    static constexpr float mean_square_slope = 16.767904f;
+
+    /// @param cell  metres, > 0
+    gradient_noise(double cell, detail::cell_hash hash) : lattice_(detail::lattice::shifted(cell, hash)), hash_(hash) {}
+
+    /// The share of it that the grid of a stretch carries; a cell is about half a wave.
+    float carried_by(const detail::stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
+
+    /// Adds `amplitude` times the noise along a stretch to its values.
+    template <int N>
+    INSONIFY_INLINE void add(const detail::stretch& part, float amplitude, float* values) const {
+        const detail::lattice_coordinate v(lattice_.v(part.y));
+        const line_of_cells line{hash_[v.cell], hash_[v.cell + 1], v.fraction, detail::fade(v.fraction),
+                                 amplitude * gain};
+        const std::int64_t first = numeric::floor_to_int(lattice_.u(part.x[0]));
+        const std::int64_t last = numeric::floor_to_int(lattice_.u(part.x[part.whole() - 1])) + 1;
+        const bool dense = last - first < most_columns;
+        alignas(32) side sides[most_columns + 16];
+        if (dense) line.template tabulate<N>(sides, static_cast<std::uint32_t>(first), static_cast<int>(last - first));
+
+        for (std::size_t i = 0; i < part.whole(); i += N) {
+            using insonify::detail::lane;
+            lanes<float, N> across, share, sum, corner[4];  // height and slope at both sides of the cell
+            lanes<std::int32_t, N> cell;
+            const auto fetch = [&](const side* from) INSONIFY_INLINE_LAMBDA {
+                if constexpr (N == 1)
+                    std::memcpy(corner, &from[cell].height, sizeof corner);
+                else
+                    insonify::detail::transpose<N>(
+                        corner, [&](int k) INSONIFY_INLINE_LAMBDA { return &from[lane(cell, k)].height; });
+            };
+            if (dense) {
+                detail::locate<N>(across, cell, &part.x[i], lattice_.frequency, lattice_.offset_x,
+                                  static_cast<double>(first));
+                const std::int32_t begin = lane(cell, 0);
+                if (begin == lane(cell, N - 1)) {
+                    const float* const both = &sides[begin].height;
+                    for (int k = 0; k < 4; ++k) corner[k] = lanes<float, N>{} + both[k];
+                } else {
+                    fetch(sides);
+                }
+            } else {
+                // So wide apart that each sample has its own columns.
+                for (int k = 0; k < N; ++k) {
+                    const detail::lattice_coordinate u(lattice_.u(part.x[i + static_cast<std::size_t>(k)]));
+                    line.template tabulate<1>(sides + 2 * k, static_cast<std::uint32_t>(u.cell), 1);
+                    insonify::detail::set_lane(across, k, u.fraction);
+                    insonify::detail::set_lane(cell, k, 2 * k);
+                }
+                fetch(sides);
+            }
+            const lanes<float, N> left = corner[0] + corner[1] * across,
+                                  right = corner[2] + corner[3] * (across - 1.0f);
+            detail::fade(share, across);
+            insonify::detail::load(sum, values + i);
+            sum = sum + (left + share * (right - left));
+            insonify::detail::store(values + i, sum);
+        }
+    }
+
+  private:
+    template <class T, int N>
+    using lanes = insonify::detail::lanes<T, N>;
+    template <int N>
+    using words = lanes<std::uint32_t, N>;
+
+    /// A column of the lattice at a row's y, already blended over y: a line in x through `height` at the column.
+    struct side {
+        float height, slope;
+    };
+    static constexpr std::int64_t most_columns = 512;  // beyond that, samples lie in cells of their own
+
+    struct line_of_cells {
+        detail::cell_hash::row below, above;
+        float up, rise, gain;  // the row's way up in its cells, its fade, and what to multiply by
+
+        template <int N>
+        INSONIFY_INLINE void sides_of(lanes<float, N>& height, lanes<float, N>& slope, const words<N>& column) const {
+            lanes<float, N> low_x, low_y, high_x, high_y;
+            gradient<N>(low_x, low_y, below, column);
+            gradient<N>(high_x, high_y, above, column);
+            low_y = low_y * up;
+            high_y = high_y * (up - 1.0f);
+            slope = gain * (low_x + rise * (high_x - low_x));
+            height = gain * (low_y + rise * (high_y - low_y));
+        }
+
+        /// Both components in [-1, 1), from 16 bits each.
+        template <int N>
+        INSONIFY_INLINE static void gradient(lanes<float, N>& x, lanes<float, N>& y, const detail::cell_hash::row& row,
+                                             const words<N>& column) {
+            using ints = lanes<std::int32_t, N>;
+            words<N> bits;
+            row.mixed(bits, column);
+            insonify::detail::convert(x, ints(ints(bits << 16) >> 16));
+            insonify::detail::convert(y, ints(ints(bits) >> 16));
+            x = x * 0x1p-15f;
+            y = y * 0x1p-15f;
+        }
+
+        template <int N>
+        INSONIFY_INLINE void tabulate(side* sides, std::uint32_t first, int last) const {
+            words<N> column;
+            insonify::detail::count_up<std::uint32_t, N>(column);
+            column = column + first;
+            for (int i = 0; i <= last; i += N) {
+                lanes<float, N> height, slope;
+                sides_of<N>(height, slope, column);
+                for (int k = 0; k < N; ++k)
+                    sides[i + k] = {insonify::detail::lane(height, k), insonify::detail::lane(slope, k)};
+                column = column + static_cast<std::uint32_t>(N);
+            }
+        }
+    };
+
+    detail::lattice lattice_;
+    detail::cell_hash hash_;
+};
+
+/// Random relief whose 2-D spectrum falls as a power of the wave number, W(K) ~ K^-exponent between two wavelengths.
+///
+/// Measured exponents of sea floors are 2.4 to 3.9, 3.25 where nothing is known: APL-UW High-Frequency Ocean
+/// Environmental Acoustic Models Handbook. TR 9407, 1994 (eqs. 7-8).
+struct roughness {
+    float rms = 0.01f;       ///< metres, >= 0; 0 costs nothing
+    float longest = 1.0f;    ///< metres, > 0: cell of the coarsest octave
+    float shortest = 0.04f;  ///< metres, in (0, longest]: no octave has smaller cells
+    float exponent = 3.25f;  ///< in [2, 4]
+
+    friend bool operator==(const roughness&, const roughness&) = default;
+};
+
+/// Octaves of gradient noise, cells halved from one to the next, that make up a `roughness`.
+class power_law_noise {
+  public:
+    /// @throws invalid_input for parameters out of the ranges above
+    power_law_noise(const roughness& r, std::uint64_t seed, detail::stream purpose, std::uint32_t layer = 0) {
+        detail::require(r.rms >= 0 && r.rms < 1e6f, "roughness.rms", r.rms, "metres, at least 0");
+        detail::require(r.longest > 0 && r.longest < 1e6f, "roughness.longest", r.longest, "metres above 0");
+        detail::require(r.shortest >= 1e-4f && r.shortest <= r.longest, "roughness.shortest", r.shortest,
+                        "metres from 1e-4 to roughness.longest");
+        detail::require(r.exponent >= 2 && r.exponent <= 4, "roughness.exponent", r.exponent, "2 to 4");
+        if (r.rms == 0) return;
+
+        // An octave spreads its variance over an area of the wave number plane four times that of the one before, so
+        // variances in the ratio 2^(2 - exponent) make densities in the ratio 2^-exponent.
+        const double ratio = numeric::pow(2, 2 - static_cast<double>(r.exponent));
+        double variance = 1, sum = 0;
+        double cell = static_cast<double>(r.longest);
+        for (std::uint32_t k = 0; k == 0 || cell >= static_cast<double>(r.shortest); ++k) {
+            octaves_.push_back({gradient_noise(cell, {seed, purpose, 64 * layer + k}), static_cast<float>(variance)});
+            slope_ += variance * static_cast<double>(gradient_noise::mean_square_slope) / (cell * cell);
+            sum += variance;
+            variance *= ratio;
+            cell /= 2;
+        }
+        const double scale = static_cast<double>(r.rms) * static_cast<double>(r.rms) / sum;
+        slope_ = numeric::square_root(slope_ * scale);
+        for (octave& o : octaves_)
+            o.amplitude = static_cast<float>(numeric::square_root(static_cast<double>(o.amplitude) * scale));
+    }
+
+    /// Adds the relief along a stretch to its values, metres.
+    void add(const detail::stretch& part, detail::stretch_values& values, isa level = best_isa()) const;
+
+    /// What is added is never above this, nor below its negative, metres.
+    double most() const {
+        double sum = 0;
+        for (const octave& o : octaves_) sum += static_cast<double>(o.amplitude) * gradient_noise::most;
+        return sum;
+    }
+
+    /// Expected root mean square of the length of the gradient, metres per metre.
+    double rms_slope() const { return slope_; }
+
+  private:
+    struct octave {
+        gradient_noise noise;
+        float amplitude;
+    };
+    struct kernel {
+        static constexpr int widest = 16;
+
+        const power_law_noise& noise;
+        const detail::stretch& part;
+        float* values;
+
+        template <int N>
+        INSONIFY_INLINE void run() const {
+            for (const octave& o : noise.octaves_) {
+                const float kept = o.noise.carried_by(part);
+                if (kept == 0) break;  // nor the finer ones
+                o.noise.template add<N>(part, kept * o.amplitude, values);
+            }
+        }
+    };
+    std::vector<octave> octaves_;
+    double slope_ = 0;
+};
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION void power_law_noise::add(const detail::stretch& part, detail::stretch_values& values,
+                                            isa level) const {
+    if (!octaves_.empty()) detail::dispatch(kernel{*this, part, values.data()}, level);
+}
+#endif
+
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

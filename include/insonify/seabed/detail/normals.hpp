@@ -1,0 +1,144 @@
+// Normals of a heightfield, by finite differences of its vertices.
+//
+// Central differences are what a mesh of the field needs: they see the relief that is drawn, and nothing finer,
+// whatever the recipe was. Of a wave of n vertices to the length they give sin(2 pi / n) / (2 pi / n) of the slope:
+// 0.90 at 8, 0.97 at 16.
+#pragma once
+
+#include <insonify/core/executor.hpp>
+#include <insonify/core/simd/dispatch.hpp>
+#include <insonify/core/simd/lanes.hpp>
+#include <insonify/seabed/heightfield.hpp>
+
+#include <glm/vec3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+namespace detail {
+
+/// How much a surface rises at the vertices of a row, by central differences: twice the rise of a cell. A neighbour
+/// that is missing or beyond the edge leaves the side that is there to count twice; at a vertex without data nothing
+/// rises.
+class row_rises {
+  public:
+    row_rises(const image<float>& heights, int j)
+        : here_(heights.row(j).data()),
+          back_(heights.row((std::max)(j - 1, 0)).data()),
+          ahead_(heights.row((std::min)(j + 1, heights.height() - 1)).data()),
+          width_(static_cast<std::size_t>(heights.width())),
+          inner_(j > 0 && j + 1 < heights.height()) {}
+
+    float x(std::size_t i) const {
+        const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width_ ? i + 1 : i;
+        return rise(here_[left], here_[i], here_[right], right - left == 2);
+    }
+    float y(std::size_t i) const { return rise(back_[i], here_[i], ahead_[i], inner_); }
+
+    /// Unit normal of the surface at a vertex.
+    glm::vec3 normal(std::size_t i, float spacing) const {
+        const float dx = x(i), dy = y(i), dz = 2 * spacing;
+        const float inverse = 1 / numeric::square_root(dx * dx + dy * dy + dz * dz);
+        return {(0.0f - dx) * inverse, (0.0f - dy) * inverse, dz * inverse};
+    }
+
+  private:
+    static float rise(float before, float at, float after, bool both) {
+        if (!numeric::is_finite(at)) return 0;
+        const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
+        if (has_before && has_after) return both ? after - before : 2 * (after - before);
+        return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
+    }
+
+    const float *here_, *back_, *ahead_;
+    std::size_t width_;
+    bool inner_;
+};
+
+/// The normals of one row of vertices.
+class row_normals {
+  public:
+    /// @param out  as many as the row has vertices
+    row_normals(const heightfield& field, int row, glm::vec3* out)
+        : width_(static_cast<std::size_t>(field.heights.width())),
+          here_(field.heights.row(row).data()),
+          back_(field.heights.row(row > 0 ? row - 1 : row).data()),
+          ahead_(field.heights.row(row + 1 < field.heights.height() ? row + 1 : row).data()),
+          inner_(row > 0 && row + 1 < field.heights.height()),
+          z_(2 * static_cast<float>(field.spacing)),
+          rises_(field.heights, row),
+          out_(out) {}
+
+    void compute(isa level = best_isa()) const { insonify::detail::dispatch(*this, level); }
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        using floats = insonify::detail::lanes<float, N>;
+        using ints = insonify::detail::lanes<std::int32_t, N>;
+        using insonify::detail::load;
+        one(0);
+        std::size_t i = 1;
+        const float twice = inner_ ? 1.0f : 2.0f;  // at an edge the side that is there counts twice
+        for (; i + N < width_; i += N) {
+            floats left, right, back, ahead, here, length, x, y;
+            load(left, here_ + i - 1);
+            load(right, here_ + i + 1);
+            load(back, back_ + i);
+            load(ahead, ahead_ + i);
+            load(here, here_ + i);
+            // A neighbour or the vertex itself without data is rare, and left to the slow way.
+            ints bits;
+            const floats known = (left - left) + (right - right) + (back - back) + (ahead - ahead) + (here - here);
+            std::memcpy(&bits, &known, sizeof bits);
+            if (insonify::detail::any(ints((bits & 0x7FFFFFFF) != 0))) {
+                for (std::size_t k = 0; k < N; ++k) one(i + k);
+                continue;
+            }
+            x = right - left;
+            y = twice * (ahead - back);
+            insonify::detail::square_root<N>(length, x * x + y * y + z_ * z_);
+            const floats inverse = 1.0f / length;
+            float stored[3][static_cast<std::size_t>(N)];
+            insonify::detail::store(stored[0], floats((0.0f - x) * inverse));
+            insonify::detail::store(stored[1], floats((0.0f - y) * inverse));
+            insonify::detail::store(stored[2], floats(z_ * inverse));
+            for (std::size_t k = 0; k < N; ++k) out_[i + k] = {stored[0][k], stored[1][k], stored[2][k]};
+        }
+        for (; i < width_; ++i) one(i);
+    }
+
+  private:
+    void one(std::size_t i) const { out_[i] = rises_.normal(i, 0.5f * z_); }
+
+    std::size_t width_;
+    const float *here_, *back_, *ahead_;
+    bool inner_;
+    float z_;  // twice the spacing
+    row_rises rises_;
+    glm::vec3* out_;
+};
+
+}  // namespace detail
+
+/// Unit normals at the vertices of a heightfield, by central differences, one-sided at edges and beside missing
+/// vertices; straight up at these.
+/// @throws invalid_input as `validate`
+template <executor_argument Executor = serial_executor>
+image<glm::vec3> normals(const heightfield& field, Executor&& ex = serial_executor{}) {
+    validate(field);
+    image<glm::vec3> result(field.heights.width(), field.heights.height(), insonify::detail::uninitialized{});
+    ex.bulk(static_cast<std::size_t>(field.heights.height()), [&](std::size_t j) {
+        const int row = static_cast<int>(j);
+        detail::row_normals(field, row, result.row(row).data()).compute();
+    });
+    return result;
+}
+
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

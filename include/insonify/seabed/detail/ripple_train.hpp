@@ -1,0 +1,316 @@
+// One system of sand ripples: crests of one height that meander, end and fork, as waves over sand make them.
+//
+// A Gaussian random field of ripples fades in and out, which real ones don't. Here the phase of such a field,
+// psi(x) = sum_n exp i(k_n . x + phi_n), drives a profile of constant amplitude: height = (eta / 2) cos arg psi. Crests
+// fork at the zeros of psi, around which the phase winds once.
+//
+// The carrier exp(i k_0 . x) is divided out of psi. What is left varies slowly, so along a row it is summed on a
+// lattice several times coarser than the ripples and interpolated; across rows it is exact. The lattice is the world's:
+// a height depends on seed and position alone.
+//
+// Based on: Dajun Tang, Frank S. Henyey, Brian T. Hefner, Peter A. Traykovski. Simulating Realistic-Looking Sediment
+// Ripple Fields. IEEE Journal of Oceanic Engineering 34, 2009 (why ripples are not Gaussian).
+// M. V. Berry, M. R. Dennis. Phase Singularities in Isotropic Random Waves. Proc. R. Soc. A 456, 2000 (how many forks).
+#pragma once
+
+#include <insonify/core/simd/random_lanes.hpp>
+#include <insonify/seabed/detail/lattice.hpp>
+
+#include <array>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+/// What ripples of one kind are like. Ripples that waves make are 0.05 to 1.5 m long and 0.05 to 0.2 times as high.
+///
+/// They fork 2 pi spread bandwidth / wavelength^2 times per square metre.
+struct ripple_system {
+    float wavelength = 0.8f;  ///< metres, > 0: from crest to crest
+    float steepness = 0.11f;  ///< in [0, 0.5]: height from trough to crest, over the wavelength
+    float direction = 0;      ///< radians from +x: where the wave vector points, across the crests
+    float spread = 0.09f;     ///< radians, in [0, 0.5]: standard deviation of the direction; more of it, more forks
+    float bandwidth = 0.09f;  ///< in [0, 0.25]: relative standard deviation of the wave number
+    float sharpness = 0.25f;  ///< in [0, 0.9]: 0 is sinusoidal, more is narrower crests and wider troughs: trochoidal
+
+    float height() const { return steepness * wavelength; }
+    friend bool operator==(const ripple_system&, const ripple_system&) = default;
+};
+
+namespace detail {
+
+/// Cosine and sine of 2 pi x for |x| <= 1/2, absolute error < 2e-6, without a branch.
+template <class Lanes>
+INSONIFY_INLINE void turn(Lanes& cosine, Lanes& sine, const Lanes& x) {
+    // Series of the half angle, which stays below pi / 2, and then its double.
+    const Lanes a = x * static_cast<float>(numeric::pi);
+    const Lanes t = a * a;
+    const Lanes s =
+        a *
+        (1.0f + t * (-1.0f / 6 + t * (1.0f / 120 + t * (-1.0f / 5040 + t * (1.0f / 362880 - t * (1.0f / 39916800))))));
+    const Lanes c =
+        1.0f +
+        t * (-0.5f +
+             t * (1.0f / 24 + t * (-1.0f / 720 + t * (1.0f / 40320 + t * (-1.0f / 3628800 + t * (1.0f / 479001600))))));
+    sine = 2.0f * s * c;
+    cosine = 1.0f - 2.0f * s * s;
+}
+
+/// x[i] frequency + offset less the nearest whole number, for N positions.
+template <int N>
+INSONIFY_INLINE void turns(lanes<float, N>& into, const double* x, double frequency, double offset) {
+    constexpr double whole = 0x1.8p52;  // added, it leaves the nearest integer in the last bits
+    constexpr int half = N > 1 ? N / 2 : 1;
+    lanes<float, half> part[2];
+    for (int k = 0; k < (N > 1 ? 2 : 1); ++k) {
+        lanes<double, half> u;
+        insonify::detail::load(u, x + k * half);
+        u = u * frequency + offset;
+        insonify::detail::convert(part[k], lanes<double, half>(u - ((u + whole) - whole)));
+    }
+    if constexpr (N == 1)
+        into = part[0];
+    else
+        join<N>(into, part[0], part[1]);
+}
+
+/// Catmull-Rom between the second and the third of four values.
+template <class Lanes>
+INSONIFY_INLINE void between(Lanes& into, const Lanes (&p)[4], const Lanes& t) {
+    const Lanes b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2.0f * p[2] - 0.5f * p[3],
+                d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
+    into = p[1] + t * (b + t * (c + t * d));
+}
+
+/// Evaluates a `ripple_system`.
+class ripple_train {
+  public:
+    static constexpr std::size_t waves = 32;
+
+    /// Softens the zeros of psi, as a share of its rms: the amplitude dips to nothing at the very fork, over a few
+    /// hundredths of a wavelength more than a phase jump would, and slopes stay bounded.
+    static constexpr float softening = 0.15f;
+
+    /// @param name  of the system, for errors
+    ripple_train(const ripple_system& r, std::uint64_t seed, stream purpose, const std::string& name)
+        : wavelength_(static_cast<double>(r.wavelength)), half_height_(r.height() / 2), sharpness_(r.sharpness) {
+        require(r.wavelength > 0 && r.wavelength < 1e6f, name + ".wavelength", r.wavelength, "metres above 0");
+        require(r.steepness >= 0 && r.steepness <= 0.5f, name + ".steepness", r.steepness, "0 to 0.5");
+        require(numeric::is_finite(r.direction), name + ".direction", r.direction, "a finite angle");
+        require(r.spread >= 0 && r.spread <= 0.5f, name + ".spread", r.spread, "0 to 0.5 radians");
+        require(r.bandwidth >= 0 && r.bandwidth <= 0.25f, name + ".bandwidth", r.bandwidth, "0 to 0.25");
+        require(r.sharpness >= 0 && r.sharpness <= 0.9f, name + ".sharpness", r.sharpness, "0 to 0.9");
+        if (half_height_ > 0) draw_waves(r, random_sequence(seed, static_cast<std::uint32_t>(purpose)));
+    }
+
+    /// Adds the relief along a stretch to its values, metres.
+    void add(const stretch& part, stretch_values& values, isa level = best_isa()) const;
+
+    /// What is added is never above this, nor below its negative, metres: the profile is within [-1, 1] of half the
+    /// height, but for the carrier's error of 2e-6, which the sharpest crests multiply by 19.
+    double most() const { return 1.0001 * static_cast<double>(half_height_); }
+
+    /// psi at a point, its waves summed in full: mean square 1, phase that of the crests, zeros where they fork.
+    struct phasor {
+        double re, im;
+    };
+    phasor psi(double x, double y) const {
+        phasor sum{0, 0};
+        for (std::size_t n = 0; n < waves; ++n) {
+            const auto [sine, cosine] =
+                numeric::sin_cos_turns((wave_x_[n] + carrier_x_) * x + (wave_y_[n] + carrier_y_) * y + phase_[n]);
+            sum.re += cosine;
+            sum.im += sine;
+        }
+        const double scale = numeric::square_root(1.0 / static_cast<double>(waves));
+        return {sum.re * scale, sum.im * scale};
+    }
+
+  private:
+    static constexpr std::size_t block = 32;    // lattice points whose rotations are tabulated
+    static constexpr std::size_t points = 256;  // the most that a stretch shares
+
+    void draw_waves(const ripple_system& r, random_sequence draw) {
+        // The k-th direction goes with a wave number from any of as many strata: so few waves have the moments asked
+        // for.
+        std::array<double, waves> strata{};
+        for (std::uint32_t n = 0; n < waves; ++n) {
+            const std::uint32_t other = draw.below(n + 1);
+            strata[n] = strata[other];
+            strata[other] = n;
+        }
+        const double frequency = 1 / static_cast<double>(r.wavelength), angle = static_cast<double>(r.direction);
+        const auto heading = numeric::sin_cos(angle);
+        carrier_x_ = frequency * heading.cosine;
+        carrier_y_ = frequency * heading.sine;
+        double largest = 0;
+        for (std::size_t n = 0; n < waves; ++n) {
+            const double k = frequency * (1 + static_cast<double>(r.bandwidth) *
+                                                  triangular((static_cast<double>(n) + draw.uniform()) / waves));
+            const double turned = static_cast<double>(r.spread) * triangular((strata[n] + draw.uniform()) / waves);
+            const auto along = numeric::sin_cos(angle + turned);
+            wave_x_[n] = k * along.cosine - carrier_x_;
+            wave_y_[n] = k * along.sine - carrier_y_;
+            phase_[n] = draw.uniform();
+            largest = (std::max)(largest, numeric::magnitude(wave_x_[n]));
+        }
+
+        // Space the lattice so that the fastest wave turns by a sixteenth per step: cubic interpolation then errs by
+        // less than 0.0006 of it.
+        step_ = (std::min)(static_cast<double>(r.wavelength), 1 / (16 * (std::max)(largest, 1e-6 * frequency)));
+        const double scale = numeric::square_root(1.0 / static_cast<double>(waves));
+        for (std::size_t n = 0; n < waves; ++n) {
+            const auto once = numeric::sin_cos_turns(wave_x_[n] * step_);
+            double re = scale, im = 0;
+            for (std::size_t i = 0; i < block; ++i) {
+                turn_re_[n][i] = static_cast<float>(re);
+                turn_im_[n][i] = static_cast<float>(im);
+                const double next = re * once.cosine - im * once.sine;
+                im = re * once.sine + im * once.cosine;
+                re = next;
+            }
+        }
+    }
+
+    /// Mean 0, standard deviation 1, never beyond 2.45, from a uniform number: the tails of a normal would only widen
+    /// the band.
+    static double triangular(double u) {
+        const double side = u < 0.5 ? numeric::square_root(2 * u) - 1 : 1 - numeric::square_root(2 - 2 * u);
+        return side * 2.449489742783178;
+    }
+
+    struct kernel {
+        static constexpr int widest = 16;
+
+        const ripple_train& train;
+        const stretch& part;
+        float* values;
+
+        template <int N>
+        INSONIFY_INLINE void run() const {
+            train.add_lanes<N>(part, values);
+        }
+    };
+
+    /// psi without its carrier at `count` points of the lattice; writes to whole vectors.
+    template <int N>
+    INSONIFY_INLINE void envelope(float* re, float* im, std::int64_t from, double y, std::size_t count) const {
+        for (std::size_t done = 0; done < count;) {
+            const std::int64_t first = from + static_cast<std::int64_t>(done);
+            const std::int64_t origin = first & ~static_cast<std::int64_t>(block - 1);
+            const auto begin = static_cast<std::size_t>(first - origin);
+            const std::size_t length = (std::min)(block - begin, count - done);
+            // Turn each wave to the block's origin in double, then step through the block by its table.
+            alignas(32) float start_re[waves], start_im[waves];
+            constexpr int wide = N > 1 ? N / 2 : 1;
+            const double x = step_ * static_cast<double>(origin);
+            for (std::size_t n = 0; n < waves; n += wide) {
+                lanes<double, wide> wave_x, wave_y, phase, cosine, sine, floor;
+                insonify::detail::load(wave_x, &wave_x_[n]);
+                insonify::detail::load(wave_y, &wave_y_[n]);
+                insonify::detail::load(phase, &phase_[n]);
+                phase = wave_x * x + wave_y * y + phase;
+                floor_of(floor, phase);
+                insonify::detail::circle_lanes<wide>(cosine, sine, phase - floor);
+                lanes<float, wide> narrow;
+                insonify::detail::convert(narrow, cosine);
+                insonify::detail::store(start_re + n, narrow);
+                insonify::detail::convert(narrow, sine);
+                insonify::detail::store(start_im + n, narrow);
+            }
+            for (std::size_t i = begin & ~static_cast<std::size_t>(N - 1); i < begin + length; i += N) {
+                lanes<float, N> sum_re{}, sum_im{}, table_re, table_im;
+                for (std::size_t n = 0; n < waves; ++n) {
+                    insonify::detail::load(table_re, &turn_re_[n][i]);
+                    insonify::detail::load(table_im, &turn_im_[n][i]);
+                    sum_re = sum_re + (start_re[n] * table_re - start_im[n] * table_im);
+                    sum_im = sum_im + (start_re[n] * table_im + start_im[n] * table_re);
+                }
+                for (int k = 0; k < N; ++k) {
+                    const std::size_t at = i + static_cast<std::size_t>(k);
+                    if (at < begin || at >= begin + length) continue;
+                    re[done + at - begin] = insonify::detail::lane(sum_re, k);
+                    im[done + at - begin] = insonify::detail::lane(sum_im, k);
+                }
+            }
+            done += length;
+        }
+    }
+
+    template <int N>
+    INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
+        using insonify::detail::lane;
+        const double frequency = 1 / step_, across_rows = carrier_y_ * part.y;
+        // What sharpens crests has half their wavelength.
+        const float half_height = half_height_ * carried(wavelength_, part.grid_spacing);
+        const float sharpness = sharpness_ * carried(wavelength_ / 2, part.grid_spacing);
+        const std::int64_t first = numeric::floor_to_int(part.x[0] * frequency) - 1;
+        const std::int64_t last = numeric::floor_to_int(part.x[part.whole() - 1] * frequency) + 2;
+        const bool dense = last - first < static_cast<std::int64_t>(points);
+        std::array<float, points> table_re, table_im;
+        if (dense)
+            envelope<N>(table_re.data(), table_im.data(), first, part.y, static_cast<std::size_t>(last - first) + 1);
+
+        for (std::size_t i = 0; i < part.whole(); i += N) {
+            lanes<float, N> across, stencil_re[4], stencil_im[4], a, b, cosine, sine, magnitude, sum;
+            lanes<std::int32_t, N> cell;
+            if (dense) {
+                locate<N>(across, cell, &part.x[i], frequency, 0, static_cast<double>(first));
+            } else {
+                // So wide apart that each sample has a stencil of its own.
+                for (int k = 0; k < N; ++k) {
+                    const lattice_coordinate u(part.x[i + static_cast<std::size_t>(k)] * frequency);
+                    envelope<N>(&table_re[static_cast<std::size_t>(4 * k)], &table_im[static_cast<std::size_t>(4 * k)],
+                                u.cell - 1, part.y, 4);
+                    insonify::detail::set_lane(across, k, u.fraction);
+                    insonify::detail::set_lane(cell, k, 4 * k + 1);
+                }
+            }
+            const auto stencil = [&](lanes<float, N>(&into)[4], const float* table) INSONIFY_INLINE_LAMBDA {
+                if constexpr (N == 1)
+                    std::memcpy(into, table + cell - 1, sizeof into);
+                else
+                    insonify::detail::transpose<N>(
+                        into, [&](int k) INSONIFY_INLINE_LAMBDA { return table + lane(cell, k) - 1; });
+            };
+            stencil(stencil_re, table_re.data());
+            stencil(stencil_im, table_im.data());
+            between(a, stencil_re, across);
+            between(b, stencil_im, across);
+
+            lanes<float, N> phase;
+            turns<N>(phase, &part.x[i], carrier_x_, across_rows);
+            turn(cosine, sine, phase);
+            const lanes<float, N> real = a * cosine - b * sine;
+            insonify::detail::square_root<N>(magnitude, a * a + b * b + softening * softening);
+            // With c = cos arg psi, the profile is (c - s) / (1 - s c): -1 to 1 like c itself, the curvature of its
+            // crests (1 + s) / (1 - s) times a sinusoid's and that of its troughs the inverse. A trochoid's curvatures
+            // have the same ratio; it would take Kepler's equation.
+            insonify::detail::load(sum, values + i);
+            sum = sum + half_height * (real - sharpness * magnitude) / (magnitude - sharpness * real);
+            insonify::detail::store(values + i, sum);
+        }
+    }
+
+    alignas(32) std::array<double, waves> wave_x_{}, wave_y_{}, phase_{};  // turns per metre about the carrier; turns
+    alignas(32) std::array<std::array<float, block>, waves> turn_re_{}, turn_im_{};
+    double carrier_x_ = 0, carrier_y_ = 0;
+    double step_ = 1, wavelength_;
+    float half_height_, sharpness_;
+};
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION void ripple_train::add(const stretch& part, stretch_values& values, isa level) const {
+    if (half_height_ > 0 && carried(wavelength_, part.grid_spacing) > 0)
+        dispatch(kernel{*this, part, values.data()}, level);
+}
+#endif
+
+}  // namespace detail
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

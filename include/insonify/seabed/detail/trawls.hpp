@@ -1,0 +1,142 @@
+// Furrows that trawl boards plough: long, nearly straight, in the few directions in which boats work.
+//
+// Boats of one direction go side by side in lanes that meander a little; a lane holds one furrow, which comes and goes
+// along it. The spoil lies in a low berm on either side.
+#pragma once
+
+#include <insonify/seabed/detail/lattice.hpp>
+#include <insonify/seabed/detail/ripple_train.hpp>
+
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+/// What trawls leave. Doors dig 0.05 to 0.3 m deep and 0.2 to 2 m wide.
+struct trawl_marks {
+    float density = 0;    ///< furrows per metre that one crosses, in [0, 1 / (4 width)]; 0 for none
+    float depth = 0.06f;  ///< metres, >= 0
+    float width = 0.5f;   ///< metres, > 0: between the tops of the berms
+    int directions = 2;   ///< 1 to 8: in which boats work
+    float length = 150;   ///< metres, > 0: about how long a furrow is
+
+    friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
+};
+
+namespace detail {
+
+/// Evaluates `trawl_marks`.
+class trawl_furrows {
+  public:
+    trawl_furrows(const trawl_marks& t, std::uint64_t seed)
+        : depth_(t.depth), width_(static_cast<double>(t.width)), hash_(seed, stream::trawls) {
+        require(t.width > 0 && t.width < 1e6f, "trawl_marks.width", t.width, "metres above 0");
+        require(t.density >= 0 && 4 * t.density * t.width <= 1, "trawl_marks.density", t.density,
+                "0 to 1 / (4 width) per metre");
+        require(t.depth >= 0 && t.depth < 1e6f, "trawl_marks.depth", t.depth, "metres, at least 0");
+        require(t.directions >= 1 && t.directions <= 8, "trawl_marks.directions", t.directions, "1 to 8");
+        require(t.length > 0 && t.length < 1e6f, "trawl_marks.length", t.length, "metres above 0");
+        if (t.density == 0 || t.depth == 0) return;
+        random_sequence draw(seed, static_cast<std::uint32_t>(stream::trawls));
+        const double turn = draw.uniform();
+        // Half of the places along a lane have a furrow.
+        const double lane = 0.5 * t.directions / static_cast<double>(t.density);
+        for (int n = 0; n < t.directions; ++n) {
+            const auto heading = numeric::sin_cos_turns(turn + 0.5 * (n + 0.6 * draw.uniform()) / t.directions);
+            const double length = static_cast<double>(t.length);
+            families_.push_back({heading.cosine, heading.sine, 1 / lane, 1 / length, 1 / (5.3 * length)});
+        }
+        half_width_ = static_cast<float>(0.5 * static_cast<double>(t.width) / lane);
+    }
+
+    void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
+        if (!families_.empty()) dispatch(kernel{*this, part, values.data()}, level);
+    }
+
+    /// The deepest furrows cross where the highest berms do not, metres.
+    double lowest() const { return -1.00001 * static_cast<double>(families_.size()) * static_cast<double>(depth_); }
+    double highest() const { return -0.3 * lowest(); }
+
+  private:
+    /// Boats of one direction.
+    struct family {
+        double cosine, sine, per_lane, per_length, per_bend;  // the last three per metre
+    };
+    struct kernel {
+        static constexpr int widest = 16;
+
+        const trawl_furrows& furrows;
+        const stretch& part;
+        float* values;
+
+        template <int N>
+        INSONIFY_INLINE void run() const {
+            const float kept = carried(2 * furrows.width_, part.grid_spacing);  // a furrow between its berms
+            if (kept == 0) return;
+            for (std::size_t n = 0; n < furrows.families_.size(); ++n)
+                for (std::size_t i = 0; i < part.whole(); i += N)
+                    furrows.add_family<N>(furrows.families_[n], n, kept, part, i, values + i);
+        }
+    };
+
+    template <int N>
+    INSONIFY_INLINE void add_family(const family& f, std::size_t n, float kept, const stretch& part, std::size_t i,
+                                    float* values) const {
+        using insonify::detail::lane;
+        using words = lanes<std::uint32_t, N>;
+        using ints = lanes<std::int32_t, N>;
+        const double across = part.y * f.cosine * f.per_lane;
+        const std::int64_t first = numeric::floor_to_int(across - part.x[0] * f.sine * f.per_lane);
+        lanes<float, N> off, lot, bends, sine, cosine;
+        ints cell;
+        locate<N>(off, cell, &part.x[i], -f.sine * f.per_lane, across, static_cast<double>(first));
+        words bits;
+        hash_[static_cast<std::int64_t>(n)].mixed(bits, words(words(cell) + static_cast<std::uint32_t>(first)));
+        insonify::detail::convert(lot, ints(ints(bits << 16) >> 16));
+        insonify::detail::convert(bends, ints(ints(bits) >> 16));
+        // Each lane's furrow bends by itself and keeps clear of the lane's sides: no neighbour needs to be looked at.
+        lanes<float, N> turns_along, phase = bends * 0x1p-16f;
+        turns<N>(turns_along, &part.x[i], f.cosine * f.per_bend, part.y * f.sine * f.per_bend);
+        phase = phase + turns_along;
+        phase = phase > 0.5f ? phase - 1.0f : phase;
+        phase = phase < -0.5f ? phase + 1.0f : phase;
+        turn(cosine, sine, phase);
+        off = off - (0.5f + (0.5f - 2 * half_width_) * (0.7f * lot * 0x1p-15f + 0.3f * sine));
+        off = (off < 0.0f ? -off : off) * (1 / half_width_);
+        if (!insonify::detail::any(ints(off < 2.0f))) return;
+        for (int k = 0; k < N; ++k) {
+            if (lane(off, k) >= 2) continue;
+            values[k] += kept * depth_at(f, n, lane(bits, k), lane(off, k),
+                                         part.x[i + static_cast<std::size_t>(k)] * f.cosine + part.y * f.sine);
+        }
+    }
+
+    /// @param lot     random bits of the lane
+    /// @param off     half widths from the furrow's middle
+    /// @param along   metres
+    float depth_at(const family& f, std::size_t n, std::uint32_t lot, float off, double along) const {
+        // The way along a lane is cut at whole lengths; each has a furrow or none, faded where the other begins.
+        const lattice_coordinate u(along * f.per_length + static_cast<double>(lot) * 0x1p-32);
+        const cell_hash::row presence = hash_[static_cast<std::int64_t>((std::uint64_t{lot} << 8) + n + 64)];
+        const auto present = [&](std::int64_t cell) { return (presence(cell) & 1) != 0 ? 1.0f : 0.0f; };
+        const float strength = mix(present(u.cell), present(u.cell + 1), fade(clamp01(8 * u.fraction - 7)));
+        // A bowl down to -1 that rises to a berm of 0.3, which ends at twice the half width.
+        const float inner = clamp01(1 - off * off);
+        return depth_ * strength * (off < 1 ? 0.3f - 1.3f * inner * inner : 0.3f * fade(clamp01(2 - off)));
+    }
+
+    std::vector<family> families_;
+    float depth_, half_width_ = 0;  // the latter in lanes
+    double width_;
+    cell_hash hash_;
+};
+
+}  // namespace detail
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

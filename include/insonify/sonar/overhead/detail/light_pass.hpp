@@ -1,0 +1,84 @@
+// From a shadow policy to the light on a tile: who casts, which points are tested, and what is named as the caster.
+//
+// Casters are numbered as they are named: a point in several shadows belongs to the target with the lowest number; else
+// to its own surface, if that faces away from the light; else to the seabed.
+#pragma once
+
+#include <insonify/sonar/labels.hpp>
+#include <insonify/sonar/overhead/detail/point_pass.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// The light as a policy takes it.
+inline shadow::any_light light_of(const overhead_geometry& view) {
+    if (view.has_near_light()) return shadow::point_light{view.light_position()};
+    return shadow::directional_light{static_cast<double>(view.rig().light_azimuth),
+                                     static_cast<double>(view.rig().grazing)};
+}
+
+/// A mesh as a caster, with what the camera's place proves.
+///
+/// A ray from a point outside of a closed surface crosses it inwards as often as outwards on its way to the light, and
+/// inwards means through a triangle that faces away from the light: if anything blocks it, such a one does. What a
+/// camera outside of the surface sees lies outside. Of a heightfield the same holds for its own points if camera and
+/// light are above it, because over a convex ground a ray leaves it at most through the air.
+inline shadow::caster as_caster(const overhead_geometry& view, const placed_mesh& m) {
+    surface seen;
+    seen.to_rig = m.to_rig;
+    const point_finder from(view, seen);
+    const auto is_outside = [&](const glm::dvec3& p) {
+        bool outside = false;
+        for (int i = 0; i < 3; ++i) outside = outside || p[i] < m.box.lower[i] || p[i] > m.box.upper[i];
+        return outside;
+    };
+    const auto is_above = [&](const glm::dvec3& p) { return p.z > m.box.upper.z; };
+    const bool is_lit_from_above = view.has_near_light() ? is_above(from.light) : from.light.z > 0;
+    const bool is_lit_from_outside = !view.has_near_light() || is_outside(from.light);
+    shadow::skip may_skip = shadow::skip::nothing;
+    if (m.kind == surface_kind::closed && is_outside(from.eye) && is_lit_from_outside) may_skip = shadow::skip::facing;
+    if (m.kind == surface_kind::heightfield && is_above(from.eye) && is_lit_from_above)
+        may_skip = shadow::skip::facing_its_own;
+    return {m.shape, m.to_rig, m.box, may_skip, m.grid};
+}
+
+/// Room for what becomes of points.
+struct light_arrays {
+    uninitialized_vector<float> lit;
+    uninitialized_vector<std::uint32_t> caster;
+
+    explicit light_arrays(std::size_t points) : lit(points), caster(points) {}
+    shadow::shares part(std::size_t first, std::size_t count) {
+        return {std::span(lit).subspan(first, count), std::span(caster).subspan(first, count)};
+    }
+};
+
+/// The batches of a list, and where their answers go: points that face the light, which all casters concern, and those
+/// that face away, whose shadows only name targets.
+struct point_batches {
+    shadow::points at[2];
+    shadow::shares into[2];
+
+    /// @param targets  casters numbered below this are targets
+    point_batches(const point_list& points, const shadow::shares& all, std::uint32_t targets)
+        : at{points.facing_points(), points.averted_points()},
+          into{{all.lit.first(points.facing), all.caster.first(points.facing)},
+               {all.lit.subspan(points.facing), all.caster.subspan(points.facing)}} {
+        at[1].casters = targets;
+        at[1].face_light = false;
+    }
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (int i = 0; i < 2; ++i)
+            if (at[i].size() > 0) visit(at[i], into[i]);
+    }
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

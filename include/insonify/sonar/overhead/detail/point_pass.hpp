@@ -1,0 +1,251 @@
+// From a visibility buffer to points: where the surfaces lie that pixels show, and which of them face the light.
+//
+// The point is where the ray through the pixel's centre meets the plane of the pixel's triangle, in doubles, held to
+// the triangle: rounding to sub-pixels may show a triangle beside its edge. Everything is computed in the mesh's own
+// frame, in which the camera and the light are placed once.
+//
+// Based on: Christopher A. Burns, Warren A. Hunt. The Visibility Buffer: A Cache-Friendly Approach to Deferred Shading.
+// JCGT 2, 2013. Tomas Moeller, Ben Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
+#pragma once
+
+#include <insonify/core/simd/dispatch.hpp>
+#include <insonify/core/simd/lanes.hpp>
+#include <insonify/shadow/policy.hpp>
+#include <insonify/sonar/overhead/detail/shading.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// Room for the points of all pixels of a picture.
+struct point_arrays {
+    uninitialized_vector<double> x, y, z;
+    uninitialized_vector<std::uint32_t> mesh, triangle;
+    uninitialized_vector<std::uint32_t> pixel;  ///< the caller's number of it
+
+    explicit point_arrays(std::size_t count)
+        : x(count), y(count), z(count), mesh(count), triangle(count), pixel(count) {}
+};
+
+/// Points that are tested for shadows: those that face the light from the front of their room, those that face away
+/// from the back.
+class point_list {
+  public:
+    std::size_t facing = 0, averted = 0;
+
+    point_list() = default;
+    /// @param first  of the arrays, of `room` points
+    point_list(point_arrays& arrays, std::size_t first, std::size_t room)
+        : arrays_(&arrays), first_(first), room_(room) {}
+
+    std::size_t size() const { return facing + averted; }
+    shadow::points facing_points() const { return part(first_, facing); }
+    shadow::points averted_points() const { return part(first_ + room_ - averted, averted); }
+    /// The pixel and the caster of a point; facing ones are counted first.
+    std::size_t pixel(std::size_t point) const { return arrays_->pixel[at(point)]; }
+    std::uint32_t caster(std::size_t point) const { return arrays_->mesh[at(point)]; }
+    /// Adds a point of another list.
+    void add(const point_list& from, std::size_t point, std::uint32_t pixel) {
+        const std::size_t i = from.at(point);
+        const point_arrays& a = *from.arrays_;
+        add(point < from.facing, a.x[i], a.y[i], a.z[i], a.mesh[i], a.triangle[i], pixel);
+    }
+
+    INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
+                             std::uint32_t pixel) {
+        const std::size_t to = first_ + (is_facing ? facing++ : room_ - ++averted);
+        arrays_->x[to] = x;
+        arrays_->y[to] = y;
+        arrays_->z[to] = z;
+        arrays_->mesh[to] = mesh;
+        arrays_->triangle[to] = triangle;
+        arrays_->pixel[to] = pixel;
+    }
+
+  private:
+    std::size_t at(std::size_t point) const {
+        return first_ + (point < facing ? point : room_ - averted + (point - facing));
+    }
+    shadow::points part(std::size_t first, std::size_t n) const {
+        const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
+        return {some(arrays_->x), some(arrays_->y), some(arrays_->z), some(arrays_->mesh), some(arrays_->triangle)};
+    }
+
+    point_arrays* arrays_ = nullptr;
+    std::size_t first_ = 0, room_ = 0;
+};
+
+/// An object, the camera and the light from the object's own frame.
+struct point_finder {
+    const surface* object;
+    glm::dvec3 eye;                      ///< the camera
+    glm::dvec3 corner_ray, right, down;  ///< rays through pixels: of pixel (0, 0), and from pixel to pixel
+    glm::dvec3 light;                    ///< towards a parallel light, or where a near one is
+
+    point_finder(const overhead_geometry& view, const surface& s) : object(&s) {
+        const affine back = inverse(s.to_rig);
+        eye = transform_point(back, view.eye());
+        corner_ray = transform_direction(back, view.ray(0, 0));
+        right = transform_direction(back, view.ray(1, 0) - view.ray(0, 0));
+        down = transform_direction(back, view.ray(0, 1) - view.ray(0, 0));
+        light = view.has_near_light() ? transform_point(back, view.light_position())
+                                      : transform_direction(back, view.light().to_light());
+    }
+};
+
+/// A pixel whose point is looked for.
+struct shown_pixel {
+    std::uint16_t column, row;  ///< within the tile
+    std::uint32_t triangle;
+};
+
+/// Finds the points of some pixels of one object.
+struct point_kernel {
+    const point_finder& from;
+    std::span<const shown_pixel> pixels;
+    bool has_near_light;
+    bool wants_averted;
+    const pixel_box& box;
+    point_list& points;
+
+    template <int Width>
+    INSONIFY_INLINE void run() const {
+        constexpr int N = Width > 1 ? Width / 2 : 1;
+        for (std::size_t i = 0; i < pixels.size(); i += N) find<N>(i, (std::min)(pixels.size() - i, std::size_t{N}));
+    }
+
+  private:
+    template <class Reals>
+    INSONIFY_INLINE static void cross(Reals (&into)[3], const Reals (&a)[3], const Reals (&b)[3]) {
+        into[0] = a[1] * b[2] - b[1] * a[2];
+        into[1] = a[2] * b[0] - b[2] * a[0];
+        into[2] = a[0] * b[1] - b[0] * a[1];
+    }
+    template <class Reals>
+    INSONIFY_INLINE static void dot(Reals& into, const Reals (&a)[3], const Reals (&b)[3]) {
+        into = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    }
+    template <int N>
+    using corners = const glm::uvec3 * [static_cast<unsigned>(N)];
+
+    /// The vectors at one corner of each triangle. Whole rows of four floats are read where none is the array's last.
+    template <int N>
+    INSONIFY_INLINE static void fetch(lanes<float, N> (&into)[3], const glm::vec3* vectors, const corners<N>& t,
+                                      int corner, bool has_last) {
+#if INSONIFY_SIMD
+        if constexpr (N >= 4) {
+            if (!has_last) {
+                lanes<float, N> columns[4];
+                transpose<N>(columns, [&](int k) { return &vectors[(*t[k])[corner]].x; });
+                unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA { into[axis] = columns[axis]; });
+                return;
+            }
+        }
+#endif
+        (void)has_last;
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
+            gather<N>(into[axis], [&](int k) { return vectors[(*t[k])[corner]][axis]; });
+        });
+    }
+    template <int N>
+    INSONIFY_INLINE static void fetch(lanes<double, N> (&into)[3], const glm::vec3* vectors, const corners<N>& t,
+                                      int corner, bool has_last) {
+        lanes<float, N> narrow[3];
+        fetch<N>(narrow, vectors, t, corner, has_last);
+        unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA { convert(into[axis], narrow[axis]); });
+    }
+
+    template <int N>
+    INSONIFY_INLINE void find(std::size_t start, std::size_t count) const {
+        using reals = lanes<double, N>;
+        using bits = lanes<std::int64_t, N>;
+        const surface& s = *from.object;
+        corners<N> t;
+        std::uint32_t greatest = 0;
+        reals column, row;
+        const auto pixel = [&](int k) -> const shown_pixel& {
+            return pixels[start + (std::min)(static_cast<std::size_t>(k), count - 1)];
+        };
+        for (int k = 0; k < N; ++k) {
+            t[k] = &s.mesh.triangles[pixel(k).triangle];
+            greatest = (std::max)(greatest, (std::max)((std::max)(t[k]->x, t[k]->y), t[k]->z));
+        }
+        gather<N>(column, [&](int k) { return static_cast<double>(box.x0 + pixel(k).column); });
+        gather<N>(row, [&](int k) { return static_cast<double>(box.y0 + pixel(k).row); });
+        const bool has_last = greatest + 1 >= s.mesh.positions.size();
+
+        // Where the ray through each pixel meets its triangle: a + b ab + c ac.
+        reals a[3], ab[3], ac[3], ray[3], to_eye[3], p[3], q[3], scale, b, c;
+        fetch<N>(a, s.mesh.positions.data(), t, 0, has_last);
+        fetch<N>(ab, s.mesh.positions.data(), t, 1, has_last);
+        fetch<N>(ac, s.mesh.positions.data(), t, 2, has_last);
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            ab[i] = ab[i] - a[i];
+            ac[i] = ac[i] - a[i];
+            ray[i] = from.corner_ray[i] + row * from.down[i] + column * from.right[i];
+            to_eye[i] = from.eye[i] - a[i];
+        });
+        cross(p, ray, ac);
+        cross(q, to_eye, ab);
+        dot(scale, ab, p);
+        scale = 1.0 / scale;
+        dot(b, to_eye, p);
+        dot(c, ray, q);
+        b = b * scale;
+        c = c * scale;
+        const bits inside = bits(b >= 0.0) & bits(c >= 0.0) & bits(b + c <= 1.0);
+        if (any(bits(inside == 0))) hold_inside<N>(b, c);
+
+        // Which side of the facet is seen, and whether the light meets it.
+        reals at[3], facet[3], toward[3], seen, along, size, way;
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            at[i] = a[i] + b * ab[i] + c * ac[i];
+            toward[i] = has_near_light ? from.light[i] - at[i] : reals{} + from.light[i];
+        });
+        cross(facet, ab, ac);
+        dot(seen, facet, to_eye);
+        dot(along, facet, toward);
+        dot(size, facet, facet);
+        dot(way, toward, toward);
+        along = seen > 0.0 ? along : 0.0 - along;
+        const bits faces = bits(along > 0.0) & bits(along * along > (grazed * grazed * size) * way);
+        double places[3][static_cast<unsigned>(N)];
+        std::int64_t facing[static_cast<unsigned>(N)];
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            store(places[i], reals(s.to_rig.linear[0][i] * at[0] + s.to_rig.linear[1][i] * at[1] +
+                                   s.to_rig.linear[2][i] * at[2] + s.to_rig.offset[i]));
+        });
+        store(facing, faces);
+        for (std::size_t k = 0; k < count; ++k) {
+            if (facing[k] == 0 && !wants_averted) continue;
+            const shown_pixel& shown = pixels[start + k];
+            points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
+                       static_cast<std::uint32_t>(shown.row * box.width() + shown.column));
+        }
+    }
+
+    /// Sine of the angle to the light below which a facet faces away: corners are rounded to 2^-24, and what is
+    /// parallel to the light but for that is dark.
+    static constexpr double grazed = 0x1p-22;
+
+    /// Rounding to sub-pixels may show a triangle beside its edge; one seen from its edge gives NaN.
+    template <int N>
+    INSONIFY_RARE static void hold_inside(lanes<double, N>& b, lanes<double, N>& c) {
+        b = b > 0.0 ? b : lanes<double, N>{};
+        c = c > 0.0 ? c : lanes<double, N>{};
+        lanes<double, N> sum = b + c;
+        sum = sum > 1.0 ? sum : lanes<double, N>{} + 1.0;
+        b = b / sum;
+        c = c / sum;
+        b = b < 1.0 ? b : lanes<double, N>{} + 1.0;
+        c = c < 1.0 ? c : lanes<double, N>{} + 1.0;
+    }
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,325 @@
+// Paints a frame: the seabed sampled where the rig looks, shadows, the image in linear values, and its labels.
+#pragma once
+
+#include <insonify/geometry/bounds.hpp>
+#include <insonify/raster/draw.hpp>
+#include <insonify/seabed/adaptive.hpp>
+#include <insonify/seabed/sample.hpp>
+#include <insonify/shadow/exact.hpp>
+#include <insonify/sonar/overhead/detail/seabed_reach.hpp>
+#include <insonify/sonar/overhead/detail/shadow_pass.hpp>
+#include <insonify/sonar/overhead/picture.hpp>
+
+#include <algorithm>
+#include <optional>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+namespace detail {
+
+/// A picture under construction, in the rig's frame.
+template <class Shadow, class Labels, class Law>
+class overhead_painter {
+  public:
+    template <executor E>
+    overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
+        : scene_(s), view_(rig), options_(options) {
+        validate(s);
+        out_.rows.step = 0;
+        materials_ = resolved_bottom(s);
+        require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
+        out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{});  // the first draw fills it, and the depths
+        require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
+        require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
+        if constexpr (labelled) {
+            out_.labels = labels(rig.size.x, rig.size.y, ex);
+            out_.labels.legend = s.seabed.legend();
+        }
+        for (const target& t : s.targets) {
+            targets_.push_back(
+                {t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.kind(), t.shape.grid()});
+            target_pixels_.push_back(shown_pixels(view_, targets_.back()));
+        }
+        if (has_bottom()) sample_seabed(ex);
+    }
+
+    template <executor E>
+    frame<Labels> paint(E& ex) {
+        place_objects();
+        draw_all(ex);
+        if constexpr (casts) {
+            std::vector<shadow::caster> casters;
+            for (const placed_mesh& t : targets_) casters.push_back(as_caster(view_, t));
+            if (has_bottom()) casters.push_back(as_caster(view_, bottom_in_rig_));
+            const shadow::point_bounds bounds{receivers(), view_.ground_sampling()};
+            const auto occlusion =
+                options_.shadow.build(std::span<const shadow::caster>(casters), light_of(view_), bounds, ex);
+            shadow_pass<Labels>(view_, surfaces_, ids_, rest_, out_.image, out_.labels, targets_.size(), options_.tile,
+                                options_.level)
+                .cast(occlusion, ex);
+        }
+        if constexpr (labelled) {
+            label_surfaces(ex);
+            describe_targets(out_.labels, scene_.targets);
+        }
+        return std::move(out_);
+    }
+
+    /// Triangles alone.
+    template <executor E>
+    visibility see(E& ex) {
+        place_objects();
+        draw_all(ex);
+        visibility shown{image<std::uint16_t>(ids_.width(), ids_.height(), labels::no_instance), std::move(ids_)};
+        for (std::size_t i = 0; i < shown.triangle.size(); ++i) {
+            std::uint32_t& id = shown.triangle.pixels()[i];
+            if (id == visibility::no_triangle) continue;
+            const surface& s = surface_of(surfaces_, id);
+            shown.instance.pixels()[i] = s.instance;
+            id -= s.first_id;
+        }
+        return shown;
+    }
+
+  private:
+    static constexpr bool labelled = std::is_same_v<Labels, labels>;
+    static constexpr bool casts = !std::is_same_v<Shadow, shadow::none>;
+
+    bool has_bottom() const { return !scene_.seabed.empty(); }
+
+    /// Heights where the picture looks, and up-light of there as far as the relief can throw a shadow.
+    template <executor E>
+    void sample_seabed(E& ex) {
+        const overhead& rig = view_.rig();
+        const int longer = (std::max)(rig.size.x, rig.size.y);
+        const int cells = options_.cells > 0 ? options_.cells : (longer + 1) / 2;
+        require(cells <= 32768, "cells", cells, "at most 32768");
+        require(options_.reach >= 0 && numeric::is_finite(options_.reach), "reach", options_.reach, "0 or more");
+        const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
+        const double spacing = longer_side / cells;
+
+        seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
+        seabed::detail::require_finite(range);
+        const double longest = static_cast<double>(options_.reach) * longer_side;
+        ground_box ground = shown_ground(view_, range);
+        if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
+        field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
+        out_.stats.seabed_samples = field_.heights.size();
+        out_.stats.cell = spacing;
+        model_seabed(ex);
+        for (const float height : field_.heights.pixels()) {
+            if (!numeric::is_finite(height)) {
+                has_gaps_ = true;
+                continue;
+            }
+            lowest_ = (std::min)(lowest_, height);
+            highest_ = (std::max)(highest_, height);
+        }
+        find_bottom_grid();
+        out_.stats.seabed_columns = field_.heights.width();
+        out_.stats.seabed_rows = field_.heights.height();
+    }
+
+    /// The lattice of the bottom's vertices, if all of them are there and float holds their places.
+    void find_bottom_grid() {
+        const glm::ivec2 size(field_.heights.width(), field_.heights.height());
+        const glm::ivec2 last = bottom_first_ + size;
+        const int farthest = (std::max)((std::max)(-bottom_first_.x, last.x), (std::max)(-bottom_first_.y, last.y));
+        if (has_gaps_ || options_.edge_error > 0 || farthest >= 1 << 11) return;
+        bottom_grid_ = regular_grid{
+            size.x, size.y, field_.spacing * glm::dvec2(bottom_first_), {field_.spacing, 0}, {0, field_.spacing}, true};
+    }
+
+    /// The bottom's mesh, and the type of each of its vertices where there are several.
+    template <executor E>
+    void model_seabed(E& ex) {
+        const auto every = field_.types.pixels();
+        if (options_.edge_error == 0) {
+            seabed::detail::tessellate_into(whole_bottom_, field_, ex, bottom_first_);
+            bottom_ = whole_bottom_;
+            bottom_types_.assign(every.begin(), every.end());
+            return;
+        }
+        // What is off by h throws a shadow that is off by h cot(elevation), whatever the view.
+        const double forgiven = static_cast<double>(options_.edge_error) * view_.ground_sampling();
+        const double cot = casts ? view_.light().cot_elevation() : 0;
+        auto [shape, vertices] = seabed::tessellate(field_,
+                                                    {.height = forgiven / cot,
+                                                     .slope = static_cast<double>(options_.slope_error),
+                                                     .lean = forgiven * static_cast<double>(view_.rig().altitude),
+                                                     .nadir = -field_.spacing * glm::dvec2(bottom_first_)},
+                                                    ex, bottom_first_);
+        sparse_bottom_ = std::move(shape);
+        bottom_ = sparse_bottom_;
+        if (every.empty()) return;
+        bottom_types_.resize(vertices.size());
+        std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
+    }
+
+    /// The multiples of the spacing over a part of the ground, counted from the rig's position: where a vertex is
+    /// depends neither on what else is sampled nor on how far the world's origin is.
+    seabed::grid grid_under(const ground_box& ground, double spacing) {
+        seabed::grid grid{.origin = view_.rig().position, .spacing = spacing, .band_limited = true};
+        const auto along = [&](int axis) {
+            const double first = static_cast<double>(numeric::floor_to_int(ground.first[axis] / spacing + 1e-6));
+            const double count = 1 - static_cast<double>(numeric::floor_to_int(-ground.last[axis] / spacing)) - first;
+            require(count <= 1 << 20, "vertices of the seabed along an axis", count, "at most 2^20: less `reach`");
+            bottom_first_[axis] = static_cast<int>(first);
+            return static_cast<int>((std::max)(2.0, count));
+        };
+        grid.width = along(0);
+        grid.height = along(1);
+        grid.first = bottom_first_;
+        return grid;
+    }
+
+    placed_mesh bottom_in_rig() const {
+        const affine under_rig = view_.rig_from({glm::dmat3(1), glm::dvec3(view_.rig().position, 0)});
+        const glm::ivec2 last = bottom_first_ + glm::ivec2(field_.heights.width() - 1, field_.heights.height() - 1);
+        return {bottom_,
+                {{field_.spacing * glm::dvec2(bottom_first_), lowest_}, {field_.spacing * glm::dvec2(last), highest_}},
+                under_rig,
+                has_gaps_ ? surface_kind::open : surface_kind::heightfield,
+                bottom_grid_ ? &*bottom_grid_ : nullptr};
+    }
+
+    /// All that the picture may show.
+    bounding_box receivers() const {
+        double low = static_cast<double>(lowest_), top = static_cast<double>(highest_);
+        if (!has_bottom()) {
+            low = (std::numeric_limits<double>::max)();
+            top = -low;
+        }
+        for (const placed_mesh& t : targets_)
+            for (int corner = 0; corner < 8 && !t.box.empty(); ++corner) {
+                const double z = transform_point(t.to_rig, t.box.corner(corner)).z;
+                top = (std::max)(top, z);
+                if (!has_bottom()) low = (std::min)(low, z);
+            }
+        if (low > top) return {};
+        const glm::dvec2 half = view_.half_extent(low);
+        return {{-half, low}, {half, top}};
+    }
+
+    /// The bottom and the targets, in the order in which they are drawn and of their ids.
+    void place_objects() {
+        std::uint64_t ids = 0;
+        const auto add = [&](const placed_mesh& placed, std::uint32_t caster, std::uint16_t instance,
+                             std::uint8_t seabed, const material& m) {
+            surface& s = surfaces_.emplace_back();
+            s.mesh = placed.shape;
+            s.to_rig = placed.to_rig;
+            s.first_id = static_cast<std::uint32_t>(ids);
+            s.caster = caster;
+            s.instance = instance;
+            s.seabed = seabed;
+            s.whole = m;
+            ids += placed.shape.triangles.size();
+            require(ids < shadow::invalid_id, "triangles of the scene", ids, "below 2^32 - 1");
+        };
+        if (has_bottom()) {
+            bottom_in_rig_ = bottom_in_rig();
+            add(bottom_in_rig_, static_cast<std::uint32_t>(targets_.size()), labels::no_instance,
+                static_cast<std::uint8_t>(field_.fallback), materials_[seabed::index_of(field_.fallback)]);
+            if (!field_.types.empty()) {
+                surfaces_.back().types = bottom_types_.data();
+                surfaces_.back().materials = materials_.data();
+            }
+        }
+        for (std::size_t i = 0; i < targets_.size(); ++i)
+            add(targets_[i], static_cast<std::uint32_t>(i), static_cast<std::uint16_t>(i + 1), labels::no_seabed,
+                scene_.targets[i].surface);
+    }
+
+    /// What the light makes of each pixel without shadows, and which triangle it shows.
+    template <executor E>
+    void draw_all(E& ex) {
+        const overhead& rig = view_.rig();
+        image<float> depth(rig.size.x, rig.size.y, uninitialized{});
+        shaded_images into{out_.image};
+        if constexpr (casts) {
+            rest_ = image<float>(rig.size.x, rig.size.y, uninitialized{});
+            into.rest = &rest_;
+        }
+        if constexpr (casts || labelled) {
+            ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, uninitialized{});
+            into.ids = &ids_;
+        }
+        if constexpr (labelled) into.types = &out_.labels.seabed;
+        if (surfaces_.empty()) into.clear({0, 0, rig.size.x - 1, rig.size.y - 1});
+        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+            const bool is_bottom = has_bottom() && i == 0;
+            const std::size_t target = has_bottom() ? i - 1 : i;
+            const placed_mesh& placed = is_bottom ? bottom_in_rig_ : targets_[target];
+            const draw_stats stats = draw_lanes(placed.shape, surface_placement(view_, placed),
+                                                surface_shader<Law>(view_, surfaces_[i], options_.law, into), depth,
+                                                std::span(target_pixels_).subspan(is_bottom ? 0 : target + 1),
+                                                {.keep = keep_depth::larger,
+                                                 .load = i == 0 ? depth_load::clear : depth_load::keep,
+                                                 .subpixel_bits = options_.subpixel_bits,
+                                                 .tile = options_.tile,
+                                                 .level = options_.level},
+                                                ex);
+            (is_bottom ? out_.stats.seabed : out_.stats.targets) += stats;
+        }
+    }
+
+    /// Instances and seabed types from the visibility buffer.
+    template <executor E>
+    void label_surfaces(E& ex) {
+        if (surfaces_.empty()) return;
+        ex.bulk(static_cast<std::size_t>(ids_.height()), [&](std::size_t row) {
+            const int y = static_cast<int>(row);
+            const surface* last = surfaces_.data();
+            for (int x = 0; x < ids_.width(); ++x) {
+                const std::uint32_t id = ids_(x, y);
+                if (id == shadow::invalid_id) continue;
+                if (id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, id);
+                out_.labels.instance(x, y) = last->instance;
+                if (last->types == nullptr) out_.labels.seabed(x, y) = last->seabed;
+            }
+        });
+    }
+
+    const scene& scene_;
+    bottom_materials materials_;  ///< by seabed::type
+    overhead_geometry view_;
+    render_options<Shadow, Labels, Law> options_;
+    image<std::uint32_t> ids_;  ///< the visibility buffer: triangles in the order of surfaces_
+    image<float> rest_;         ///< what pixels show without the light
+    frame<Labels> out_;
+    seabed::heightfield field_;
+    uninitialized_mesh whole_bottom_;         ///< if every vertex is drawn
+    mesh sparse_bottom_;                      ///< if some are left out
+    mesh_view bottom_;                        ///< one of them
+    std::vector<seabed::type> bottom_types_;  ///< by vertex, or none where there is one type alone
+    glm::ivec2 bottom_first_{0, 0};           ///< of the field's vertices, counted from the rig's position
+    float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum
+    placed_mesh bottom_in_rig_;
+    std::vector<surface> surfaces_;
+    bool has_gaps_ = false;  ///< the bottom lacks data somewhere
+    std::optional<regular_grid> bottom_grid_;
+    std::vector<placed_mesh> targets_;
+    std::vector<pixel_box> target_pixels_;  ///< which may show them
+};
+
+template <class Shadow, class Labels, class Law>
+frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options,
+                    executor_ref ex) {
+    static_assert(shadow::policy<Shadow>);
+    return overhead_painter<Shadow, Labels, Law>(s, rig, options, ex).paint(ex);
+}
+template <class Law>
+visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law>& options,
+               executor_ref ex) {
+    return overhead_painter<shadow::none, labels, Law>(s, rig, options, ex).see(ex);
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

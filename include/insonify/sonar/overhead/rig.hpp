@@ -1,0 +1,152 @@
+// The paper's rig: a camera that looks straight down, and a parallel light low over the sea floor that turns with it.
+#pragma once
+
+#include <insonify/geometry/transform.hpp>
+#include <insonify/shadow/light.hpp>
+
+#include <limits>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Camera and light over a point of the sea floor. Image up is forward, image right is starboard; the light comes from
+/// the left, so ranges and shadows grow to the right, as on a starboard channel.
+///
+/// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky x share of the
+/// sky that the surface looks at + ambient), cut at 1.
+struct overhead {
+    glm::dvec2 position{0, 0};                                      ///< of the camera over the datum, metres
+    float altitude = 10;                                            ///< above the datum, metres
+    float yaw = 0;                                                  ///< of camera and light together, radians
+    float field_of_view = static_cast<float>(2 * numeric::pi / 3);  ///< across the picture, radians
+    glm::ivec2 size{2048, 2048};                           ///< pixels: width (across track), height (along track)
+    float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
+    float light_azimuth = 0;  ///< where the light travels, from image right towards image up, radians
+    /// Of the light from the datum below the camera, to which grazing and azimuth belong, metres. Infinitely far, its
+    /// rays are parallel; from nearby they spread, and only `shadow::exact` and `penumbra` can say where they end. They
+    /// don't weaken on their way.
+    float light_distance = std::numeric_limits<float>::infinity();
+    float intensity = 4;  ///< of the light on a surface that faces it
+    float sky = 0.05f;    ///< light from everywhere, which no shadow stops; 0 for none
+    float ambient = 0;    ///< light that reaches every surface alike, whatever its slope; 0 for none
+};
+
+/// @throws invalid_input for a value that can't be right
+inline void validate(const overhead& rig) {
+    using detail::require;
+    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "overhead.position",
+            rig.position.x + rig.position.y, "finite coordinates");
+    require(rig.altitude > 0 && numeric::is_finite(rig.altitude), "overhead.altitude", rig.altitude, "above 0");
+    require(numeric::is_finite(rig.yaw), "overhead.yaw", rig.yaw, "a finite angle");
+    require(rig.field_of_view > 0 && static_cast<double>(rig.field_of_view) < numeric::to_radians(179.9),
+            "overhead.field_of_view", rig.field_of_view, "above 0 and below 179.9 degrees, in radians");
+    require(rig.size.x > 0 && rig.size.x <= 32768, "overhead.size.x", rig.size.x, "1 to 32768");
+    require(rig.size.y > 0 && rig.size.y <= 32768, "overhead.size.y", rig.size.y, "1 to 32768");
+    require(rig.grazing > 0 && static_cast<double>(rig.grazing) <= numeric::pi / 2 + 1e-6, "overhead.grazing",
+            rig.grazing, "above 0 and at most pi / 2");
+    require(numeric::is_finite(rig.light_azimuth), "overhead.light_azimuth", rig.light_azimuth, "a finite angle");
+    require(rig.light_distance > 0, "overhead.light_distance", rig.light_distance, "above 0 metres");
+    require(rig.intensity >= 0 && numeric::is_finite(rig.intensity), "overhead.intensity", rig.intensity, "0 or more");
+    require(rig.sky >= 0 && numeric::is_finite(rig.sky), "overhead.sky", rig.sky, "0 or more");
+    require(rig.ambient >= 0 && numeric::is_finite(rig.ambient), "overhead.ambient", rig.ambient, "0 or more");
+}
+
+/// What follows from a rig. Everything is drawn in the rig's own frame (origin on the datum below the camera, x to the
+/// right, y forward, z up), so coordinates stay small however far the rig is from the world's origin.
+class overhead_geometry {
+  public:
+    /// @throws invalid_input as validate does
+    explicit overhead_geometry(const overhead& rig)
+        : rig_((validate(rig), rig)),
+          tangent_(numeric::tan(0.5 * static_cast<double>(rig.field_of_view))),
+          light_({static_cast<double>(rig.light_azimuth), static_cast<double>(rig.grazing)}) {
+        clip_scale_ = glm::vec2(1 / tangent_, static_cast<double>(rig.size.x) / rig.size.y / tangent_);
+        const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
+        right_ = {cosine, sine};
+        rig_from_world_.linear = {{cosine, -sine, 0}, {sine, cosine, 0}, {0, 0, 1}};
+        rig_from_world_.offset = -numeric::product(rig_from_world_.linear, glm::dvec3(rig.position, 0));
+    }
+
+    const overhead& rig() const { return rig_; }
+    const shadow::light_frame& light() const { return light_; }
+    /// From the datum below the camera to a point of the light, over the distance to its middle; `beside` that, across
+    /// and up, in the same measure.
+    glm::dvec3 toward_light(const glm::dvec2& beside) const {
+        const glm::dvec3& middle = light_.to_light();
+        const glm::dvec3 across(-light_.travel().y, light_.travel().x, 0), up = numeric::cross(middle, across);
+        return middle + beside.x * across + beside.y * up;
+    }
+    bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
+    /// Where a point of a light that isn't infinitely far stands.
+    glm::dvec3 light_position(const glm::dvec2& beside = {0, 0}) const {
+        return static_cast<double>(rig_.light_distance) * toward_light(beside);
+    }
+
+    /// From world to rig frame. Applied to an object's own map first, it takes large coordinates away exactly.
+    affine rig_from(const affine& world_from_object) const {
+        const glm::dvec3 relative = world_from_object.offset - glm::dvec3(rig_.position, 0);
+        return {numeric::product(rig_from_world_.linear, world_from_object.linear),
+                numeric::product(rig_from_world_.linear, relative)};
+    }
+
+    /// Half of what the picture shows at a height above the datum, metres.
+    glm::dvec2 half_extent(double height) const {
+        const double half_width = (static_cast<double>(rig_.altitude) - height) * tangent_;
+        return {half_width, half_width * rig_.size.y / rig_.size.x};
+    }
+    /// Metres on level ground at the datum from one pixel to the next.
+    double ground_sampling() const { return 2 * half_extent(0).x / rig_.size.x; }
+
+    /// The picture's corners at a height, from the rig's position and along the world's axes.
+    glm::dvec2 corner(double height, int right, int up) const {
+        const glm::dvec2 half = half_extent(height);
+        const glm::dvec2 p{right * half.x, up * half.y};
+        return {p.x * right_.x - p.y * right_.y, p.x * right_.y + p.y * right_.x};
+    }
+
+    /// Pinhole projection with reversed depth, z / w = z_near / distance: larger is nearer.
+    glm::vec4 clip(const glm::vec3& p) const {
+        return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
+    }
+    /// The same of three coordinates in lanes.
+    template <class Floats>
+    INSONIFY_INLINE void clip(Floats (&into)[4], const Floats* p) const {
+        into[0] = p[0] * clip_scale_.x;
+        into[1] = p[1] * clip_scale_.y;
+        into[2] = Floats{} + 1e-3f * rig_.altitude;
+        into[3] = rig_.altitude - p[2];
+    }
+
+    glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
+    /// Metres from one pixel to the next, 1 m below the camera.
+    double ray_step() const { return 2 * tangent_ / rig_.size.x; }
+    /// From the camera through a pixel's centre to 1 m below it.
+    glm::dvec3 ray(int x, int y) const {
+        const double step = ray_step();
+        return {step * (x + 0.5 - 0.5 * rig_.size.x), step * (0.5 * rig_.size.y - y - 0.5), -1};
+    }
+
+    /// Where a point of the rig frame appears, in continuous pixels.
+    glm::dvec2 pixel(const glm::dvec3& p) const {
+        const double scale = 0.5 * rig_.size.x / (tangent_ * (static_cast<double>(rig_.altitude) - p.z));
+        return {0.5 * rig_.size.x + scale * p.x, 0.5 * rig_.size.y - scale * p.y};
+    }
+
+  private:
+    overhead rig_;
+    double tangent_;
+    glm::vec2 clip_scale_;
+    shadow::light_frame light_;
+    glm::dvec2 right_;
+    affine rig_from_world_;
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,211 @@
+// The bottom under a track that goes anywhere: heights and slopes in square tiles, sampled where pings look and nowhere
+// else.
+//
+// Tiles lie on a lattice of the world, so that a place is sampled the same whatever track passes over it.
+#pragma once
+
+#include <insonify/core/executor.hpp>
+#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/detail/lattice.hpp>
+#include <insonify/sonar/side_scan/side_scan.hpp>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// The bottom at a vertex, and between vertices.
+struct bottom_vertex {
+    float height;            ///< metres above the datum; NaN where there is none
+    float slope_x, slope_y;  ///< rise per metre, by central differences
+    std::uint32_t type;
+};
+
+class bottom_tiles {
+  public:
+    static constexpr int cells = 64;  ///< along a tile's side
+
+    /// @param spacing  metres between vertices; what `even` makes of it is taken
+    bottom_tiles(const seabed::any& source, double spacing)
+        : is_empty_(source.empty()),
+          prepared_(source.prepare()),
+          range_(prepared_.range()),
+          spacing_(even(spacing)),
+          scale_(1 / spacing_) {}
+
+    /// A length whose multiples are exact, so that a vertex is the same in whatever row it is sampled.
+    static double even(double length) {
+        require(length > 1e-9 && length < 1e9, "cell", length, "metres above 0");
+        return seabed::detail::eight_bits(length);
+    }
+
+    /// Samples what a fan of pings looks at, and forgets the rest.
+    /// @param from, reach  metres from each ping, on the side it looks to
+    template <executor E>
+    void cover(std::span<const ping_frame> pings, double from, double reach, E& ex) {
+        if (is_empty_) return;
+        const double side = cells * spacing_;
+        // Lines of sight in steps of half a tile: the boxes around the steps hold every tile that is touched.
+        const double looked_at = reach - from;
+        const int steps = static_cast<int>(numeric::floor_to_int(2 * looked_at / side)) + 1;
+        const auto step = [&](int i) { return from + looked_at * i / steps; };
+        const auto tile_of = [&](const glm::dvec2& p) {
+            require(p.x > -1e9 && p.x < 1e9 && p.y > -1e9 && p.y < 1e9, "ping.position", p.x, "within 1e9 metres");
+            return std::pair{numeric::floor_to_int(p.x / side), numeric::floor_to_int(p.y / side)};
+        };
+        std::int64_t last_x = -(std::int64_t{1} << 60), last_y = last_x;
+        first_x_ = first_y_ = -last_x;
+        for (const ping_frame& p : pings) {
+            const auto [least, most] = depths(p);
+            for (const double x : {from, step(steps + 1)})
+                for (const double down : {least, most}) {
+                    const auto [tile_x, tile_y] = tile_of(p.below(x, down));
+                    first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
+                    last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
+                }
+        }
+        columns_ = last_x - first_x_ + 1;
+        const std::int64_t rows = last_y - first_y_ + 1;
+        require(columns_ * rows < (1 << 26), "seabed tiles", columns_ * rows, "below 2^26: take larger cells");
+        slots_.assign(static_cast<std::size_t>(columns_ * rows), absent);
+        for (const ping_frame& p : pings) {
+            const auto [least, most] = depths(p);
+            for (int i = 0; i < steps; ++i) {
+                auto [ax, ay] = tile_of(p.below(step(i), least));
+                std::int64_t bx = ax, by = ay;
+                for (const auto& [x, y] : {tile_of(p.below(step(i + 1), least)), tile_of(p.below(step(i), most)),
+                                           tile_of(p.below(step(i + 1), most))}) {
+                    ax = (std::min)(ax, x), ay = (std::min)(ay, y);
+                    bx = (std::max)(bx, x), by = (std::max)(by, y);
+                }
+                for (std::int64_t y = ay; y <= by; ++y)
+                    for (std::int64_t x = ax; x <= bx; ++x) slots_[slot_of(x, y)] = 0;
+            }
+        }
+
+        // Long rows are cheaper per sample: neighbours along x are sampled together.
+        std::vector<tile_run> runs;
+        std::uint32_t tiles = 0;
+        for (std::int64_t y = 0; y < rows; ++y)
+            for (std::int64_t x = 0; x < columns_; ++x) {
+                std::uint32_t& slot = slots_[static_cast<std::size_t>(y * columns_ + x)];
+                if (slot == absent) continue;
+                slot = tiles++;
+                const bool goes_on = !runs.empty() && runs.back().count < longest_run && x > 0 &&
+                                     slots_[static_cast<std::size_t>(y * columns_ + x - 1)] != absent;
+                if (goes_on)
+                    ++runs.back().count;
+                else
+                    runs.push_back({first_x_ + x, first_y_ + y, slot, 1});
+            }
+        vertices_.reset(new bottom_vertex[tiles * tile_size]);
+        ex.bulk(runs.size(), [&](std::size_t i) { sample(runs[i]); });
+        sampled_ += tiles * tile_size;
+    }
+
+    /// The bottom at a world position that is covered; bilinear in the cell, of the nearest vertex's type.
+    bottom_vertex at(double x, double y) const {
+        if (is_empty_) return {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0};
+        const double u = x * scale_, v = y * scale_;
+        const std::int64_t cell_x = numeric::floor_to_int(u), cell_y = numeric::floor_to_int(v);
+        const auto right = static_cast<float>(u - static_cast<double>(cell_x));
+        const auto up = static_cast<float>(v - static_cast<double>(cell_y));
+        const std::int64_t tile_x = cell_x >> shift, tile_y = cell_y >> shift;
+        const std::size_t slot = slots_[slot_of(tile_x, tile_y)];
+        INSONIFY_ASSERT(slot != absent);
+        const bottom_vertex* const a =
+            &vertices_[slot * tile_size + static_cast<std::size_t>(cell_y & (cells - 1)) * stride +
+                       static_cast<std::size_t>(cell_x & (cells - 1))];
+        const bottom_vertex &b = a[1], &c = a[stride], &d = a[stride + 1];
+        const float wa = (1 - right) * (1 - up), wb = right * (1 - up), wc = (1 - right) * up, wd = right * up;
+        const bottom_vertex& nearest = up < 0.5f ? (right < 0.5f ? *a : b) : (right < 0.5f ? c : d);
+        return {wa * a->height + wb * b.height + wc * c.height + wd * d.height,
+                wa * a->slope_x + wb * b.slope_x + wc * c.slope_x + wd * d.slope_x,
+                wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
+    }
+
+    /// Clamps a depth to those bounds; NaN becomes the least.
+    double clamped(const ping_frame& p, double depth) const {
+        const auto [least, most] = depths(p);
+        return depth > least ? (std::min)(depth, most) : least;
+    }
+
+    /// Vertices evaluated so far.
+    std::uint64_t sampled() const { return sampled_; }
+
+  private:
+    static constexpr int shift = 6;
+    static constexpr std::size_t stride = cells + 1;  // the next tile's first vertices too
+    static constexpr std::size_t tile_size = stride * stride;
+    static constexpr std::uint32_t absent = 0xFFFFFFFFu;
+    static_assert(1 << shift == cells);
+
+    std::size_t slot_of(std::int64_t x, std::int64_t y) const {
+        return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
+    }
+
+    /// Bounds of the bottom's depth along a fan; used for pitched fans only.
+    /// @throws invalid_input for pitched pings over a seabed that does not state its heights
+    std::pair<double, double> depths(const ping_frame& p) const {
+        if (p.is_level() || range_.empty()) return {0, 0};
+        seabed::detail::require_finite(range_);
+        return {(p.position().z - range_.highest) / p.cosine_pitch(),
+                (p.position().z - range_.lowest) / p.cosine_pitch()};
+    }
+
+    /// Tiles side by side.
+    struct tile_run {
+        std::int64_t x, y;
+        std::uint32_t slot, count;
+    };
+    static constexpr std::uint32_t longest_run = 8;
+
+    /// The vertices of a run, with a ring of neighbours for the slopes.
+    void sample(const tile_run& run) const {
+        const std::size_t width = run.count * cells + 3, height = stride + 2;
+        std::vector<float> heights(width * height);
+        std::vector<seabed::type> types(width * height);
+        for (std::size_t j = 0; j < height; ++j) {
+            const auto vertex = [&](std::int64_t tile, std::size_t i) {
+                return static_cast<double>(tile * cells + static_cast<std::int64_t>(i) - 1) * spacing_;
+            };
+            prepared_.row(
+                {.y = vertex(run.y, j), .origin = vertex(run.x, 0), .spacing = spacing_, .grid_spacing = spacing_},
+                std::span(heights).subspan(j * width, width), std::span(types).subspan(j * width, width));
+        }
+        const auto scale = static_cast<float>(0.5 * scale_);
+        const auto slope = [&](float before, float after) {
+            const float rise = scale * (after - before);
+            return numeric::is_finite(rise) ? rise : 0.0f;  // beside a hole
+        };
+        for (std::size_t tile = 0; tile < run.count; ++tile) {
+            bottom_vertex* out = &vertices_[(run.slot + tile) * tile_size];
+            for (std::size_t j = 0; j < stride; ++j) {
+                const std::size_t start = (j + 1) * width + tile * cells + 1;
+                for (std::size_t i = start; i < start + stride; ++i)
+                    *out++ = {heights[i], slope(heights[i - 1], heights[i + 1]),
+                              slope(heights[i - width], heights[i + width]), static_cast<std::uint32_t>(types[i])};
+            }
+        }
+    }
+
+    bool is_empty_;
+    seabed::any_sampler prepared_;
+    seabed::height_range range_;
+    double spacing_, scale_;
+    std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0;
+    std::vector<std::uint32_t> slots_;
+    std::unique_ptr<bottom_vertex[]> vertices_;
+    std::uint64_t sampled_ = 0;
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,132 @@
+// The rays of a ping, in the vertical plane across the track: nadir first, one after the other outwards.
+//
+// Level ground is met at equal steps. Beyond its end come rays for what stands up there, at equal angles: neighbours
+// are at most a bin apart on an upright wall.
+#pragma once
+
+#include <insonify/core/numeric.hpp>
+
+#include <algorithm>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// Parameters of a fan. Heights are rounded so that few different fans serve a whole track.
+struct fan_shape {
+    double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: no rays
+    double above_highest = 1;  ///< over the highest bottom
+    double above_all = 1;      ///< over the highest of targets and bottom; not above 0: rays go up to the zenith
+
+    friend bool operator==(const fan_shape&, const fan_shape&) = default;
+
+    static fan_shape around(double lowest, double highest, double top) {
+        return {rounded(lowest, true), rounded(highest, false), rounded(top, false)};
+    }
+
+  private:
+    /// To an eighth of a power of two.
+    static double rounded(double length, bool up) {
+        if (!(length > 1e-3)) return up && length > 0 ? 1e-3 : 0;
+        double unit = 0x1p-12;
+        while (unit * 16 <= length) unit *= 2;
+        const std::int64_t units = up ? -numeric::floor_to_int(-length / unit) : numeric::floor_to_int(length / unit);
+        return static_cast<double>(units) * unit;
+    }
+};
+
+class ping_fan {
+  public:
+    struct ray {
+        double sine, cosine;  ///< across and down
+        double width;         ///< radians that it stands for
+    };
+
+    ping_fan() = default;
+
+    /// @param step         metres between rays on level ground, and between neighbours on a wall at the largest range
+    /// @param first_range  what is nearer than this need not be seen
+    /// @param range        the same for what is farther, metres
+    ping_fan(const fan_shape& shape, double step, double first_range, double range) : shape_(shape) {
+        const double low = shape.above_lowest;
+        if (!(low > 0)) return;
+        // Tangents from nadir: where level ground is at a slant range.
+        const auto tangent_at = [](double r, double height) {
+            return r > height ? numeric::square_root(r * r - height * height) / height : 0;
+        };
+        const double spacing = step / low, level_end = tangent_at(range, low);
+        const double end = shape.above_highest > 0
+                               ? (std::min)(tangent_at(range, shape.above_highest), 2 * level_end + 1)
+                               : 2 * level_end + 1;
+        const std::int64_t first = numeric::floor_to_int(tangent_at(first_range, low) / spacing);
+        const std::int64_t last = numeric::floor_to_int(end / spacing) + 1;
+        require(last - first < (1 << 24), "rays of a ping", last - first, "below 2^24: take wider bins");
+        rays_.reserve(static_cast<std::size_t>(last - first));
+        for (std::int64_t i = first; i < last; ++i) {
+            const double tangent = (static_cast<double>(i) + 0.5) * spacing;
+            const double cosine = 1 / numeric::square_root(1 + tangent * tangent);
+            rays_.push_back({tangent * cosine, cosine, spacing * cosine * cosine});
+        }
+        spacing_ = spacing, first_ = static_cast<double>(first), wall_first_ = static_cast<double>(last);
+        const double from = numeric::atan2(static_cast<double>(last) * spacing, 1);
+        const double up_to = shape.above_all > 0 ? numeric::atan2(range, shape.above_all) : numeric::pi;
+        const double angle = step / range;
+        wall_from_ = from, wall_angle_ = angle;
+        for (std::int64_t i = 0; from + angle * static_cast<double>(i) < up_to; ++i) {
+            const auto [sine, cosine] = numeric::sin_cos(from + angle * (static_cast<double>(i) + 0.5));
+            rays_.push_back({sine, cosine, angle});
+        }
+    }
+
+    const fan_shape& shape() const { return shape_; }
+    std::size_t size() const { return rays_.size(); }
+    const ray& operator[](std::size_t i) const { return rays_[i]; }
+
+    /// How far beyond a ray a point lies, times its distance: above 0 where it is farther out.
+    static double beyond(const ray& r, double x, double down) { return x * r.cosine - down * r.sine; }
+
+    /// The first ray that passes through the point or beyond it.
+    std::size_t first_over(double x, double down) const {
+        const auto at =
+            std::partition_point(rays_.begin(), rays_.end(), [&](const ray& r) { return beyond(r, x, down) > 0; });
+        return static_cast<std::size_t>(at - rays_.begin());
+    }
+
+    /// Number of the first ray. Rays are numbered from nadir, so that fans that begin farther out agree with others.
+    std::size_t first() const { return static_cast<std::size_t>(first_); }
+    /// Where a point lies among the rays: ray i, whose number is first() + i, covers [number, number + 1). Clamped to
+    /// the rays that there are.
+    double coordinate(double x, double down) const {
+        double t = down > 0 ? x / down / spacing_ : wall_first_;
+        if (t >= wall_first_) t = wall_first_ + (numeric::atan2(x, down) - wall_from_) / wall_angle_;
+        return (std::min)((std::max)(t, first_), first_ + static_cast<double>(size()));
+    }
+    struct direction {
+        double sine, cosine;  ///< across and down
+    };
+    /// The inverse of `coordinate`.
+    direction at(double t) const {
+        if (t >= wall_first_) {
+            const auto [sine, cosine] = numeric::sin_cos(wall_from_ + wall_angle_ * (t - wall_first_));
+            return {sine, cosine};
+        }
+        const double tangent = t * spacing_;
+        const double cosine = 1 / numeric::square_root(1 + tangent * tangent);
+        return {tangent * cosine, cosine};
+    }
+
+  private:
+    fan_shape shape_{0, 0, 0};
+    std::vector<ray> rays_;
+    double spacing_ = 1, first_ = 0;                          ///< of level ground: tangents per ray, the first number
+    double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond it: the first number, radians
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

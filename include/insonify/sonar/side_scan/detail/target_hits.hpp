@@ -1,0 +1,243 @@
+// First hits of a ping's rays with the targets, with exact fractional coverage of each ray's width.
+//
+// The outline of the targets in a ping's plane is a set of straight pieces. Within each ray's width the pieces' ends
+// divide the width into parts; of each part the nearest piece counts, in proportion to the part. So a bar that is
+// thinner than the spacing of rays is heard in every ping that meets it, and with the energy that it has.
+#pragma once
+
+#include <insonify/sonar/labels.hpp>
+#include <insonify/sonar/side_scan/detail/ping_fan.hpp>
+#include <insonify/sonar/side_scan/detail/target_slices.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// The part of a ray that a target stops.
+struct target_hit {
+    double share;                 ///< of the ray's width
+    double x, down;               ///< the middle, metres
+    double x0, down0, x1, down1;  ///< its ends
+    float facing;                 ///< sine of the grazing angle on the surface
+    float reflectivity;
+    std::uint16_t instance;
+
+    double square_range() const { return x * x + down * down; }
+};
+
+class target_hits {
+  public:
+    void begin(const ping_fan& fan) {
+        fan_ = &fan;
+        pieces_.clear();
+        partial_.clear();
+        hits_.clear();
+        nearest_.assign(fan.size(), {std::numeric_limits<double>::infinity(), 0});
+        first_.assign(fan.size() + 1, 0);
+        screens_.assign(fan.size(), {std::numeric_limits<double>::infinity(), 0});
+    }
+
+    /// A piece of an outline.
+    void add(outline_piece o, std::uint16_t instance, float reflectivity) {
+        if (o.a.x * o.b.down > o.a.down * o.b.x) std::swap(o.a, o.b);  // b is farther out
+        if (!(o.a.x > 0 || o.b.x > 0)) return;
+        cut_at_nadir(o.a, o.b);
+        cut_at_nadir(o.b, o.a);
+        if (fan_->size() == 0) return;
+        const double from = fan_->coordinate(o.a.x, o.a.down), to = fan_->coordinate(o.b.x, o.b.down);
+        if (!(from < to)) return;
+        const auto id = static_cast<std::uint32_t>(pieces_.size());
+        pieces_.push_back({o, instance, reflectivity});
+        const std::size_t first = static_cast<std::size_t>(from) - fan_->first();
+        const std::size_t last = (std::min)(static_cast<std::size_t>(to) - fan_->first(), fan_->size() - 1);
+        for (std::size_t k = first; k <= last; ++k) {
+            const double low = (std::max)(from, number(k)), high = (std::min)(to, number(k) + 1);
+            if (!(low < high)) continue;
+            if (high - low < 1) {
+                partial_.push_back({static_cast<std::uint32_t>(k), id, low, high});
+                continue;
+            }
+            const ping_fan::ray& ray = (*fan_)[k];
+            const glm::dvec2 p = point(o, {ray.sine, ray.cosine});
+            const double range = p.x * p.x + p.y * p.y;
+            if (range < nearest_[k].range) nearest_[k] = {range, id};
+        }
+    }
+
+    /// Finds what is nearest, once all pieces are there.
+    void resolve() {
+        std::stable_sort(partial_.begin(), partial_.end(), [](const part& a, const part& b) { return a.ray < b.ray; });
+        auto next = partial_.begin();
+        for (std::size_t k = 0; k < fan_->size(); ++k) {
+            first_[k] = static_cast<std::uint32_t>(hits_.size());
+            auto end = next;
+            while (end != partial_.end() && end->ray == k) ++end;
+            const bool is_met = nearest_[k].range < std::numeric_limits<double>::infinity();
+            if (next != end)
+                divide(k, {next, end}, is_met);
+            else if (is_met)
+                keep(nearest_[k].piece, number(k), number(k) + 1);
+            next = end;
+            find_screen(k, hits_.size());
+        }
+        first_.back() = static_cast<std::uint32_t>(hits_.size());
+    }
+
+    /// Removes what lies behind the bottom, which ray k meets at a range; behind everything, if nothing is met.
+    /// @returns the share of the ray that targets stop before
+    double cut_off(std::size_t k, double range) {
+        double stopped = 0;
+        bool is_cut = false;
+        for (std::size_t i = first_[k]; i < first_[k + 1]; ++i) {
+            if (hits_[i].square_range() < range * range)
+                stopped += hits_[i].share;
+            else if (hits_[i].share > 0)
+                hits_[i].share = 0, is_cut = true;
+        }
+        if (is_cut) find_screen(k, first_[k + 1]);
+        return stopped > 1 - 1e-9 ? 1 : stopped;
+    }
+
+    /// The target that stops most of ray k before a range, if they stop more than half; else is_lit.
+    std::uint16_t screen(std::size_t k, double range) const {
+        return k < screens_.size() && screens_[k].range < range ? screens_[k].instance : labels::is_lit;
+    }
+
+    /// Calls `visit(ray number, hit)` in the order of the rays.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (std::size_t k = 0; k + 1 < first_.size(); ++k)
+            for (std::size_t i = first_[k]; i < first_[k + 1]; ++i)
+                if (hits_[i].share > 0) visit(k, hits_[i]);
+    }
+
+  private:
+    struct piece {
+        outline_piece outline;
+        std::uint16_t instance;
+        float reflectivity;
+    };
+    struct part {
+        std::uint32_t ray, piece;
+        double low, high;  ///< coordinates of the fan
+    };
+    struct candidate {
+        double range;  ///< squared
+        std::uint32_t piece;
+    };
+    struct screen_of_ray {
+        double range;
+        std::uint16_t instance;
+    };
+
+    /// The coordinate at which ray k begins.
+    double number(std::size_t k) const { return static_cast<double>(fan_->first() + k); }
+
+    static void cut_at_nadir(outline_piece::corner& from, const outline_piece::corner& to) {
+        if (from.x > 0) return;
+        const double f = from.x / (from.x - to.x);
+        from = {0, from.down + f * (to.down - from.down),
+                from.normal + static_cast<float>(f) * (to.normal - from.normal)};
+    }
+
+    /// How far along a piece a direction meets it, in [0, 1].
+    static double along(const outline_piece& o, const ping_fan::direction& d) {
+        const double before = o.a.x * d.cosine - o.a.down * d.sine, after = o.b.x * d.cosine - o.b.down * d.sine;
+        const double f = before / (before - after);
+        return f > 0 ? (f < 1 ? f : 1.0) : 0.0;
+    }
+    static glm::dvec2 point(const outline_piece& o, const ping_fan::direction& d) {
+        const double f = along(o, d);
+        return {o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down)};
+    }
+
+    /// Keeps a part of a ray as stopped by a piece.
+    void keep(std::uint32_t id, double low, double high) {
+        const piece& p = pieces_[id];
+        const outline_piece& o = p.outline;
+        const ping_fan::direction middle = fan_->at(0.5 * (low + high));
+        const double f = along(o, middle);
+        const glm::dvec2 at(o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down));
+        const glm::dvec2 from = point(o, fan_->at(low)), to = point(o, fan_->at(high));
+        if (!(at.x * at.x + at.y * at.y > 0)) return;
+        hits_.push_back({high - low, at.x, at.y, from.x, from.y, to.x, to.y, facing(o, static_cast<float>(f), middle),
+                         p.reflectivity, p.instance});
+    }
+
+    /// Sine of the grazing angle. The facet says which side is heard and decides the sign of normals that contradict
+    /// it, or that are none.
+    static float facing(const outline_piece& o, float f, const ping_fan::direction& d) {
+        const auto sine = static_cast<float>(d.sine), cosine = static_cast<float>(d.cosine);
+        glm::vec3 n = o.a.normal + f * (o.b.normal - o.a.normal);
+        float square = numeric::dot(n, n);
+        if (!(square > 0 && numeric::is_finite(square))) n = o.facet, square = numeric::dot(n, n);
+        const bool is_front = o.facet.z * cosine - o.facet.x * sine > 0, is_along = numeric::dot(n, o.facet) > 0;
+        return (is_front == is_along ? 1.0f : -1.0f) * (n.z * cosine - n.x * sine) / numeric::square_root(square);
+    }
+
+    /// Divides a ray between the pieces that it meets with parts of its width, and the one with all of it.
+    void divide(std::size_t k, std::span<const part> parts, bool is_met) {
+        // Very many pieces are sampled at fixed positions instead.
+        ends_.clear();
+        ends_.push_back(number(k)), ends_.push_back(number(k) + 1);
+        if (parts.size() <= most_parts) {
+            for (const part& p : parts) ends_.push_back(p.low), ends_.push_back(p.high);
+        } else {
+            for (std::size_t i = 1; i < most_parts; ++i)
+                ends_.push_back(number(k) + static_cast<double>(i) / static_cast<double>(most_parts));
+        }
+        std::sort(ends_.begin(), ends_.end());
+        for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
+            if (!(ends_[i] < ends_[i + 1])) continue;
+            const double middle = 0.5 * (ends_[i] + ends_[i + 1]);
+            const ping_fan::direction d = fan_->at(middle);
+            candidate best{std::numeric_limits<double>::infinity(), 0};
+            const auto offer = [&](std::uint32_t id) {
+                const glm::dvec2 p = point(pieces_[id].outline, d);
+                const double range = p.x * p.x + p.y * p.y;
+                if (range < best.range) best = {range, id};
+            };
+            for (const part& p : parts)
+                if (p.low <= middle && middle <= p.high) offer(p.piece);
+            if (is_met) offer(nearest_[k].piece);
+            if (best.range < std::numeric_limits<double>::infinity()) keep(best.piece, ends_[i], ends_[i + 1]);
+        }
+    }
+
+    void find_screen(std::size_t k, std::size_t end) {
+        screens_[k] = {std::numeric_limits<double>::infinity(), 0};
+        double stopped = 0, largest = 0;
+        for (std::size_t i = first_[k]; i < end; ++i) {
+            stopped += hits_[i].share;
+            if (hits_[i].share <= largest) continue;
+            largest = hits_[i].share;
+            screens_[k] = {numeric::square_root(hits_[i].square_range()), hits_[i].instance};
+        }
+        if (!(stopped > 0.5)) screens_[k].range = std::numeric_limits<double>::infinity();
+    }
+
+    static constexpr std::size_t most_parts = 64;
+
+    const ping_fan* fan_ = nullptr;
+    std::vector<piece> pieces_;
+    std::vector<part> partial_;
+    std::vector<candidate> nearest_;  ///< by ray: the nearest piece over all of its width
+    std::vector<target_hit> hits_;
+    std::vector<std::uint32_t> first_;  ///< by ray: its hits begin here
+    std::vector<screen_of_ray> screens_;
+    std::vector<double> ends_;
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

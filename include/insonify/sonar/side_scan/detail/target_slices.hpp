@@ -1,0 +1,120 @@
+// Slices of targets by the plane of a ping.
+#pragma once
+
+#include <insonify/geometry/detail/plane_tree.hpp>
+#include <insonify/sonar/scene.hpp>
+#include <insonify/sonar/side_scan/side_scan.hpp>
+
+#include <map>
+#include <memory>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// A piece of outline in the plane of a ping.
+struct outline_piece {
+    struct corner {
+        double x, down;    ///< metres from the sonar
+        glm::vec3 normal;  ///< (x, u, z), of any length
+    };
+    corner a, b;
+    glm::vec3 facet;  ///< (x, u, z), of any length
+};
+
+/// A target in the world, ready to be cut.
+class sliced_target {
+  public:
+    /// @param tree  of the shape's triangles
+    sliced_target(const target& t, std::shared_ptr<const plane_tree> tree)
+        : shape_(t.shape), tree_(std::move(tree)), to_world_(to_world(t.placement)) {
+        const bounding_box& box = t.shape.box();
+        if (box.empty()) return;
+        centre_ = transform_point(to_world_, box.centre());
+        const glm::dvec3 half = 0.5 * box.size();
+        radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
+    }
+
+    /// Heights above the datum that it doesn't leave.
+    double top() const { return centre_.z + radius_; }
+    double foot() const { return radius_ > 0 ? centre_.z - radius_ : 1e30; }
+
+    bool is_met_by(const ping_frame& p, double range) const {
+        const glm::dvec3 centre = p(centre_);
+        const double x = centre.x, u = centre.y;
+        return u <= radius_ && u >= -radius_ && x > -radius_ &&
+               numeric::dot(centre, centre) < (range + radius_) * (range + radius_);
+    }
+
+    /// How far out it begins, for a ping that meets it.
+    double nearest(const ping_frame& p) const { return p(centre_).x - radius_; }
+
+    /// Calls `visit(outline_piece)` for each triangle that the ping's plane cuts. Triangles that share an edge share
+    /// the corner on it to the last bit, so outlines have no gaps.
+    template <class Visit>
+    void cut(const ping_frame& p, const Visit& visit) const {
+        const glm::dvec3 offset = p(to_world_.offset);
+        glm::dmat3 turn;
+        for (int i = 0; i < 3; ++i) turn[i] = p.turned(to_world_.linear[i]);
+        const glm::mat3 normals(turn);  // scales are uniform
+        const double sign = numeric::determinant(turn) < 0 ? -1 : 1;
+        const glm::dvec3 ahead(turn[0].y, turn[1].y, turn[2].y);
+        tree_->cut(ahead, offset.y, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                cut_triangle(shape_->triangles[i], turn, offset, normals, sign, visit);
+        });
+    }
+
+  private:
+    template <class Visit>
+    void cut_triangle(const glm::uvec3& t, const glm::dmat3& turn, const glm::dvec3& offset, const glm::mat3& normals,
+                      double sign, const Visit& visit) const {
+        glm::dvec3 v[3];
+        int behind = 0;
+        for (int i = 0; i < 3; ++i) {
+            v[i] = numeric::product(turn, glm::dvec3(shape_->positions[t[i]])) + offset;
+            behind += v[i].y < 0 ? 1 : 0;
+        }
+        if (behind == 0 || behind == 3 || !numeric::is_finite(v[0].x + v[1].x + v[2].x + v[0].z + v[1].z + v[2].z))
+            return;
+        // The corner that is alone on its side, and the edges that leave it.
+        int alone = 0;
+        while ((v[alone].y < 0) != (behind == 1)) ++alone;
+        const auto corner = [&](int other) {
+            const int from = behind == 1 ? alone : other,
+                      to = behind == 1 ? other : alone;  // from behind to before
+            const double f = v[from].y / (v[from].y - v[to].y);
+            const glm::dvec3 at = v[from] + f * (v[to] - v[from]);
+            const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
+            return outline_piece::corner{at.x, -at.z, numeric::product(normals, n + static_cast<float>(f) * (m - n))};
+        };
+        visit(outline_piece{corner((alone + 1) % 3), corner((alone + 2) % 3),
+                            glm::vec3(sign * numeric::cross(v[1] - v[0], v[2] - v[0]))});
+    }
+
+    shared_mesh shape_;
+    std::shared_ptr<const plane_tree> tree_;
+    affine to_world_;
+    glm::dvec3 centre_{0, 0, -1e30};
+    double radius_ = 0;
+};
+
+/// The targets of a scene; those of one shape share its tree.
+inline std::vector<sliced_target> sliced_targets(const scene& s) {
+    std::vector<sliced_target> all;
+    std::map<const mesh*, std::shared_ptr<const plane_tree>> trees;
+    for (const target& t : s.targets) {
+        std::shared_ptr<const plane_tree>& tree = trees[&*t.shape];
+        if (tree == nullptr) tree = std::make_shared<const plane_tree>(t.shape);
+        all.emplace_back(t, tree);
+    }
+    return all;
+}
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

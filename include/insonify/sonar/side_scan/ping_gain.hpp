@@ -1,0 +1,127 @@
+// What a receiver's gain leaves behind: brightness that drifts across range, and from ping to ping.
+//
+// Recordings are corrected for spreading, absorption and beam pattern by models that don't hold exactly, so a level
+// bottom is shown brighter at some ranges than at others; heave, roll and aeration make whole pings brighter or
+// darker (P. Blondel. The Handbook of Sidescan Sonar, 2009, chapter 4; P. Cervenka, C. de Moustier. Sidescan Sonar
+// Image Processing Techniques. IEEE Journal of Oceanic Engineering 18, 1993). Both are filters of intensities: rows are
+// pings, columns are bins.
+#pragma once
+
+#include <insonify/filter/concept.hpp>
+#include <insonify/sonar/detail/smooth_noise.hpp>
+#include <insonify/sonar/side_scan/sonar_equation.hpp>
+
+#include <concepts>
+#include <type_traits>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+namespace detail {
+
+inline void check_decibels(const char* name, float value) {
+    require(value >= 0 && value <= 60, name, value, "0 to 60 dB");
+}
+inline void check_length(const char* name, float value) {
+    require(value >= 1 && value <= 1e9f, name, value, "1 to 1e9 pixels");
+}
+
+/// Multiplies pixels by a factor that depends on the column alone, computed once for each column.
+class column_gain {
+  public:
+    template <class DecibelsAt>
+    column_gain(int width, const DecibelsAt& decibels_at) {
+        for (int x = 0; x < width; ++x) factors_.push_back(static_cast<float>(from_decibels(decibels_at(x))));
+    }
+    template <std::same_as<float> Pixel>
+    Pixel operator()(Pixel intensity, int x, int) const {
+        return intensity * factors_[static_cast<std::size_t>(x)];
+    }
+
+  private:
+    std::vector<float> factors_;
+};
+
+/// Of a ping_banding.
+template <class Banding>
+class banding_law {
+  public:
+    explicit banding_law(const Banding& b)
+        : b_(b),
+          drift_(stream_key(b.seed, static_cast<std::uint32_t>(drift_stream::ping_gain))),
+          jitter_(stream_key(b.seed, static_cast<std::uint32_t>(drift_stream::ping_jitter))) {}
+
+    template <std::same_as<float> Pixel>
+    Pixel operator()(Pixel intensity, int, int y) {
+        if (y != row_) row_ = y, factor_ = factor_of(b_.first_ping + b_.step * std::int64_t{y});
+        return intensity * factor_;
+    }
+
+  private:
+    float factor_of(std::int64_t ping) const {
+        const double at = static_cast<double>(ping) / static_cast<double>(b_.length);
+        return static_cast<float>(from_decibels(static_cast<double>(b_.drift) * smooth_noise(at, drift_) +
+                                                static_cast<double>(b_.jitter) * lattice_normal(ping, 0, 0, jitter_)));
+    }
+
+    Banding b_;
+    philox_key drift_, jitter_;
+    int row_ = -1;
+    float factor_ = 1;
+};
+
+}  // namespace detail
+
+/// The error that time-varied gain leaves across range, in decibels: a slope, and a smooth random curve. Factors of a
+/// column are the same in all rows.
+struct range_gain_error {
+    float rms = 1.5f;    ///< decibels of the random curve, 0 to 60
+    float length = 120;  ///< bins between the nodes of the curve; two of them apart it is independent
+    float slope = 0;     ///< decibels from the first bin to the last, -60 to 60; its middle is 0
+    std::uint64_t seed = 1;
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a parameter out of its range
+    auto pass(image_view<const float> picture) const {
+        detail::check_decibels("range_gain_error.rms", rms);
+        detail::check_length("range_gain_error.length", length);
+        detail::require(slope >= -60 && slope <= 60, "range_gain_error.slope", slope, "-60 to 60 dB");
+        const int width = picture.width();
+        const philox_key key = stream_key(seed, static_cast<std::uint32_t>(detail::drift_stream::range_gain));
+        return detail::column_gain(width, [&](int x) {
+            return static_cast<double>(slope) * ((x + 0.5) / width - 0.5) +
+                   static_cast<double>(rms) * detail::smooth_noise(x / static_cast<double>(length), key);
+        });
+    }
+};
+
+/// Pings that are brighter or darker than their neighbours, in decibels: a drift over many pings, and a jitter of each
+/// by itself. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
+struct ping_banding {
+    float drift = 1;      ///< decibels (rms), 0 to 60
+    float length = 40;    ///< pings between the nodes of the drift
+    float jitter = 0.5f;  ///< decibels (rms), 0 to 60
+    std::int64_t first_ping = 0;
+    int step = 1;  ///< 1 or -1
+    std::uint64_t seed = 1;
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a parameter out of its range
+    auto pass() const {
+        detail::check_decibels("ping_banding.drift", drift);
+        detail::check_length("ping_banding.length", length);
+        detail::check_decibels("ping_banding.jitter", jitter);
+        detail::require(step == 1 || step == -1, "ping_banding.step", step, "1 or -1");
+        return detail::banding_law<ping_banding>(*this);
+    }
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,82 @@
+// The closed forms of side-scan geometry over a level bottom: ranges, shadows, layover and what is measured from them.
+//
+// Lengths are metres. `altitude` is the sonar's above the bottom, `ground` a distance across the track on the bottom,
+// `height` that of a point above the bottom. Results that don't exist are 0 (a distance inside the water column) or
+// infinity (the shadow of what reaches the sonar's height), never NaN for finite arguments.
+//
+// Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
+#pragma once
+
+#include <insonify/core/numeric.hpp>
+
+#include <limits>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace range_geometry {
+
+/// Distance from the sonar to a point.
+inline double slant_range(double ground, double altitude, double height = 0) {
+    const double down = altitude - height;
+    return numeric::square_root(ground * ground + down * down);
+}
+
+/// Where the bottom is at a slant range; 0 in the water column.
+inline double ground_range(double slant, double altitude) {
+    return slant > altitude ? numeric::square_root(slant * slant - altitude * altitude) : 0;
+}
+
+/// Angle of the sound with the bottom, radians: pi / 2 below the sonar.
+inline double grazing_angle(double ground, double altitude) {
+    return numeric::atan2(altitude, ground);
+}
+
+/// Where the shadow of a point ends on the bottom.
+inline double shadow_tip(double ground, double altitude, double height) {
+    return height < altitude ? ground * altitude / (altitude - height) : std::numeric_limits<double>::infinity();
+}
+
+/// Length of a shadow on the bottom, from below the point that casts it.
+inline double shadow_length(double ground, double altitude, double height) {
+    return height < altitude ? height * ground / (altitude - height) : std::numeric_limits<double>::infinity();
+}
+
+/// Length of a shadow in a picture of slant ranges, from the echo of the point that casts it.
+inline double slant_shadow_length(double ground, double altitude, double height) {
+    if (!(height < altitude)) return std::numeric_limits<double>::infinity();
+    return slant_range(shadow_tip(ground, altitude, height), altitude) - slant_range(ground, altitude, height);
+}
+
+/// Where a raised point appears after `ground_range`: layover moves it towards the sonar, to 0 at most.
+inline double apparent_ground(double ground, double altitude, double height) {
+    return ground_range(slant_range(ground, altitude, height), altitude);
+}
+
+/// Height of what casts a shadow, from the slant ranges of its top and of the shadow's tip.
+inline double height_from_slant(double top, double tip, double altitude) {
+    return tip > 0 ? altitude * (tip - top) / tip : 0;
+}
+
+/// The same from distances on the bottom.
+inline double height_from_ground(double foot, double tip, double altitude) {
+    return tip > 0 ? altitude * (tip - foot) / tip : 0;
+}
+
+/// Metres of bottom in a bin of slant range; infinite straight below the sonar.
+inline double ground_resolution(double bin, double grazing) {
+    const double cosine = numeric::sin_cos(grazing).cosine;
+    return cosine > 0 ? bin / cosine : std::numeric_limits<double>::infinity();
+}
+
+/// Metres of track between the half-power points of a beam of so many radians, one way.
+inline double along_track_footprint(double slant, double beam_width) {
+    return slant * beam_width;
+}
+
+}  // namespace range_geometry
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,154 @@
+// A side-scan sonar on its way: where each ping is sent from, and which ranges are listened to.
+#pragma once
+
+#include <insonify/core/numeric.hpp>
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Which way a channel looks: to the left or to the right of the track.
+enum class side : std::uint8_t { port, starboard };
+
+/// What a column of the picture is a step of.
+enum class across_track {
+    slant_range,   ///< the time of the echo: water column, layover, front faces folded towards the sonar
+    ground_range,  ///< the place on the bottom: a map, with the shadows of the same source
+};
+
+/// One ping: where the sonar is, and its attitude. Rotations apply as for ships: yaw first, then pitch, then roll.
+struct ping {
+    glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum, heave included
+    double yaw = 0;                ///< radians: 0 travels towards +y, with starboard at +x; counter-clockwise
+    double pitch = 0;              ///< radians, positive with the bow up: tilts the fan forward, below +-80 degrees
+    double roll = 0;               ///< radians, positive with starboard down: turns the beams within the fan
+};
+
+/// @throws invalid_input for a value that can't be right
+inline void validate(const ping& p) {
+    const double sum = p.position.x + p.position.y + p.position.z + p.yaw;
+    detail::require(numeric::is_finite(sum), "ping.position", sum, "finite");
+    detail::require(numeric::magnitude(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
+                    "at most 80 degrees, in radians");
+    detail::require(numeric::is_finite(p.roll), "ping.roll", p.roll, "a finite angle");
+}
+
+/// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
+/// all else stays the same.
+///
+/// A picture of it has a row per ping and a column per bin. Row i is ping i, the first on top, as in every recording of
+/// range modes (`upside_down` turns it so that up is forward); its left column is the first bin on either side, so that
+/// range grows and shadows fall to the right.
+template <across_track Axis>
+struct side_scan_rig {
+    static constexpr across_track axis = Axis;
+
+    glm::dvec2 position{0, 0};   ///< of the first ping over the datum, metres
+    float altitude = 5;          ///< above the datum, metres
+    float yaw = 0;               ///< radians, as a ping's
+    float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
+    int pings = 1024;            ///< 1 to 2^20
+    float first_range = 0;       ///< where the first bin begins, metres, >= 0
+    float range = 40;            ///< where the last bin ends, metres
+    int bins = 2048;             ///< 1 to 2^20
+    insonify::side side = insonify::side::starboard;
+
+    /// Metres per bin.
+    double bin() const { return (static_cast<double>(range) - static_cast<double>(first_range)) / bins; }
+};
+using side_scan = side_scan_rig<across_track::slant_range>;
+using ground_range = side_scan_rig<across_track::ground_range>;
+
+/// @throws invalid_input for a value that can't be right
+template <across_track Axis>
+void validate(const side_scan_rig<Axis>& rig) {
+    using detail::require;
+    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "side_scan.position",
+            rig.position.x + rig.position.y, "finite coordinates");
+    require(numeric::is_finite(rig.altitude), "side_scan.altitude", rig.altitude, "a finite height");
+    require(numeric::is_finite(rig.yaw), "side_scan.yaw", rig.yaw, "a finite angle");
+    require(rig.ping_spacing > 0 && numeric::is_finite(rig.ping_spacing), "side_scan.ping_spacing", rig.ping_spacing,
+            "above 0");
+    require(rig.pings >= 1 && rig.pings <= 1 << 20, "side_scan.pings", rig.pings, "1 to 2^20");
+    require(rig.first_range >= 0 && numeric::is_finite(rig.first_range), "side_scan.first_range", rig.first_range,
+            "0 or more");
+    require(rig.range > rig.first_range && rig.range <= 1e5f, "side_scan.range", rig.range,
+            "above first_range and at most 10^5 metres");
+    require(rig.bins >= 1 && rig.bins <= 1 << 20, "side_scan.bins", rig.bins, "1 to 2^20");
+}
+
+/// A ping of the rig's track; those before the first and after the last are on the same line.
+template <across_track Axis>
+ping ping_of(const side_scan_rig<Axis>& rig, int number) {
+    const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
+    const double along = static_cast<double>(rig.ping_spacing) * number;
+    return {{rig.position.x - along * sine, rig.position.y + along * cosine, static_cast<double>(rig.altitude)},
+            static_cast<double>(rig.yaw)};
+}
+
+/// The track of a rig, a ping after the other.
+template <across_track Axis>
+std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
+    validate(rig);
+    std::vector<ping> track;
+    track.reserve(static_cast<std::size_t>(rig.pings));
+    for (int i = 0; i < rig.pings; ++i) track.push_back(ping_of(rig, i));
+    return track;
+}
+
+/// A ping's own frame: x away from it on the side it looks to, level; u along the sonar's axis; z up from the sonar.
+/// The fan is the plane u = 0, which a pitch tilts from the vertical.
+class ping_frame {
+  public:
+    ping_frame(const ping& p, side looks) : position_(p.position) {
+        const auto [sine, cosine] = numeric::sin_cos(p.yaw);
+        const double sign = looks == side::starboard ? 1 : -1;
+        across_ = {sign * cosine, sign * sine};
+        along_ = {-sine, cosine};
+        const numeric::sine_cosine pitch = numeric::sin_cos(p.pitch), roll = numeric::sin_cos(p.roll);
+        sine_pitch_ = pitch.sine, cosine_pitch_ = pitch.cosine;
+        sine_roll_ = sign * roll.sine, cosine_roll_ = roll.cosine;
+    }
+    const glm::dvec3& position() const { return position_; }
+    /// Unit vectors on the ground.
+    const glm::dvec2& across() const { return across_; }
+    const glm::dvec2& along() const { return along_; }
+    bool is_level() const { return sine_pitch_ == 0; }
+    double sine_pitch() const { return sine_pitch_; }
+    double cosine_pitch() const { return cosine_pitch_; }
+    /// Of the angle by which the side that is looked to is rolled down.
+    double sine_roll() const { return sine_roll_; }
+    double cosine_roll() const { return cosine_roll_; }
+
+    /// World coordinates of the datum below (x, u), u along the heading.
+    glm::dvec2 world(double x, double u) const {
+        return {position_.x + x * across_.x + u * along_.x, position_.y + x * across_.y + u * along_.y};
+    }
+    /// World coordinates below the fan's point at (x, down).
+    glm::dvec2 below(double x, double down) const { return world(x, down * sine_pitch_); }
+    /// (x, u, z) of a world vector.
+    glm::dvec3 turned(const glm::dvec3& v) const {
+        const double ahead = v.x * along_.x + v.y * along_.y;
+        return {v.x * across_.x + v.y * across_.y, ahead * cosine_pitch_ + v.z * sine_pitch_,
+                v.z * cosine_pitch_ - ahead * sine_pitch_};
+    }
+    /// (x, u, z) of a world position.
+    glm::dvec3 operator()(const glm::dvec3& world) const { return turned(world - position_); }
+
+  private:
+    glm::dvec3 position_;
+    glm::dvec2 across_, along_;
+    double sine_pitch_, cosine_pitch_, sine_roll_, cosine_roll_;
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

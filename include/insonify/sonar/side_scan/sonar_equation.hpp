@@ -1,0 +1,241 @@
+// The sonar equation as a list of parts: what is not in the list is not computed, and not compiled.
+//
+// A picture's pixels are intensities (power), linear. Without any part, a bin holds the backscattering cross-section of
+// what lies in it: reflectivity x law(sine of grazing) x area, summed over the surfaces, in square metres for one
+// metre of source level. In decibels, with the parts in the order in which sound meets them (R. J. Urick. Principles of
+// Underwater Sound, 3rd edition, 1983):
+//
+//   RL = source_level + vertical_beam - transmission_loss - absorption + 10 log10(cross-section x footprint / spacing),
+//   then pulse and horizontal_beam blur it, noise_floor adds to it, and time_varied_gain or level_gain amplify it all.
+#pragma once
+
+#include <insonify/core/numeric.hpp>
+
+#include <concepts>
+#include <tuple>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// 10^(decibels / 10): for powers.
+inline double from_decibels(double decibels) {
+    return numeric::exp(decibels * 0.23025850929940458);
+}
+
+/// The level of the source.
+struct source_level {
+    float decibels = 0;
+    double over_range(double) const { return from_decibels(static_cast<double>(decibels)); }
+};
+
+/// Spherical spreading, there and back: 40 log10 R, R in metres.
+struct transmission_loss {
+    double over_range(double range) const { return 1 / (range * range * range * range); }
+};
+
+/// What sea water takes, there and back: 2 alpha R. About 76, 116, 169, 322 dB/km at 300, 450, 600, 900 kHz in salt
+/// water, 30, 68, 122, 274 in fresh (M. A. Ainslie, J. G. McColm. A Simplified Formula for Viscous and Chemical
+/// Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m).
+struct absorption {
+    float decibels_per_km = 169;
+    double over_range(double range) const {
+        return from_decibels(-0.002 * static_cast<double>(decibels_per_km) * range);
+    }
+};
+
+/// The beam in the vertical plane, twice (there and back): Gaussian about an axis that points down from the horizon,
+/// over side lobes that hear everywhere alike. They are what lets the first return be heard from straight below.
+struct vertical_beam {
+    float width = static_cast<float>(numeric::to_radians(50));  ///< between the -3 dB points of one way, radians
+    float tilt = static_cast<float>(numeric::to_radians(20));   ///< of the axis below the horizon, radians
+    float side_lobes = 1e-3f;                                   ///< power, both ways, over that on the axis
+    /// @param across, down  of the unit vector along the ray
+    double over_direction(double across, double down) const {
+        const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(width);
+        return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off * off);  // 8 ln 2
+    }
+};
+
+/// The beam along the track, twice: a Gaussian that widens with range. It blurs over the neighbouring pings, and makes
+/// the area that a ping insonifies grow with range.
+struct horizontal_beam {
+    float width = static_cast<float>(numeric::to_radians(0.3));  ///< between the -3 dB points of one way, radians
+    /// Metres of track that are heard fully, as it were: the integral of the pattern.
+    double footprint(double range) const { return 0.7526967 * range * static_cast<double>(width); }
+    /// Metres to either side beyond which nothing is heard.
+    double reach(double range) const { return range * static_cast<double>(width); }
+    double pattern(double along, double range) const {
+        const double off = along / (range * static_cast<double>(width));
+        return numeric::exp(-5.545177444479562 * off * off);
+    }
+    /// Metres of track over which the correlation of speckle falls to 1 / e, intensities': what two pings hear has the
+    /// same phases as long as the sonar moves by less than a part of its array, and is the same bottom as long as it
+    /// moves by less than a part of the footprint. Gaussian patterns make both Gaussian: of 0.6006 range x width, and
+    /// of 0.2650 wavelength / width.
+    /// @param wavelength  of the sound, metres: 0.0033 at 450 kHz
+    double speckle_length(double range, double wavelength) const {
+        const double by_footprint = 0.6005612 * range * static_cast<double>(width);
+        const double by_phase = 0.2650104 * wavelength / static_cast<double>(width);
+        return by_footprint * by_phase / numeric::square_root(by_footprint * by_footprint + by_phase * by_phase);
+    }
+};
+
+/// The pulse: every echo lasts as long, centred where its range is.
+struct pulse {
+    float length = 0.03f;  ///< metres of range: half of the speed of sound times the duration, or over twice the band
+    double duration() const { return static_cast<double>(length); }
+};
+
+/// What the receiver hears where nothing is: a mean intensity. Under `speckle` it fluctuates as noise does.
+struct noise_floor {
+    float intensity = 1e-3f;
+    double noise() const { return static_cast<double>(intensity); }
+};
+
+/// The flat bottom that a receiver may expect at a range, before its own gain.
+struct flat_echo {
+    double range, altitude;  ///< metres
+    double bin, spacing;     ///< metres
+    bool counts_time;        ///< bins are steps of slant range
+};
+
+/// Gain that makes up for spreading and absorption alone. A bottom whose strength doesn't depend on the angle comes out
+/// level, up to 1 / cos(grazing), at 40 dB per decade, or at 30 with a horizontal beam.
+struct time_varied_gain {
+    float spreading = 40;         ///< decibels per tenfold range
+    float absorption_per_km = 0;  ///< decibels, one way, as in `absorption`
+    float decibels = 0;           ///< at 1 m
+    template <class LevelAt>
+    double gain(const flat_echo& e, const LevelAt&) const {
+        return numeric::pow(e.range, 0.1 * static_cast<double>(spreading)) *
+               from_decibels(static_cast<double>(decibels) + 0.002 * static_cast<double>(absorption_per_km) * e.range);
+    }
+};
+
+/// Gain that makes a level bottom of reflectivity one come out as one, whatever the other parts are: beam pattern,
+/// spreading, law and area. At grazing angles above `steepest` it stays what it is there, so that the first return
+/// keeps being bright.
+struct level_gain {
+    float steepest = static_cast<float>(numeric::pi / 4);  ///< radians, below pi / 2
+    template <class LevelAt>
+    double gain(const flat_echo& e, const LevelAt& level_at) const {
+        const double limit = numeric::sin_cos(static_cast<double>(steepest)).sine;
+        const double sine = e.altitude / e.range;
+        const double level = level_at(sine > 0 && sine < limit ? sine : limit);
+        return level > 0 ? 1 / level : 0;
+    }
+};
+
+namespace detail {
+template <class P>
+concept direction_part = requires(const P& p) {
+    { p.over_direction(1.0, 0.0) } -> std::convertible_to<double>;
+};
+template <class P>
+concept range_part = requires(const P& p) {
+    { p.over_range(1.0) } -> std::convertible_to<double>;
+};
+template <class P>
+concept footprint_part = requires(const P& p) {
+    { p.footprint(1.0) } -> std::convertible_to<double>;
+};
+template <class P>
+concept pulse_part = requires(const P& p) {
+    { p.duration() } -> std::convertible_to<double>;
+};
+template <class P>
+concept noise_part = requires(const P& p) {
+    { p.noise() } -> std::convertible_to<double>;
+};
+template <class P>
+concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(double)) {
+    { p.gain(e, level) } -> std::convertible_to<double>;
+};
+}  // namespace detail
+
+/// A part of the sonar equation: one of the above, or a user's own type with one of their functions.
+template <class P>
+concept equation_part = detail::direction_part<P> || detail::range_part<P> || detail::footprint_part<P> ||
+    detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;
+
+/// The parts of a sonar: `sonar_equation{transmission_loss{}, absorption{}, time_varied_gain{}}`. The order doesn't
+/// matter; of horizontal beams and pulses there may be one each.
+template <equation_part... Parts>
+class sonar_equation {
+  public:
+    static constexpr bool has_ranges = (detail::range_part<Parts> || ...) || (detail::footprint_part<Parts> || ...);
+    static constexpr bool has_beam = (detail::footprint_part<Parts> || ...);
+    static constexpr bool has_pulse = (detail::pulse_part<Parts> || ...);
+    static constexpr bool has_noise = (detail::noise_part<Parts> || ...);
+    static constexpr bool has_gain = (detail::gain_part<Parts> || ...);
+    static_assert((int{detail::footprint_part<Parts>} + ... + 0) <= 1, "a sonar has one horizontal beam");
+    static_assert((int{detail::pulse_part<Parts>} + ... + 0) <= 1, "a sonar has one pulse");
+
+    sonar_equation() = default;
+    explicit(sizeof...(Parts) == 1) sonar_equation(Parts... parts) requires(sizeof...(Parts) > 0) : parts_(parts...) {}
+
+    /// Power along a ray, given by its unit vector.
+    double over_direction(double across, double down) const {
+        return product([&](const auto& p) {
+            if constexpr (detail::direction_part<decltype(p)>)
+                return static_cast<double>(p.over_direction(across, down));
+            else
+                return 1.0;
+        });
+    }
+    /// Power from a range, for a ping that stands for `spacing` metres of track.
+    double over_range(double range, double spacing) const {
+        return product([&](const auto& p) {
+            if constexpr (detail::range_part<decltype(p)>)
+                return static_cast<double>(p.over_range(range));
+            else if constexpr (detail::footprint_part<decltype(p)>)
+                return static_cast<double>(p.footprint(range)) / spacing;
+            else
+                return 1.0;
+        });
+    }
+    /// What a receiver multiplies by. `law` is that of the bottom.
+    template <class Law>
+    double gain(const flat_echo& e, const Law& law) const {
+        const auto level_at = [&](double sine) {
+            const double cosine = numeric::square_root(1 - sine * sine);
+            const double length = e.counts_time ? e.bin / cosine : e.bin;
+            return static_cast<double>(law(static_cast<float>(sine))) * length * e.spacing *
+                   over_direction(cosine, sine) * over_range(e.range, e.spacing);
+        };
+        return product([&](const auto& p) {
+            if constexpr (detail::gain_part<decltype(p)>)
+                return static_cast<double>(p.gain(e, level_at));
+            else
+                return 1.0;
+        });
+    }
+    /// Mean intensity of what is heard where nothing is.
+    double noise() const {
+        double sum = 0;
+        for_each([&](const auto& p) {
+            if constexpr (detail::noise_part<decltype(p)>) sum += p.noise();
+        });
+        return sum;
+    }
+    /// Calls `fn` with each part.
+    template <class Fn>
+    void for_each(const Fn& fn) const {
+        std::apply([&](const auto&... p) { (fn(p), ...); }, parts_);
+    }
+
+  private:
+    template <class Fn>
+    double product(const Fn& factor) const {
+        return std::apply([&](const auto&... p) { return (factor(p) * ... * 1.0); }, parts_);
+    }
+
+    std::tuple<Parts...> parts_;
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,98 @@
+// Both sides of the track in one picture.
+#pragma once
+
+#include <insonify/sonar/side_scan/slant_range.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// The picture with left and right exchanged: what grew to the right grows to the left.
+template <class T>
+image<T> mirrored(const image<T>& source) {
+    image<T> out(source.width(), source.height());
+    for (int y = 0; y < source.height(); ++y)
+        std::reverse_copy(source.row(y).begin(), source.row(y).end(), out.row(y).begin());
+    return out;
+}
+
+/// The picture turned by half a turn: that of a rig which looks the other way, with forward up again.
+template <class T>
+image<T> turned(const image<T>& source) {
+    image<T> out(source.width(), source.height());
+    std::reverse_copy(source.pixels().begin(), source.pixels().end(), out.pixels().begin());
+    return out;
+}
+
+/// The recording with its last ping on top, so that up is forward, as in overhead pictures.
+template <class Labels>
+frame<Labels> upside_down(frame<Labels> r) {
+    const auto turn = [](auto& picture) {
+        for (int y = 0; 2 * y < picture.height() - 1; ++y)
+            std::swap_ranges(picture.row(y).begin(), picture.row(y).end(),
+                             picture.row(picture.height() - 1 - y).begin());
+    };
+    turn(r.image);
+    if constexpr (std::is_same_v<Labels, labels>) {
+        turn(r.labels.instance), turn(r.labels.shadow), turn(r.labels.seabed);
+        detail::describe_again(r.labels);
+    }
+    r.rows.first += static_cast<std::int64_t>(r.image.height() - 1) * r.rows.step;
+    r.rows.step = -r.rows.step;
+    return r;
+}
+
+/// Two pictures side by side, `gap` columns of `fill` between them.
+///
+/// `beside(turned(port.image), starboard.image, gap)` of two frames of `overhead`, the one with its yaw half a turn
+/// further, is the paper's stitched picture; its dead zone is the gap.
+/// @throws invalid_input for pictures of different heights, or a negative gap
+template <class T>
+image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill = T{}) {
+    detail::require(left.height() == right.height(), "right.height()", right.height(), "that of the left picture");
+    detail::require(gap >= 0, "gap", gap, "at least 0");
+    image<T> out(left.width() + gap + right.width(), left.height(), fill);
+    for (int y = 0; y < left.height(); ++y) {
+        std::copy(left.row(y).begin(), left.row(y).end(), out.row(y).begin());
+        std::copy(right.row(y).begin(), right.row(y).end(), out.row(y).begin() + left.width() + gap);
+    }
+    return out;
+}
+
+/// A port and a starboard recording of one track as one, port to the left: range grows from the middle outwards, and
+/// the water column, as wide as the sonar is high, lies between. `targets` of the labels describes both sides.
+template <class Labels>
+frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
+    frame<Labels> out;
+    out.image = beside(mirrored(port.image), starboard.image);
+    out.stats = port.stats;
+    out.stats.seabed_samples += starboard.stats.seabed_samples;
+    out.rows = starboard.rows;
+    out.rows.port_columns = port.image.width();
+    if constexpr (std::is_same_v<Labels, labels>) {
+        out.labels.instance = beside(mirrored(port.labels.instance), starboard.labels.instance);
+        out.labels.shadow = beside(mirrored(port.labels.shadow), starboard.labels.shadow);
+        out.labels.seabed = beside(mirrored(port.labels.seabed), starboard.labels.seabed);
+        out.labels.targets = starboard.labels.targets;
+        out.labels.legend = starboard.labels.legend;
+        detail::describe_again(out.labels);
+    }
+    return out;
+}
+
+/// Draws both sides of a straight track; the rig's own side doesn't matter. See `render`.
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+frame<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
+                           const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+    rig.side = side::port;
+    const auto port = render(s, rig, options, ex);
+    rig.side = side::starboard;
+    return both_sides(port, render(s, rig, options, ex));
+}
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,120 @@
+// What a receiver hears besides the bottom: its noise, which time-varied gain lifts with range, scatterers in the
+// water, and the sea surface.
+//
+// The surface answers from where it is straight above, at a slant range of the sonar's depth, as a bright line with a
+// tail; the volume answers from everywhere (R. J. Urick. Principles of Underwater Sound, 3rd edition, 1983, chapter 8).
+// Intensities are those of a recording after its gain: 1 is a level bottom of reflectivity one under `level_gain`.
+#pragma once
+
+#include <insonify/filter/concept.hpp>
+#include <insonify/sonar/detail/smooth_noise.hpp>
+#include <insonify/sonar/side_scan/sonar_equation.hpp>
+
+#include <concepts>
+#include <type_traits>
+#include <vector>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+namespace detail {
+
+/// Of a water_column.
+template <class Water>
+class water_law {
+  public:
+    water_law(const Water& w, int bins)
+        : w_(w), key_(stream_key(w.seed, static_cast<std::uint32_t>(drift_stream::surface))) {
+        for (int x = 0; x < bins; ++x) {
+            const double over = range(x) / static_cast<double>(w.noise_range);
+            const double gain = numeric::pow(over, 0.1 * static_cast<double>(w.spreading)) *
+                                from_decibels(0.002 * static_cast<double>(w.absorption_per_km) *
+                                              (range(x) - static_cast<double>(w.noise_range)));
+            steady_.push_back(static_cast<float>(static_cast<double>(w.noise) * gain) + w.volume);
+        }
+    }
+
+    template <std::same_as<float> Pixel>
+    Pixel operator()(Pixel intensity, int x, int y) {
+        Pixel sum = intensity + steady_[static_cast<std::size_t>(x)];
+        if (w_.surface > 0) sum += surface_at(x, y);
+        return sum;
+    }
+
+  private:
+    double range(int x) const { return static_cast<double>(w_.first_range) + (x + 0.5) * static_cast<double>(w_.bin); }
+    float surface_at(int x, int y) {
+        if (y != row_) {
+            row_ = y;
+            begins_ = static_cast<double>(w_.surface_range) +
+                      static_cast<double>(w_.waves) * smooth_noise(y / static_cast<double>(w_.wave_length), key_);
+        }
+        const double tail = (range(x) - begins_) / static_cast<double>(w_.surface_tail);
+        // The rise takes a bin.
+        const double rise = (range(x) - begins_) / static_cast<double>(w_.bin) + 1;
+        if (rise <= 0 || tail > 80) return 0;
+        return w_.surface * static_cast<float>((rise < 1 ? rise : 1.0) * (tail > 0 ? numeric::exp(-tail) : 1.0));
+    }
+
+    Water w_;
+    philox_key key_;
+    std::vector<float> steady_;
+    int row_ = -1;
+    double begins_ = 0;
+};
+
+}  // namespace detail
+
+/// A filter that adds mean intensities by slant range; speckle on top makes them fluctuate. Rows are pings and columns
+/// bins of equal slant range.
+struct water_column {
+    float first_range = 0;  ///< metres, where the first bin begins
+    float bin = 0.02f;      ///< metres, above 0
+
+    float noise = 1e-3f;          ///< intensity of the receiver's noise at `noise_range`, >= 0
+    float noise_range = 40;       ///< metres, above 0
+    float spreading = 30;         ///< decibels per tenfold range by which gain lifts the noise, 0 to 60
+    float absorption_per_km = 0;  ///< the same for absorption, one way, 0 to 3000
+    float volume = 0;             ///< intensity of scatterers in the water, >= 0
+
+    float surface = 0;          ///< intensity of the surface return where it begins, >= 0; 0: none
+    float surface_range = 10;   ///< metres from the sonar up to the surface, above 0
+    float surface_tail = 0.3f;  ///< metres of range over which it decays to 1 / e, above 0
+    float waves = 0.1f;         ///< metres (rms) by which it wavers, >= 0
+    float wave_length = 15;     ///< pings between the nodes of that, at least 1
+    std::uint64_t seed = 1;
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for a parameter out of its range
+    auto pass(image_view<const float> picture) const {
+        using detail::require;
+        const auto at_least_0 = [](const char* name, float v) {
+            require(v >= 0 && numeric::is_finite(v), name, v, "0 or more");
+        };
+        const auto above_0 = [](const char* name, float v) {
+            require(v > 0 && numeric::is_finite(v), name, v, "above 0");
+        };
+        at_least_0("water_column.first_range", first_range);
+        above_0("water_column.bin", bin);
+        at_least_0("water_column.noise", noise);
+        above_0("water_column.noise_range", noise_range);
+        require(spreading >= 0 && spreading <= 60, "water_column.spreading", spreading, "0 to 60 dB");
+        require(absorption_per_km >= 0 && absorption_per_km <= 3000, "water_column.absorption_per_km",
+                absorption_per_km, "0 to 3000 dB");
+        at_least_0("water_column.volume", volume);
+        at_least_0("water_column.surface", surface);
+        above_0("water_column.surface_range", surface_range);
+        above_0("water_column.surface_tail", surface_tail);
+        at_least_0("water_column.waves", waves);
+        require(wave_length >= 1 && wave_length <= 1e9f, "water_column.wave_length", wave_length, "1 to 1e9 pings");
+        return detail::water_law<water_column>(*this, picture.width());
+    }
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
