@@ -58,6 +58,16 @@ class image {
         }
     }
 
+    image(const image&) = default;
+    image(image&&) = default;
+    image& operator=(image&&) = default;
+    /// Where memory runs out, the image stays as it was.
+    image& operator=(const image& other) {
+        pixels_ = other.pixels_;
+        width_ = other.width_, height_ = other.height_;
+        return *this;
+    }
+
     int width() const { return width_; }
     int height() const { return height_; }
     std::size_t size() const { return pixels_.size(); }

@@ -64,18 +64,22 @@ inline bool sync_to_disk(std::FILE* stream) {
 #endif
 }
 
-/// Brings the names in the folder of `path` to disk. A folder that can't be opened or synced, as on some network file
-/// systems, is left to the system: the file itself is on disk.
-inline void sync_folder_of(const std::string& path) {
-#if defined(__unix__) || defined(__APPLE__)
+/// The folder that `path` is in, as a path.
+inline std::string folder_of(const std::string& path) {
     const std::size_t slash = path.find_last_of('/');
-    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+}
+
+/// Brings the names in a folder to disk. A folder that can't be opened or synced, as on some network file systems, is
+/// left to the system: the file itself is on disk.
+inline void sync_folder(const std::string& folder) noexcept {
+#if defined(__unix__) || defined(__APPLE__)
     const int handle = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
     if (handle < 0) return;
     static_cast<void>(::fsync(handle));
     ::close(handle);
 #else
-    static_cast<void>(path);
+    static_cast<void>(folder);
 #endif
 }
 
@@ -148,9 +152,10 @@ class replacement_file {
         errno = 0;
         const bool written = error_ == 0 && detail::sync_to_disk(file_.get());
         if (!(file_.close() && written)) detail::raise_io(path_, "can't write", error_ != 0 ? error_ : errno);
+        const std::string folder = detail::folder_of(path_);  // nothing may throw once the file is in place
         if (!detail::rename_over(temporary_, path_)) detail::raise_io(path_, "can't replace", errno);
         temporary_.clear();
-        detail::sync_folder_of(path_);
+        detail::sync_folder(folder);
     }
 
   private:

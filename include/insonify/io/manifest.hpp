@@ -33,7 +33,7 @@ class csv_table {
     explicit csv_table(std::initializer_list<std::string_view> columns) : columns_(columns.size()) {
         detail::require(columns_ > 0, "columns", columns_, "at least 1");
         std::size_t index = 0;
-        for (const std::string_view name : columns) append(name, index++);
+        for (const std::string_view name : columns) append(text_, name, index++);
         text_ += "\r\n";
     }
 
@@ -43,9 +43,11 @@ class csv_table {
     void add(const Cells&... cells) {
         detail::require(sizeof...(cells) == columns_, "cells in a row", sizeof...(cells),
                         detail::to_text(columns_) + ", one for each column");
+        std::string line;  // whole before it is added, should memory run out
         std::size_t index = 0;
-        (append(cells, index++), ...);
-        text_ += "\r\n";
+        (append(line, cells, index++), ...);
+        line += "\r\n";
+        text_ += line;
     }
 
     const std::string& text() const { return text_; }
@@ -55,27 +57,27 @@ class csv_table {
 
   private:
     template <csv_cell Cell>
-    void append(const Cell& cell, std::size_t index) {
-        if (index > 0) text_ += ',';
+    void append(std::string& line, const Cell& cell, std::size_t index) const {
+        if (index > 0) line += ',';
         if constexpr (detail::csv_text<Cell>) {
-            append_text(cell);
+            append_text(line, cell);
         } else {
-            text_ += detail::to_text(cell);
+            line += detail::to_text(cell);
         }
     }
-    void append_text(std::string_view cell) {
+    void append_text(std::string& line, std::string_view cell) const {
         // An empty cell alone would make an empty line, which readers skip.
         const bool quote = cell.find_first_of(",\"\r\n") != std::string_view::npos || (cell.empty() && columns_ == 1);
         if (!quote) {
-            text_ += cell;
+            line += cell;
             return;
         }
-        text_ += '"';
+        line += '"';
         for (const char c : cell) {
-            if (c == '"') text_ += '"';
-            text_ += c;
+            if (c == '"') line += '"';
+            line += c;
         }
-        text_ += '"';
+        line += '"';
     }
 
     std::size_t columns_;

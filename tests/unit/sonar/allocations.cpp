@@ -1,0 +1,84 @@
+// Memory that runs out at any point of a picture or a recording: std::bad_alloc, and nothing is left allocated.
+#include <insonify/core/thread_pool.hpp>
+#include <insonify/insonify.hpp>
+
+#include <utility>
+
+#include "../../failing_new.hpp"
+
+namespace in = insonify;
+
+namespace {
+
+in::scene mixed_scene() {
+    in::scene s;
+    s.seabed = in::seabed::mixed{.layers = {{in::seabed::ripples{}, in::seabed::disc{{0, 0}, 2}}}};
+    s.add(in::cylinder{.radius = 0.3f, .length = 1, .segments = 8}, {.position = {0, 0, 0.3}}, "cylinder");
+    s.add(in::cube{}, {.position = {1, 1, 0.5}}, "cube");
+    return s;
+}
+constexpr in::overhead rig{.altitude = 4, .size = {12, 10}, .grazing = 0.4f};
+const in::side_scan sonar{.altitude = 4, .ping_spacing = 0.5f, .pings = 3, .range = 8, .bins = 12};
+
+}  // namespace
+
+TEST_CASE("render() survives any failed allocation, with each shadow policy") {
+    const in::scene s = mixed_scene();
+    const auto drawn = [&](const auto& policy) {
+        return failing_new::in_turn([&] {
+            const auto frame = in::render(s, rig, in::render_options<>{.cells = 6}.with(policy));
+            return std::pair(frame.image, frame.labels.shadow);
+        });
+    };
+    CHECK(drawn(in::shadow::exact{}) > 50);
+    CHECK(drawn(in::shadow::none{}) > 20);
+    CHECK(drawn(in::shadow::map{}) > 50);
+    CHECK(drawn(in::shadow::penumbra{.samples = 2}) > 50);
+    CHECK(failing_new::in_turn([&] { return in::visible_triangles(s, rig).triangle; }) > 20);
+}
+
+TEST_CASE("record() survives any failed allocation, with looks and speckle") {
+    const in::scene s = mixed_scene();
+    const auto options = in::record_options<>{}.with(
+        in::sonar_equation{in::horizontal_beam{0.2f}, in::pulse{}, in::noise_floor{}, in::level_gain{}});
+    CHECK(failing_new::in_turn([&] {
+              auto heard = in::with_speckle(in::with_tone(in::render(s, sonar, options), sonar, {.drift = 2}));
+              const auto ground = in::to_ground_range(heard, sonar, {.altitude = 4, .range = 7, .bins = 9});
+              return std::pair(ground.image | in::water_column{} | in::automatic_display{}, ground.labels.seabed);
+          }) > 50);
+}
+
+TEST_CASE("Drawing on several threads survives any failed allocation, and the pool goes on") {
+    const in::scene s = mixed_scene();
+    in::thread_pool pool(3);
+    CHECK(failing_new::in_turn([&] { return in::render(s, rig, {.cells = 6}, pool).image; }) > 50);
+    CHECK(failing_new::in_turn([&] { return in::render(s, sonar, in::record_options<>{}, pool).image; }) > 20);
+}
+
+TEST_CASE("Occlusion survives any failed allocation") {
+    const in::scene s = mixed_scene();
+    const glm::dvec3 at[] = {{0, 0, 1}, {0.9, 0.1, 0.02}};
+    CHECK(failing_new::in_turn([&] {
+              const auto built = in::occlusion_of(s, in::light_of(rig), {.box = {{-1, -1, 0}, {1, 1, 1}}, .cell = 0.5});
+              return built.test(at).lit;
+          }) > 20);
+}
+
+TEST_CASE("A target that cannot be added leaves the scene as it was") {
+    in::scene s = mixed_scene();
+    s.targets.shrink_to_fit();
+    const std::string long_name(100, 'x');
+    CHECK(failing_new::in_turn([&] {
+              const std::size_t before = s.targets.size();
+              bool is_whole = true;
+              try {
+                  s.add(in::cube{}, {}, long_name);
+                  is_whole = s.targets.size() == before + 1 && s.targets.back().class_name == long_name;
+                  s.targets.pop_back();
+                  s.targets.shrink_to_fit();
+              } catch (const std::bad_alloc&) {
+                  is_whole = s.targets.size() == before && s.targets.back().class_name == "cube";
+              }
+              return is_whole;
+          }) > 3);
+}
