@@ -8,9 +8,11 @@
 #include <insonify/core/error.hpp>
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <string_view>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -176,6 +178,20 @@ inline double atan2(double y, double x) {
 }
 
 }  // namespace numeric
+namespace detail {
+
+template <std::floating_point Number>
+void require_finite(std::string_view argument, Number value) {
+    require(numeric::is_finite(value), argument, value, "finite");
+}
+
+/// Calls the `validate` that a type brings along, if it brings one.
+template <class T>
+void validate_if_possible(const T& value) {
+    if constexpr (requires { validate(value); }) validate(value);
+}
+
+}  // namespace detail
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

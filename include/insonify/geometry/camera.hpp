@@ -28,8 +28,14 @@ struct camera {
 };
 
 /// From the world to the camera's frame: x right, y up, z towards the viewer.
-/// @throws invalid_input for an eye at the target, or `up` along the line of sight
+/// @throws invalid_input for a coordinate that is not finite, an eye at the target, or `up` along the line of sight
 inline affine look_at(const camera& c) {
+    const auto require_finite = [](const char* name, const glm::dvec3& v) {
+        for (int i = 0; i < 3; ++i) detail::require_finite(name, v[i]);
+    };
+    require_finite("camera.eye", c.eye);
+    require_finite("camera.target", c.target);
+    require_finite("camera.up", c.up);
     const glm::dvec3 back = detail::unit(c.eye - c.target), right = detail::unit(numeric::cross(c.up, back));
     const double turned = numeric::dot(right, right);
     detail::require(turned > 0.5 && numeric::is_finite(turned), "length of up x line of sight", turned, "above 0");

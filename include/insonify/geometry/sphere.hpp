@@ -33,12 +33,13 @@ struct hemisphere {
 namespace detail {
 
 /// Turns an outline about z and stretches the result; the normals follow.
-inline mesh stretched_round(const std::vector<outline_point>& outline, const glm::vec3& aspect, int segments) {
+inline mesh stretched_round(const std::vector<outline_point>& outline, const char* name, const glm::vec3& aspect,
+                            int segments) {
     mesh out = revolve(outline, segments);
     if (aspect == glm::vec3(1)) return out;
     affine stretch;
     for (int i = 0; i < 3; ++i) {
-        require(numeric::is_finite(aspect[i]) && aspect[i] > 0, "aspect", aspect[i], "finite and positive");
+        require(numeric::is_finite(aspect[i]) && aspect[i] > 0, name, aspect[i], "finite and positive");
         stretch.linear[i][i] = static_cast<double>(aspect[i]);
     }
     return transformed(std::move(out), stretch);
@@ -54,7 +55,7 @@ inline mesh to_mesh(const sphere& shape) {
     detail::require_round_segments("sphere.segments", shape.segments);
     std::vector<outline_point> outline;
     detail::append_arc(outline, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
-    return detail::stretched_round(outline, shape.aspect, shape.segments);
+    return detail::stretched_round(outline, "sphere.aspect", shape.aspect, shape.segments);
 }
 
 /// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
@@ -65,7 +66,7 @@ inline mesh to_mesh(const hemisphere& shape) {
     const auto radius = static_cast<double>(shape.radius);
     std::vector<outline_point> outline = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
     detail::append_arc(outline, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
-    return detail::stretched_round(outline, shape.aspect, shape.segments);
+    return detail::stretched_round(outline, "hemisphere.aspect", shape.aspect, shape.segments);
 }
 
 /// Fewest segments with which no point of the shape is farther than `deviation` from the mesh's surface, whatever the

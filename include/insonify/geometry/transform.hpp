@@ -74,6 +74,7 @@ inline affine inverse(const affine& map) {
     const double determinant = numeric::dot(map.linear[0], areas[0]);
     detail::require(determinant != 0 && numeric::is_finite(determinant), "determinant of affine.linear", determinant,
                     "finite and not 0");
+    for (int i = 0; i < 3; ++i) detail::require_finite("affine.offset", map.offset[i]);
     const glm::dmat3 linear = glm::transpose(areas) / determinant;
     return {linear, -numeric::product(linear, map.offset)};
 }
@@ -81,9 +82,7 @@ inline affine inverse(const affine& map) {
 /// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
 /// @throws invalid_input for a value that is not finite, or a scale that is not positive (mirror with an `affine`)
 inline affine to_world(const pose& p) {
-    const auto require_finite = [](const char* name, auto value) {
-        detail::require(numeric::is_finite(value), name, value, "finite");
-    };
+    using detail::require_finite;
     require_finite("pose.position.x", p.position.x);
     require_finite("pose.position.y", p.position.y);
     require_finite("pose.position.z", p.position.z);

@@ -60,7 +60,7 @@ void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit)
 ///
 /// No two triangles that share a longest side could be replaced by the one that they are halves of.
 /// @param first  as for `tessellate`
-/// @throws invalid_input as `tessellate`, and for a negative or NaN leeway
+/// @throws invalid_input as `tessellate`, and for a negative or NaN leeway or a nadir that is not finite
 template <executor_argument Executor = serial_executor>
 adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Executor&& ex = serial_executor{},
                          glm::ivec2 first = {0, 0}) {
@@ -68,6 +68,8 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
     detail::require(allowed.height >= 0, "leeway.height", allowed.height, "metres, at least 0");
     detail::require(allowed.slope >= 0, "leeway.slope", allowed.slope, "a slope, at least 0");
     detail::require(allowed.lean >= 0, "leeway.lean", allowed.lean, "square metres, at least 0");
+    insonify::detail::require_finite("leeway.nadir.x", allowed.nadir.x);
+    insonify::detail::require_finite("leeway.nadir.y", allowed.nadir.y);
     const image<float>& heights = field.heights;
     detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(), "below 2^32");
     const detail::needed_vertices needed(field, allowed, ex);

@@ -16,7 +16,8 @@ struct material {
 };
 
 /// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. One that
-/// has `in_lanes` too computes several pixels at a time, by reference.
+/// has `in_lanes` too computes several pixels at a time, by reference. A `validate(law)` beside it, found by its type,
+/// is called before anything is drawn.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
@@ -58,6 +59,13 @@ struct facet_backscatter {
                                   (exponent < 80 ? static_cast<double>(facets) * numeric::exp(-exponent) : 0.0));
     }
 };
+
+/// @throws invalid_input for a value out of its range
+inline void validate(const facet_backscatter& f) {
+    using detail::require;
+    require(f.facets >= 0 && numeric::is_finite(f.facets), "facet_backscatter.facets", f.facets, "0 or more");
+    require(f.slope > 0 && numeric::is_finite(f.slope), "facet_backscatter.slope", f.slope, "above 0");
+}
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -111,8 +111,10 @@ class tone_sampler {
 }  // namespace detail
 
 /// The level that a tone adds at a position, decibels.
-/// @throws invalid_input for a parameter out of its range
+/// @throws invalid_input for a parameter out of its range, or a position that is not finite
 inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
+    detail::require_finite("position.x", position.x);
+    detail::require_finite("position.y", position.y);
     return detail::tone_sampler(tone)(position);
 }
 
@@ -120,9 +122,10 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// their place on the datum; targets, shadows' noise and the water column stay.
 ///
 /// @param r    as `render` made it of this rig: before noise and speckle
-/// @throws invalid_input for a parameter out of its range
+/// @throws invalid_input for a rig or a parameter out of its range
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
+    validate(rig);
     const detail::tone_sampler level(tone);
     if (tone.is_none()) return r;
     const ping_numbers numbers = r.rows;

@@ -77,8 +77,11 @@ struct automatic_display {
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a share out of its range
+    /// @throws invalid_input for a parameter out of its range
     auto pass(image_view<const float> picture) const {
+        detail::require(
+            scale == display_scale::power || scale == display_scale::amplitude || scale == display_scale::decibels,
+            "automatic_display.scale", static_cast<int>(scale), "power, amplitude or decibels");
         detail::require(black >= 0 && black <= 0.49f, "automatic_display.black", black, "0 to 0.49");
         detail::require(white >= 0 && white <= 0.49f, "automatic_display.white", white, "0 to 0.49");
         std::vector<float> values;

@@ -47,7 +47,7 @@ class scene_occlusion {
     template <class Shadow, executor E>
     scene_occlusion(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                     const Shadow& policy, E& ex)
-        : centre_((require_box(within), within.box.centre())),
+        : centre_((require_box(within), require_light(light), within.box.centre())),
           shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
           targets_(s.targets.size()),
           built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
@@ -92,6 +92,14 @@ class scene_occlusion {
                         "0 metres or more");
         detail::require(within.reach >= 0 && numeric::is_finite(within.reach), "occlusion_bounds.reach", within.reach,
                         "0 or more");
+    }
+    static void require_light(const shadow::any_light& light) {
+        if (const auto* parallel = std::get_if<shadow::directional_light>(&light)) {
+            static_cast<void>(shadow::light_frame(*parallel));
+            return;
+        }
+        for (int i = 0; i < 3; ++i)
+            detail::require_finite("point_light.position", std::get<shadow::point_light>(light).position[i]);
     }
     affine around_centre(affine to_world) const {
         to_world.offset -= glm::dvec3(centre_.x, centre_.y, 0);

@@ -90,9 +90,10 @@ inline bottom_materials resolved_bottom(const scene& s) {
 /// The same pose lowered or raised until the shape just touches the seabed: no vertex is below it, one is on it.
 /// `burial` then sinks it from there.
 /// @param shape  of at least one position
-/// @throws invalid_input for a shape without positions
+/// @throws invalid_input for a shape without positions, or a pose that can't be right
 inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose placement) {
     detail::require(!shape.positions.empty(), "shape.positions.size()", shape.positions.size(), "at least 1");
+    detail::require_finite("pose.burial", placement.burial);
     pose bare = placement;
     bare.burial = 0;
     const affine map = to_world(bare);

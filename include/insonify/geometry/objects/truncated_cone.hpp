@@ -32,6 +32,7 @@ struct truncated_cone {
 /// @throws invalid_input for a value outside its range
 inline void validate(const truncated_cone& c) {
     detail::require_size("truncated_cone.diameter", c.diameter);
+    detail::require_size("truncated_cone.height", c.height);
     detail::require_thickness("truncated_cone.height", c.height, (std::max)(c.height, c.diameter));
     detail::require_thickness("truncated_cone.top_diameter", c.top_diameter, c.diameter);
     detail::require(c.shoulder >= 0 && c.shoulder <= 0.2f * (std::min)(c.height, c.top_diameter),

@@ -52,6 +52,8 @@ inline std::array<wedge_station, 4> stations_of(const wedge& w) {
 inline void validate(const wedge& w) {
     using namespace detail;
     require_size("wedge.length", w.length);
+    require_size("wedge.width", w.width);
+    require_size("wedge.height", w.height);
     const float larger = w.length > w.width ? w.length : w.width;
     require_thickness("wedge.width", w.width, larger);
     require_thickness("wedge.height", w.height, larger > w.height ? larger : w.height);

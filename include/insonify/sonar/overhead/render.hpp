@@ -32,6 +32,9 @@ class overhead_painter {
         materials_ = resolved_bottom(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{});  // the first draw fills it, and the depths
+        validate_if_possible(options.law);
+        require(options.cells >= 0 && options.cells <= 32768, "cells", options.cells, "0 to 32768");
+        require(options.reach >= 0 && numeric::is_finite(options.reach), "reach", options.reach, "0 or more");
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) {
@@ -96,8 +99,6 @@ class overhead_painter {
         const overhead& rig = view_.rig();
         const int longer = (std::max)(rig.size.x, rig.size.y);
         const int cells = options_.cells > 0 ? options_.cells : (longer + 1) / 2;
-        require(cells <= 32768, "cells", cells, "at most 32768");
-        require(options_.reach >= 0 && numeric::is_finite(options_.reach), "reach", options_.reach, "0 or more");
         const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
         const double spacing = longer_side / cells;
 

@@ -39,8 +39,8 @@ struct overhead {
 /// @throws invalid_input for a value that can't be right
 inline void validate(const overhead& rig) {
     using detail::require;
-    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "overhead.position",
-            rig.position.x + rig.position.y, "finite coordinates");
+    detail::require_finite("overhead.position.x", rig.position.x);
+    detail::require_finite("overhead.position.y", rig.position.y);
     require(rig.altitude > 0 && numeric::is_finite(rig.altitude), "overhead.altitude", rig.altitude, "above 0");
     require(numeric::is_finite(rig.yaw), "overhead.yaw", rig.yaw, "a finite angle");
     require(rig.field_of_view > 0 && static_cast<double>(rig.field_of_view) < numeric::to_radians(179.9),

@@ -33,11 +33,13 @@ struct ping {
 
 /// @throws invalid_input for a value that can't be right
 inline void validate(const ping& p) {
-    const double sum = p.position.x + p.position.y + p.position.z + p.yaw;
-    detail::require(numeric::is_finite(sum), "ping.position", sum, "finite");
+    detail::require_finite("ping.position.x", p.position.x);
+    detail::require_finite("ping.position.y", p.position.y);
+    detail::require_finite("ping.position.z", p.position.z);
+    detail::require_finite("ping.yaw", p.yaw);
     detail::require(numeric::magnitude(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
                     "at most 80 degrees, in radians");
-    detail::require(numeric::is_finite(p.roll), "ping.roll", p.roll, "a finite angle");
+    detail::require_finite("ping.roll", p.roll);
 }
 
 /// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
@@ -70,10 +72,10 @@ using ground_range = side_scan_rig<across_track::ground_range>;
 template <across_track Axis>
 void validate(const side_scan_rig<Axis>& rig) {
     using detail::require;
-    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "side_scan.position",
-            rig.position.x + rig.position.y, "finite coordinates");
-    require(numeric::is_finite(rig.altitude), "side_scan.altitude", rig.altitude, "a finite height");
-    require(numeric::is_finite(rig.yaw), "side_scan.yaw", rig.yaw, "a finite angle");
+    detail::require_finite("side_scan.position.x", rig.position.x);
+    detail::require_finite("side_scan.position.y", rig.position.y);
+    detail::require_finite("side_scan.altitude", rig.altitude);
+    detail::require_finite("side_scan.yaw", rig.yaw);
     require(rig.ping_spacing > 0 && numeric::is_finite(rig.ping_spacing), "side_scan.ping_spacing", rig.ping_spacing,
             "above 0");
     require(rig.pings >= 1 && rig.pings <= 1 << 20, "side_scan.pings", rig.pings, "1 to 2^20");
@@ -82,6 +84,8 @@ void validate(const side_scan_rig<Axis>& rig) {
     require(rig.range > rig.first_range && rig.range <= 1e5f, "side_scan.range", rig.range,
             "above first_range and at most 10^5 metres");
     require(rig.bins >= 1 && rig.bins <= 1 << 20, "side_scan.bins", rig.bins, "1 to 2^20");
+    require(rig.side == side::port || rig.side == side::starboard, "side_scan.side", static_cast<int>(rig.side),
+            "port or starboard");
 }
 
 /// A ping of the rig's track; those before the first and after the last are on the same line.

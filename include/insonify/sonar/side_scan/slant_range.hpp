@@ -51,6 +51,7 @@ double default_cell(const side_scan_rig<Axis>& rig) {
 /// How many pings away the beam reaches at the largest range.
 template <class Beam, across_track Axis>
 int beam_reach(const Beam& beam, const side_scan_rig<Axis>& rig) {
+    validate_if_possible(beam);
     const double range = static_cast<double>(rig.range), altitude = static_cast<double>(rig.altitude);
     const double slant =
         Axis == across_track::slant_range ? range : numeric::square_root(range * range + altitude * altitude);
@@ -73,6 +74,8 @@ class recorder {
         validate(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "metres, or 0");
+        validate_if_possible(options.law);
+        options.equation.for_each([](const auto& part) { validate_if_possible(part); });
         for (const ping& p : track) validate(p);
         out_.rows.side = rig.side;
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));

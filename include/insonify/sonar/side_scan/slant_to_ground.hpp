@@ -17,7 +17,9 @@ inline namespace INSONIFY_ABI {
 /// @param from       its rig
 /// @param to         which ground ranges the result's columns are: first_range, range and bins count
 /// @param altitudes  of the sonar above the bottom, one per row from the top, or none: then all are the rig's
-/// @throws invalid_input for a rig that can't be right, or a number of altitudes that is neither 0 nor that of rows
+/// @throws invalid_input for a rig that can't be right, or a number of altitudes that is neither 0 nor that of rows, or
+/// one
+///         that is not finite
 template <class Labels>
 frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from, const ground_range& to,
                               std::span<const double> altitudes = {}) {
@@ -26,6 +28,7 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
     detail::require(bins == from.bins, "from.bins", from.bins, "the recording's width");
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");
+    for (const double altitude : altitudes) detail::require_finite("altitudes", altitude);
     frame<Labels> out;
     out.stats = slant.stats;
     out.rows = slant.rows;

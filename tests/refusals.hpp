@@ -1,0 +1,90 @@
+// Walks the fields of an aggregate: every value that cannot be right is refused by a message that names the field.
+#pragma once
+
+#include <insonify/core/error.hpp>
+
+#include <cstddef>
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "catch.hpp"
+
+namespace refusals {
+
+inline constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Values that cannot be right.
+inline const std::vector<double> not_finite{nan_value, infinity, -infinity};
+inline const std::vector<double> not_above_0{nan_value, infinity, -infinity, -1, 0};
+inline const std::vector<double> below_0{nan_value, infinity, -infinity, -1};
+/// Outside of `least` to `most`.
+inline std::vector<double> outside(double least, double most) {
+    const double step = 0.01 * (most - least) + 1e-3;
+    return {nan_value, infinity, -infinity, least - step, most + step};
+}
+/// The same for whole numbers.
+inline std::vector<double> outside_whole(double least, double most) {
+    return {least - 1, most + 1, -1e9};
+}
+
+/// A field: its name as messages have it, how it is set, and what it cannot be.
+template <class T>
+struct field {
+    const char* name;
+    void (*set)(T&, double);
+    std::vector<double> values;
+};
+
+/// `FIELD(altitude, not_above_0)`: a row of the table for a member, or a member of a member.
+#define FIELD(member, ...)                                                                                             \
+    {                                                                                                                  \
+#member,                                                                                                       \
+            [](auto& o, double v) { o.member = static_cast<std::remove_cvref_t<decltype(o.member)>>(v); }, __VA_ARGS__ \
+    }
+
+/// What `use` says when it refuses; empty if it does not.
+template <class Use>
+std::string refusal(const Use& use) {
+    try {
+        use();
+    } catch (const insonify::invalid_input& e) {
+        return e.what();
+    }
+    return {};
+}
+
+/// Checks that `use` takes `good`, and refuses it by name with each of the values in each of the fields.
+/// @param owner  how messages begin: "overhead." before "altitude"
+template <class T, class Use>
+void walk(const std::string& owner, const T& good, const Use& use, std::initializer_list<field<T>> fields) {
+    INFO(owner);
+    CHECK(refusal([&] { use(good); }) == "");
+    for (const field<T>& f : fields)
+        for (const double value : f.values) {
+            T bad = good;
+            f.set(bad, value);
+            INFO(f.name << " = " << value);
+            CHECK_THAT(refusal([&] { use(bad); }), ContainsSubstring(owner + f.name));
+        }
+}
+
+/// Converts to any type: for counting what an aggregate takes.
+struct anything {
+    template <class T>
+    operator T() const;
+};
+
+/// How many members an aggregate has, so that a member that a table leaves out breaks the build.
+template <class T, class... Given>
+constexpr std::size_t members() {
+    if constexpr (requires { T{Given{}..., anything{}}; })
+        return members<T, Given..., anything>();
+    else
+        return sizeof...(Given);
+}
+
+}  // namespace refusals
