@@ -11,6 +11,7 @@
 #include <insonify/core/detail/correlation.hpp>
 #include <insonify/core/detail/gamma.hpp>
 #include <insonify/core/executor.hpp>
+#include <insonify/sonar/side_scan/detail/speckle_draws.hpp>
 #include <insonify/sonar/side_scan/swath.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -61,10 +62,14 @@ class ping_noise {
         : key_(stream_key(seed, static_cast<std::uint32_t>(stream) + static_cast<std::uint32_t>(s))) {}
 
     philox_counter operator()(std::int64_t ping, std::uint32_t bin, std::uint32_t draw) const {
-        const auto number = static_cast<std::uint64_t>(ping);
-        return philox4x32({bin, static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32), draw},
-                          key_);
+        return philox4x32(counter(ping, bin, draw), key_);
     }
+
+    static philox_counter counter(std::int64_t ping, std::uint32_t bin, std::uint32_t draw) {
+        const auto number = static_cast<std::uint64_t>(ping);
+        return {bin, static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32), draw};
+    }
+    const philox_key& key() const { return key_; }
 
   private:
     philox_key key_;
@@ -98,18 +103,14 @@ class speckle_field {
     }
 
   private:
-    /// One ping, correlated across the track. A block of words serves two bins.
+    /// One ping, correlated across the track.
     void row(std::int64_t ping, std::uint32_t look, std::span<float> out) const {
         const std::size_t reach = across_.size() - 1, margin = reach + (reach & 1);
-        std::vector<float> white(2 * (bins_ + 2 * margin + 2));
-        for (std::size_t i = 0; i < bins_ + 2 * margin; i += 2) {
-            const philox_counter words = noise_(ping, static_cast<std::uint32_t>(i - margin), look);
-            for (std::size_t k = 0; k < 2; ++k) {
-                const auto [re, im] = normal_pair(words[2 * k], words[2 * k + 1]);
-                white[2 * (i + k)] = static_cast<float>(re * 0.70710678118654752);
-                white[2 * (i + k) + 1] = static_cast<float>(im * 0.70710678118654752);
-            }
-        }
+        const std::size_t blocks = (bins_ + 2 * margin + 1) / 2;
+        std::vector<float> white(4 * (blocks + speckle_draw_kernel::most_lanes));
+        const std::uint32_t first = 0u - static_cast<std::uint32_t>(margin);
+        dispatch(speckle_draw_kernel{noise_.key(), ping_noise::counter(ping, first, look), white.data(), blocks},
+                 best_isa());
         for (std::size_t x = 0; x < out.size(); ++x) {
             const float* const at = &white[x + 2 * margin];
             float sum = across_[0] * *at;

@@ -181,3 +181,23 @@ TEST_CASE("Speckle that can't be is refused by name") {
     CHECK_THROWS_AS(in::with_speckle(mean.view(), narrow.view(), {}, {}), in::invalid_input);
     CHECK_THROWS_AS(in::with_speckle(mean.view(), types.view(), {}, {.step = 2}), in::invalid_input);
 }
+
+TEST_CASE("Draws of speckle are normal_pair's to the bit, at every instruction set and count") {
+    const in::philox_key key = in::stream_key(5, 9);
+    for (const in::isa level : {in::isa::scalar, in::isa::baseline, in::best_isa()})
+        for (const std::size_t blocks : {std::size_t{1}, std::size_t{3}, std::size_t{8}}) {
+            // The bins wrap from below 0.
+            const in::philox_counter first{0u - 2, 7, 1, 3};
+            std::vector<float> drawn(4 * (blocks + in::detail::speckle_draw_kernel::most_lanes));
+            in::detail::dispatch(in::detail::speckle_draw_kernel{key, first, drawn.data(), blocks}, level);
+            for (std::size_t i = 0; i < blocks; ++i) {
+                const in::philox_counter words =
+                    in::philox4x32({first[0] + 2 * static_cast<std::uint32_t>(i), 7, 1, 3}, key);
+                for (std::size_t k = 0; k < 2; ++k) {
+                    const auto [re, im] = in::normal_pair(words[2 * k], words[2 * k + 1]);
+                    CHECK(drawn[4 * i + 2 * k] == static_cast<float>(re * 0.70710678118654752));
+                    CHECK(drawn[4 * i + 2 * k + 1] == static_cast<float>(im * 0.70710678118654752));
+                }
+            }
+        }
+}
