@@ -45,11 +45,14 @@ inline insonify::image<float> parse_gray(std::string_view bytes, const std::stri
     }
     if (!is_picture(bytes)) fail("is not a PNG, JPEG, BMP, PGM, PPM or PFM");
 
+    const auto damaged = [] {
+        return "is damaged, or claims more pixels than can be read (" + std::string(stbi_failure_reason()) + ")";
+    };
     const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());
     if (bytes.size() > 0x7FFFFFFF) fail("is larger than 2 GiB");
     const int size = static_cast<int>(bytes.size());
     int width = 0, height = 0, channels = 0;
-    if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) fail(stbi_failure_reason());
+    if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) fail(damaged());
     // A BMP stored from the top down has a negative height here, and a header may hold anything.
     const auto columns = static_cast<std::int64_t>(width), rows = std::abs(static_cast<std::int64_t>(height));
     const std::string shape = std::to_string(columns) + " x " + std::to_string(rows) + " pixels";
@@ -58,7 +61,7 @@ inline insonify::image<float> parse_gray(std::string_view bytes, const std::stri
         fail(shape + " are more than " + std::to_string(limit) + " bytes");
     const std::unique_ptr<stbi_us, void (*)(void*)> pixels(
         stbi_load_16_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
-    if (!pixels) fail(stbi_failure_reason());
+    if (!pixels) fail(damaged());
     insonify::image<insonify::rgb<float>> color(width, height);
     for (std::size_t i = 0; i < color.size(); ++i) {
         const stbi_us* const p = pixels.get() + 3 * i;

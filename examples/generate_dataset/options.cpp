@@ -77,7 +77,10 @@ options parsed(int argc, const char* const* argv,
     const CLI::Validator seabed_names = CLI::IsMember({"ripples", "mud", "rock", "sand", "mixed", "heightmap"});
 
     const char* const what = "What to make";
-    app.add_option("--out", o.out, "Folder of the data set; made if need be")->required()->group(what);
+    app.add_option("--out", o.out, "Folder of the data set; made if need be")
+        ->required()
+        ->check([](const std::string& name) { return name.empty() ? "this is no folder's name" : ""; })
+        ->group(what);
     app.add_option("--count", o.count, "How many images (24)")->check(whole_number(1, most_images))->group(what);
     app.add_option("--first", o.first, "Index of the first image (0)")
         ->check(whole_number(0, most_images - 1))

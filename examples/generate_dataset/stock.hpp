@@ -23,6 +23,7 @@ class stock {
             const std::string name = mesh.substr(0, equals), path = mesh.substr(equals + 1);
             in::mesh shape = in::read_obj(reader.read("--mesh " + name, path), "--mesh " + name + " " + path);
             if (shape.triangles.empty()) throw in::io_error("--mesh " + name + " " + path + ": holds no polygon");
+            if (!has_area(shape)) throw in::io_error("--mesh " + name + " " + path + ": its polygons have no area");
             meshes_[name] = upright(std::move(shape), o.mesh_up == "y");
         }
         if (!o.heightmap.empty()) {
@@ -61,6 +62,14 @@ class stock {
     }
 
   private:
+    static bool has_area(const in::mesh& m) {
+        for (const glm::uvec3& t : m.triangles) {
+            const glm::dvec3 a(m.positions[t.x]), b(m.positions[t.y]), c(m.positions[t.z]);
+            if (in::numeric::cross(b - a, c - a) != glm::dvec3(0)) return true;
+        }
+        return false;
+    }
+
     /// Turned so that z is up, moved to its middle, and scaled to a largest extent of 1.
     static in::mesh upright(in::mesh m, bool y_up) {
         if (y_up) m = in::transformed(std::move(m), in::to_world({.roll = in::literals::operator""_deg(90ull)}));

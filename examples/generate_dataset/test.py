@@ -278,6 +278,13 @@ class Generator(unittest.TestCase):
             "--heightmap-scale", 0.2)
         self.assertEqual(len(list((self.folder / "a" / "images" / "tetra").rglob("*.png"))), 2)
 
+    def test_a_mesh_that_shows_nothing_is_no_class(self):
+        mesh = self.folder / "m.obj"
+        for text, reason in (("# nothing\n", "holds no polygon"), ("v 1 1 1\nv 1 1 1\nv 2 2 2\nf 1 2 3\n", "have no area")):
+            mesh.write_text(text)
+            self.assertIn(reason, refusal("--out", self.folder / "a", "--mesh", f"wreck={mesh}"))
+        self.assertFalse((self.folder / "a").exists())
+
     def read_labels(self, folder):
         """The manifest's rows, with the boxes of the target and of its shadow."""
         coco = json.loads((folder / "annotations.json").read_text())
@@ -375,6 +382,9 @@ class Generator(unittest.TestCase):
         self.assertEqual({name: [row["class"] for row in rows].count(name) for name in counts}, counts)
         self.assertIn("is not CLASS=COUNT", refusal("--recipe", "sonar", "--out", "x", "--per-class", "submarine=3"))
         self.assertIn("is not CLASS=COUNT", refusal("--recipe", "sonar", "--out", "x", "--per-class", "ship=0"))
+        self.assertIn("'ship' is there twice",
+                      refusal("--recipe", "sonar", "--out", "x", "--per-class", "ship=1,plane=1,ship=2"))
+        self.assertIn("is not CLASS=COUNT", refusal("--out", "x", "--targets", "cube", "--per-class", "cone=3"))
 
     def test_options_of_the_other_recipe_are_refused(self):
         self.assertIn("belongs to --recipe published", refusal("--recipe", "sonar", "--out", "x", "--mode", "overhead"))
@@ -436,6 +446,7 @@ class Generator(unittest.TestCase):
         for name in 'a,b', 'a"b', "a/b", "", "..", "a b":
             refused("is not CLASS=FILE", *out, "--mesh", f"{name}=f.obj")
         refused("does not exist", *out, "--reference", self.folder / "nowhere")
+        refused("--out: this is no folder's name", "--out", "")
         self.assertFalse((self.folder / "a").exists())
         (self.folder / "other").mkdir()
         (self.folder / "other" / "thesis.txt").write_text("mine")
@@ -488,6 +499,10 @@ class Generator(unittest.TestCase):
         self.assertEqual(len(images), 1)
         (self.folder / "p6.jpg").write_bytes(b"P6 2 2 65535\n" + bytes(range(24)))
         run("--out", self.folder / "color", *SMALL, "--reference", self.folder / "p6.jpg")
+        (self.folder / "bomb.png").write_bytes(
+            b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR" + struct.pack(">IIBBBBBI", 1 << 30, 1 << 30, 8, 0, 0, 0, 0, 0))
+        self.assertIn("more pixels than can be read",
+                      refusal("--out", self.folder / "a", "--reference", self.folder / "bomb.png"))
         (self.folder / "not.png").write_text("hello")
         self.assertIn("is not a PNG", refusal("--out", self.folder / "a", "--reference", self.folder / "not.png"))
 

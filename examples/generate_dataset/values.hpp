@@ -98,13 +98,14 @@ inline void check_classes(const options& o) {
     }
 }
 
-/// @throws CLI::ValidationError for a `--per-class` that is not CLASS=COUNT of a class that the recipe has
+/// @throws CLI::ValidationError for a `--per-class` that is not CLASS=COUNT of a class that the set has, or has it
+/// twice
 inline void check_counts(const options& o) {
-    std::vector<std::string> known{"cylinder", "cube", "cone", "sphere"};
+    std::vector<std::string> known = o.targets, counted;
     for (const std::string& mesh : o.meshes) known.push_back(class_of(mesh));
     if (o.is_sonar())
-        known.insert(known.end(), {"ship", "plane", "truncated_cone", "wedge", "tyre", "pipe", "boulder", "crate",
-                                   "lobster_pot", "empty"});
+        known.insert(known.end(), {"cylinder", "cube", "cone", "sphere", "ship", "plane", "truncated_cone", "wedge",
+                                   "tyre", "pipe", "boulder", "crate", "lobster_pot", "empty"});
     for (const std::string& text : o.per_class) {
         const std::size_t equals = text.find('=');
         const std::string name = text.substr(0, equals);
@@ -116,6 +117,9 @@ inline void check_counts(const options& o) {
         if (!is_number || std::find(known.begin(), known.end(), name) == known.end())
             throw CLI::ValidationError(
                 "--per-class", "'" + text + "' is not CLASS=COUNT with a class of the recipe and a count from 1");
+        if (std::find(counted.begin(), counted.end(), name) != counted.end())
+            throw CLI::ValidationError("--per-class", "'" + name + "' is there twice; name each class once");
+        counted.push_back(name);
     }
 }
 
