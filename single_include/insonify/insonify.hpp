@@ -842,6 +842,16 @@ class image {
         }
     }
 
+    image(const image&) = default;
+    image(image&&) = default;
+    image& operator=(image&&) = default;
+    /// Where memory runs out, the image stays as it was.
+    image& operator=(const image& other) {
+        pixels_ = other.pixels_;
+        width_ = other.width_, height_ = other.height_;
+        return *this;
+    }
+
     int width() const { return width_; }
     int height() const { return height_; }
     std::size_t size() const { return pixels_.size(); }
@@ -1138,6 +1148,20 @@ inline double atan2(double y, double x) {
 }
 
 }  // namespace numeric
+namespace detail {
+
+template <std::floating_point Number>
+void require_finite(std::string_view argument, Number value) {
+    require(numeric::is_finite(value), argument, value, "finite");
+}
+
+/// Calls the `validate` that a type brings along, if it brings one.
+template <class T>
+void validate_if_possible(const T& value) {
+    if constexpr (requires { validate(value); }) validate(value);
+}
+
+}  // namespace detail
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -5281,6 +5305,7 @@ inline affine inverse(const affine& map) {
     const double determinant = numeric::dot(map.linear[0], areas[0]);
     detail::require(determinant != 0 && numeric::is_finite(determinant), "determinant of affine.linear", determinant,
                     "finite and not 0");
+    for (int i = 0; i < 3; ++i) detail::require_finite("affine.offset", map.offset[i]);
     const glm::dmat3 linear = glm::transpose(areas) / determinant;
     return {linear, -numeric::product(linear, map.offset)};
 }
@@ -5288,9 +5313,7 @@ inline affine inverse(const affine& map) {
 /// From the object's frame to the world's: R = Rz(yaw) Ry(pitch) Rx(roll), p -> scale R p + position - (0, 0, burial).
 /// @throws invalid_input for a value that is not finite, or a scale that is not positive (mirror with an `affine`)
 inline affine to_world(const pose& p) {
-    const auto require_finite = [](const char* name, auto value) {
-        detail::require(numeric::is_finite(value), name, value, "finite");
-    };
+    using detail::require_finite;
     require_finite("pose.position.x", p.position.x);
     require_finite("pose.position.y", p.position.y);
     require_finite("pose.position.z", p.position.z);
@@ -5351,8 +5374,14 @@ struct camera {
 };
 
 /// From the world to the camera's frame: x right, y up, z towards the viewer.
-/// @throws invalid_input for an eye at the target, or `up` along the line of sight
+/// @throws invalid_input for a coordinate that is not finite, an eye at the target, or `up` along the line of sight
 inline affine look_at(const camera& c) {
+    const auto require_finite = [](const char* name, const glm::dvec3& v) {
+        for (int i = 0; i < 3; ++i) detail::require_finite(name, v[i]);
+    };
+    require_finite("camera.eye", c.eye);
+    require_finite("camera.target", c.target);
+    require_finite("camera.up", c.up);
     const glm::dvec3 back = detail::unit(c.eye - c.target), right = detail::unit(numeric::cross(c.up, back));
     const double turned = numeric::dot(right, right);
     detail::require(turned > 0.5 && numeric::is_finite(turned), "length of up x line of sight", turned, "above 0");
@@ -6609,12 +6638,13 @@ struct hemisphere {
 namespace detail {
 
 /// Turns an outline about z and stretches the result; the normals follow.
-inline mesh stretched_round(const std::vector<outline_point>& outline, const glm::vec3& aspect, int segments) {
+inline mesh stretched_round(const std::vector<outline_point>& outline, const char* name, const glm::vec3& aspect,
+                            int segments) {
     mesh out = revolve(outline, segments);
     if (aspect == glm::vec3(1)) return out;
     affine stretch;
     for (int i = 0; i < 3; ++i) {
-        require(numeric::is_finite(aspect[i]) && aspect[i] > 0, "aspect", aspect[i], "finite and positive");
+        require(numeric::is_finite(aspect[i]) && aspect[i] > 0, name, aspect[i], "finite and positive");
         stretch.linear[i][i] = static_cast<double>(aspect[i]);
     }
     return transformed(std::move(out), stretch);
@@ -6630,7 +6660,7 @@ inline mesh to_mesh(const sphere& shape) {
     detail::require_round_segments("sphere.segments", shape.segments);
     std::vector<outline_point> outline;
     detail::append_arc(outline, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
-    return detail::stretched_round(outline, shape.aspect, shape.segments);
+    return detail::stretched_round(outline, "sphere.aspect", shape.aspect, shape.segments);
 }
 
 /// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
@@ -6641,7 +6671,7 @@ inline mesh to_mesh(const hemisphere& shape) {
     const auto radius = static_cast<double>(shape.radius);
     std::vector<outline_point> outline = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
     detail::append_arc(outline, radius, 0.0, 0.25, 0.5, (shape.segments + 3) / 4);
-    return detail::stretched_round(outline, shape.aspect, shape.segments);
+    return detail::stretched_round(outline, "hemisphere.aspect", shape.aspect, shape.segments);
 }
 
 /// Fewest segments with which no point of the shape is farther than `deviation` from the mesh's surface, whatever the
@@ -6722,18 +6752,22 @@ inline bool sync_to_disk(std::FILE* stream) {
 #endif
 }
 
-/// Brings the names in the folder of `path` to disk. A folder that can't be opened or synced, as on some network file
-/// systems, is left to the system: the file itself is on disk.
-inline void sync_folder_of(const std::string& path) {
-#if defined(__unix__) || defined(__APPLE__)
+/// The folder that `path` is in, as a path.
+inline std::string folder_of(const std::string& path) {
     const std::size_t slash = path.find_last_of('/');
-    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+}
+
+/// Brings the names in a folder to disk. A folder that can't be opened or synced, as on some network file systems, is
+/// left to the system: the file itself is on disk.
+inline void sync_folder(const std::string& folder) noexcept {
+#if defined(__unix__) || defined(__APPLE__)
     const int handle = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
     if (handle < 0) return;
     static_cast<void>(::fsync(handle));
     ::close(handle);
 #else
-    static_cast<void>(path);
+    static_cast<void>(folder);
 #endif
 }
 
@@ -6806,9 +6840,10 @@ class replacement_file {
         errno = 0;
         const bool written = error_ == 0 && detail::sync_to_disk(file_.get());
         if (!(file_.close() && written)) detail::raise_io(path_, "can't write", error_ != 0 ? error_ : errno);
+        const std::string folder = detail::folder_of(path_);  // nothing may throw once the file is in place
         if (!detail::rename_over(temporary_, path_)) detail::raise_io(path_, "can't replace", errno);
         temporary_.clear();
-        detail::sync_folder_of(path_);
+        detail::sync_folder(folder);
     }
 
   private:
@@ -9899,7 +9934,8 @@ struct material {
 };
 
 /// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. One that
-/// has `in_lanes` too computes several pixels at a time, by reference.
+/// has `in_lanes` too computes several pixels at a time, by reference. A `validate(law)` beside it, found by its type,
+/// is called before anything is drawn.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
@@ -9941,6 +9977,13 @@ struct facet_backscatter {
                                   (exponent < 80 ? static_cast<double>(facets) * numeric::exp(-exponent) : 0.0));
     }
 };
+
+/// @throws invalid_input for a value out of its range
+inline void validate(const facet_backscatter& f) {
+    using detail::require;
+    require(f.facets >= 0 && numeric::is_finite(f.facets), "facet_backscatter.facets", f.facets, "0 or more");
+    require(f.slope > 0 && numeric::is_finite(f.slope), "facet_backscatter.slope", f.slope, "above 0");
+}
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -10018,8 +10061,11 @@ struct automatic_display {
 
     using is_filter = std::true_type;
 
-    /// @throws invalid_input for a share out of its range
+    /// @throws invalid_input for a parameter out of its range
     auto pass(image_view<const float> picture) const {
+        detail::require(
+            scale == display_scale::power || scale == display_scale::amplitude || scale == display_scale::decibels,
+            "automatic_display.scale", static_cast<int>(scale), "power, amplitude or decibels");
         detail::require(black >= 0 && black <= 0.49f, "automatic_display.black", black, "0 to 0.49");
         detail::require(white >= 0 && white <= 0.49f, "automatic_display.white", white, "0 to 0.49");
         std::vector<float> values;
@@ -10205,9 +10251,10 @@ inline bottom_materials resolved_bottom(const scene& s) {
 /// The same pose lowered or raised until the shape just touches the seabed: no vertex is below it, one is on it.
 /// `burial` then sinks it from there.
 /// @param shape  of at least one position
-/// @throws invalid_input for a shape without positions
+/// @throws invalid_input for a shape without positions, or a pose that can't be right
 inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose placement) {
     detail::require(!shape.positions.empty(), "shape.positions.size()", shape.positions.size(), "at least 1");
+    detail::require_finite("pose.burial", placement.burial);
     pose bare = placement;
     bare.burial = 0;
     const affine map = to_world(bare);
@@ -10375,11 +10422,13 @@ struct ping {
 
 /// @throws invalid_input for a value that can't be right
 inline void validate(const ping& p) {
-    const double sum = p.position.x + p.position.y + p.position.z + p.yaw;
-    detail::require(numeric::is_finite(sum), "ping.position", sum, "finite");
+    detail::require_finite("ping.position.x", p.position.x);
+    detail::require_finite("ping.position.y", p.position.y);
+    detail::require_finite("ping.position.z", p.position.z);
+    detail::require_finite("ping.yaw", p.yaw);
     detail::require(numeric::magnitude(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
                     "at most 80 degrees, in radians");
-    detail::require(numeric::is_finite(p.roll), "ping.roll", p.roll, "a finite angle");
+    detail::require_finite("ping.roll", p.roll);
 }
 
 /// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
@@ -10412,10 +10461,10 @@ using ground_range = side_scan_rig<across_track::ground_range>;
 template <across_track Axis>
 void validate(const side_scan_rig<Axis>& rig) {
     using detail::require;
-    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "side_scan.position",
-            rig.position.x + rig.position.y, "finite coordinates");
-    require(numeric::is_finite(rig.altitude), "side_scan.altitude", rig.altitude, "a finite height");
-    require(numeric::is_finite(rig.yaw), "side_scan.yaw", rig.yaw, "a finite angle");
+    detail::require_finite("side_scan.position.x", rig.position.x);
+    detail::require_finite("side_scan.position.y", rig.position.y);
+    detail::require_finite("side_scan.altitude", rig.altitude);
+    detail::require_finite("side_scan.yaw", rig.yaw);
     require(rig.ping_spacing > 0 && numeric::is_finite(rig.ping_spacing), "side_scan.ping_spacing", rig.ping_spacing,
             "above 0");
     require(rig.pings >= 1 && rig.pings <= 1 << 20, "side_scan.pings", rig.pings, "1 to 2^20");
@@ -10424,6 +10473,8 @@ void validate(const side_scan_rig<Axis>& rig) {
     require(rig.range > rig.first_range && rig.range <= 1e5f, "side_scan.range", rig.range,
             "above first_range and at most 10^5 metres");
     require(rig.bins >= 1 && rig.bins <= 1 << 20, "side_scan.bins", rig.bins, "1 to 2^20");
+    require(rig.side == side::port || rig.side == side::starboard, "side_scan.side", static_cast<int>(rig.side),
+            "port or starboard");
 }
 
 /// A ping of the rig's track; those before the first and after the last are on the same line.
@@ -10569,8 +10620,8 @@ struct overhead {
 /// @throws invalid_input for a value that can't be right
 inline void validate(const overhead& rig) {
     using detail::require;
-    require(numeric::is_finite(rig.position.x) && numeric::is_finite(rig.position.y), "overhead.position",
-            rig.position.x + rig.position.y, "finite coordinates");
+    detail::require_finite("overhead.position.x", rig.position.x);
+    detail::require_finite("overhead.position.y", rig.position.y);
     require(rig.altitude > 0 && numeric::is_finite(rig.altitude), "overhead.altitude", rig.altitude, "above 0");
     require(numeric::is_finite(rig.yaw), "overhead.yaw", rig.yaw, "a finite angle");
     require(rig.field_of_view > 0 && static_cast<double>(rig.field_of_view) < numeric::to_radians(179.9),
@@ -14443,7 +14494,7 @@ void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit)
 ///
 /// No two triangles that share a longest side could be replaced by the one that they are halves of.
 /// @param first  as for `tessellate`
-/// @throws invalid_input as `tessellate`, and for a negative or NaN leeway
+/// @throws invalid_input as `tessellate`, and for a negative or NaN leeway or a nadir that is not finite
 template <executor_argument Executor = serial_executor>
 adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Executor&& ex = serial_executor{},
                          glm::ivec2 first = {0, 0}) {
@@ -14451,6 +14502,8 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
     detail::require(allowed.height >= 0, "leeway.height", allowed.height, "metres, at least 0");
     detail::require(allowed.slope >= 0, "leeway.slope", allowed.slope, "a slope, at least 0");
     detail::require(allowed.lean >= 0, "leeway.lean", allowed.lean, "square metres, at least 0");
+    insonify::detail::require_finite("leeway.nadir.x", allowed.nadir.x);
+    insonify::detail::require_finite("leeway.nadir.y", allowed.nadir.y);
     const image<float>& heights = field.heights;
     detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(), "below 2^32");
     const detail::needed_vertices needed(field, allowed, ex);
@@ -16982,6 +17035,9 @@ class overhead_painter {
         materials_ = resolved_bottom(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{});  // the first draw fills it, and the depths
+        validate_if_possible(options.law);
+        require(options.cells >= 0 && options.cells <= 32768, "cells", options.cells, "0 to 32768");
+        require(options.reach >= 0 && numeric::is_finite(options.reach), "reach", options.reach, "0 or more");
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) {
@@ -17046,8 +17102,6 @@ class overhead_painter {
         const overhead& rig = view_.rig();
         const int longer = (std::max)(rig.size.x, rig.size.y);
         const int cells = options_.cells > 0 ? options_.cells : (longer + 1) / 2;
-        require(cells <= 32768, "cells", cells, "at most 32768");
-        require(options_.reach >= 0 && numeric::is_finite(options_.reach), "reach", options_.reach, "0 or more");
         const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
         const double spacing = longer_side / cells;
 
@@ -19897,6 +19951,7 @@ struct truncated_cone {
 /// @throws invalid_input for a value outside its range
 inline void validate(const truncated_cone& c) {
     detail::require_size("truncated_cone.diameter", c.diameter);
+    detail::require_size("truncated_cone.height", c.height);
     detail::require_thickness("truncated_cone.height", c.height, (std::max)(c.height, c.diameter));
     detail::require_thickness("truncated_cone.top_diameter", c.top_diameter, c.diameter);
     detail::require(c.shoulder >= 0 && c.shoulder <= 0.2f * (std::min)(c.height, c.top_diameter),
@@ -20094,6 +20149,8 @@ inline std::array<wedge_station, 4> stations_of(const wedge& w) {
 inline void validate(const wedge& w) {
     using namespace detail;
     require_size("wedge.length", w.length);
+    require_size("wedge.width", w.width);
+    require_size("wedge.height", w.height);
     const float larger = w.length > w.width ? w.length : w.width;
     require_thickness("wedge.width", w.width, larger);
     require_thickness("wedge.height", w.height, larger > w.height ? larger : w.height);
@@ -20152,7 +20209,7 @@ class csv_table {
     explicit csv_table(std::initializer_list<std::string_view> columns) : columns_(columns.size()) {
         detail::require(columns_ > 0, "columns", columns_, "at least 1");
         std::size_t index = 0;
-        for (const std::string_view name : columns) append(name, index++);
+        for (const std::string_view name : columns) append(text_, name, index++);
         text_ += "\r\n";
     }
 
@@ -20162,9 +20219,11 @@ class csv_table {
     void add(const Cells&... cells) {
         detail::require(sizeof...(cells) == columns_, "cells in a row", sizeof...(cells),
                         detail::to_text(columns_) + ", one for each column");
+        std::string line;  // whole before it is added, should memory run out
         std::size_t index = 0;
-        (append(cells, index++), ...);
-        text_ += "\r\n";
+        (append(line, cells, index++), ...);
+        line += "\r\n";
+        text_ += line;
     }
 
     const std::string& text() const { return text_; }
@@ -20174,27 +20233,27 @@ class csv_table {
 
   private:
     template <csv_cell Cell>
-    void append(const Cell& cell, std::size_t index) {
-        if (index > 0) text_ += ',';
+    void append(std::string& line, const Cell& cell, std::size_t index) const {
+        if (index > 0) line += ',';
         if constexpr (detail::csv_text<Cell>) {
-            append_text(cell);
+            append_text(line, cell);
         } else {
-            text_ += detail::to_text(cell);
+            line += detail::to_text(cell);
         }
     }
-    void append_text(std::string_view cell) {
+    void append_text(std::string& line, std::string_view cell) const {
         // An empty cell alone would make an empty line, which readers skip.
         const bool quote = cell.find_first_of(",\"\r\n") != std::string_view::npos || (cell.empty() && columns_ == 1);
         if (!quote) {
-            text_ += cell;
+            line += cell;
             return;
         }
-        text_ += '"';
+        line += '"';
         for (const char c : cell) {
-            if (c == '"') text_ += '"';
-            text_ += c;
+            if (c == '"') line += '"';
+            line += c;
         }
-        text_ += '"';
+        line += '"';
     }
 
     std::size_t columns_;
@@ -22208,6 +22267,58 @@ inline double smooth_noise(double x, double y, std::uint32_t layer, const philox
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/sonar/side_scan/detail/speckle_draws.hpp -----------------------------------------
+// Complex Gaussian draws keyed by ping and bin, several at a time: the white noise that speckle is made of.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// Draws of unit power for bins in a row, real and imaginary parts in turn: those of normal_pair, to the same bits. One
+/// block of Philox serves two bins.
+struct speckle_draw_kernel {
+    static constexpr std::size_t most_lanes = 4;  ///< blocks at a time
+
+    philox_key key;
+    philox_counter first;  ///< counter of the first block; its first word, the bin, grows by 2 from block to block
+    float* into;
+    std::size_t blocks;  ///< `into` holds 4 values for each, and for as many more as make a multiple of most_lanes
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        constexpr int M = N > 1 ? N / 2 : 1;
+        for (std::size_t i = 0; i < blocks; i += static_cast<std::size_t>(M)) {
+            const std::uint32_t bin = first[0] + 2 * static_cast<std::uint32_t>(i);
+            lanes<std::uint64_t, M> word[4];
+            gather<M>(word[0], [&](int k) INSONIFY_INLINE_LAMBDA {
+                return std::uint64_t{bin + 2 * static_cast<std::uint32_t>(k)};
+            });
+            for (int w = 1; w < 4; ++w)
+                word[w] = lanes<std::uint64_t, M>{} + std::uint64_t{first[static_cast<std::size_t>(w)]};
+            philox_lanes<M>(word, key[0], key[1]);
+            for (int bin_of_two = 0; bin_of_two < 2; ++bin_of_two) {
+                lanes<double, M> re, im;
+                normal_lanes<M>(re, im, word[2 * bin_of_two], word[2 * bin_of_two + 1]);
+                re = re * 0.70710678118654752;
+                im = im * 0.70710678118654752;
+                float* const to = into + 4 * i + 2 * bin_of_two;
+                for (int k = 0; k < M; ++k) {
+                    to[4 * k] = static_cast<float>(lane(re, k));
+                    to[4 * k + 1] = static_cast<float>(lane(im, k));
+                }
+            }
+        }
+    }
+};
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/side_scan/detail/bottom_tiles.hpp ------------------------------------------
 // The bottom under a track that goes anywhere: heights and slopes in square tiles, sampled where pings look and nowhere
 // else.
@@ -23532,6 +23643,43 @@ struct level_gain {
     }
 };
 
+// Before anything is recorded, each part is checked by the `validate` that its type brings along; a user's own too.
+// They throw invalid_input for a value out of its range.
+
+inline void validate(const source_level& s) {
+    detail::require(s.decibels >= -300 && s.decibels <= 300, "source_level.decibels", s.decibels, "-300 to 300 dB");
+}
+inline void validate(const absorption& a) {
+    detail::require(a.decibels_per_km >= 0 && a.decibels_per_km <= 3000, "absorption.decibels_per_km",
+                    a.decibels_per_km, "0 to 3000 dB");
+}
+inline void validate(const vertical_beam& b) {
+    detail::require(b.width > 0 && numeric::is_finite(b.width), "vertical_beam.width", b.width, "radians above 0");
+    detail::require_finite("vertical_beam.tilt", b.tilt);
+    detail::require(b.side_lobes >= 0 && numeric::is_finite(b.side_lobes), "vertical_beam.side_lobes", b.side_lobes,
+                    "0 or more");
+}
+inline void validate(const horizontal_beam& b) {
+    detail::require(b.width > 0 && numeric::is_finite(b.width), "horizontal_beam.width", b.width, "radians above 0");
+}
+inline void validate(const pulse& p) {
+    detail::require(p.length >= 0 && p.length <= 1e5f, "pulse.length", p.length, "0 to 10^5 metres");
+}
+inline void validate(const noise_floor& n) {
+    detail::require(n.intensity >= 0 && numeric::is_finite(n.intensity), "noise_floor.intensity", n.intensity,
+                    "0 or more");
+}
+inline void validate(const time_varied_gain& g) {
+    detail::require(g.spreading >= 0 && g.spreading <= 60, "time_varied_gain.spreading", g.spreading, "0 to 60 dB");
+    detail::require(g.absorption_per_km >= 0 && g.absorption_per_km <= 3000, "time_varied_gain.absorption_per_km",
+                    g.absorption_per_km, "0 to 3000 dB");
+    detail::require(g.decibels >= -300 && g.decibels <= 300, "time_varied_gain.decibels", g.decibels, "-300 to 300 dB");
+}
+inline void validate(const level_gain& g) {
+    detail::require(g.steepest > 0 && static_cast<double>(g.steepest) < numeric::pi / 2, "level_gain.steepest",
+                    g.steepest, "above 0 and below pi / 2");
+}
+
 namespace detail {
 template <class P>
 concept direction_part = requires(const P& p) {
@@ -23691,6 +23839,7 @@ double default_cell(const side_scan_rig<Axis>& rig) {
 /// How many pings away the beam reaches at the largest range.
 template <class Beam, across_track Axis>
 int beam_reach(const Beam& beam, const side_scan_rig<Axis>& rig) {
+    validate_if_possible(beam);
     const double range = static_cast<double>(rig.range), altitude = static_cast<double>(rig.altitude);
     const double slant =
         Axis == across_track::slant_range ? range : numeric::square_root(range * range + altitude * altitude);
@@ -23713,6 +23862,8 @@ class recorder {
         validate(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "metres, or 0");
+        validate_if_possible(options.law);
+        options.equation.for_each([](const auto& part) { validate_if_possible(part); });
         for (const ping& p : track) validate(p);
         out_.rows.side = rig.side;
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
@@ -24128,10 +24279,14 @@ class ping_noise {
         : key_(stream_key(seed, static_cast<std::uint32_t>(stream) + static_cast<std::uint32_t>(s))) {}
 
     philox_counter operator()(std::int64_t ping, std::uint32_t bin, std::uint32_t draw) const {
-        const auto number = static_cast<std::uint64_t>(ping);
-        return philox4x32({bin, static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32), draw},
-                          key_);
+        return philox4x32(counter(ping, bin, draw), key_);
     }
+
+    static philox_counter counter(std::int64_t ping, std::uint32_t bin, std::uint32_t draw) {
+        const auto number = static_cast<std::uint64_t>(ping);
+        return {bin, static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32), draw};
+    }
+    const philox_key& key() const { return key_; }
 
   private:
     philox_key key_;
@@ -24165,18 +24320,14 @@ class speckle_field {
     }
 
   private:
-    /// One ping, correlated across the track. A block of words serves two bins.
+    /// One ping, correlated across the track.
     void row(std::int64_t ping, std::uint32_t look, std::span<float> out) const {
         const std::size_t reach = across_.size() - 1, margin = reach + (reach & 1);
-        std::vector<float> white(2 * (bins_ + 2 * margin + 2));
-        for (std::size_t i = 0; i < bins_ + 2 * margin; i += 2) {
-            const philox_counter words = noise_(ping, static_cast<std::uint32_t>(i - margin), look);
-            for (std::size_t k = 0; k < 2; ++k) {
-                const auto [re, im] = normal_pair(words[2 * k], words[2 * k + 1]);
-                white[2 * (i + k)] = static_cast<float>(re * 0.70710678118654752);
-                white[2 * (i + k) + 1] = static_cast<float>(im * 0.70710678118654752);
-            }
-        }
+        const std::size_t blocks = (bins_ + 2 * margin + 1) / 2;
+        std::vector<float> white(4 * (blocks + speckle_draw_kernel::most_lanes));
+        const std::uint32_t first = 0u - static_cast<std::uint32_t>(margin);
+        dispatch(speckle_draw_kernel{noise_.key(), ping_noise::counter(ping, first, look), white.data(), blocks},
+                 best_isa());
         for (std::size_t x = 0; x < out.size(); ++x) {
             const float* const at = &white[x + 2 * margin];
             float sum = across_[0] * *at;
@@ -24433,8 +24584,10 @@ class tone_sampler {
 }  // namespace detail
 
 /// The level that a tone adds at a position, decibels.
-/// @throws invalid_input for a parameter out of its range
+/// @throws invalid_input for a parameter out of its range, or a position that is not finite
 inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
+    detail::require_finite("position.x", position.x);
+    detail::require_finite("position.y", position.y);
     return detail::tone_sampler(tone)(position);
 }
 
@@ -24442,9 +24595,10 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
 /// their place on the datum; targets, shadows' noise and the water column stay.
 ///
 /// @param r    as `render` made it of this rig: before noise and speckle
-/// @throws invalid_input for a parameter out of its range
+/// @throws invalid_input for a rig or a parameter out of its range
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
+    validate(rig);
     const detail::tone_sampler level(tone);
     if (tone.is_none()) return r;
     const ping_numbers numbers = r.rows;
@@ -24599,7 +24753,7 @@ class scene_occlusion {
     template <class Shadow, executor E>
     scene_occlusion(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                     const Shadow& policy, E& ex)
-        : centre_((require_box(within), within.box.centre())),
+        : centre_((require_box(within), require_light(light), within.box.centre())),
           shapes_(shapes_of(s, light, within, shadow::radius_of(policy), ex)),
           targets_(s.targets.size()),
           built_(policy.build(casters(), from_centre(light), local(within), ex)) {}
@@ -24644,6 +24798,14 @@ class scene_occlusion {
                         "0 metres or more");
         detail::require(within.reach >= 0 && numeric::is_finite(within.reach), "occlusion_bounds.reach", within.reach,
                         "0 or more");
+    }
+    static void require_light(const shadow::any_light& light) {
+        if (const auto* parallel = std::get_if<shadow::directional_light>(&light)) {
+            static_cast<void>(shadow::light_frame(*parallel));
+            return;
+        }
+        for (int i = 0; i < 3; ++i)
+            detail::require_finite("point_light.position", std::get<shadow::point_light>(light).position[i]);
     }
     affine around_centre(affine to_world) const {
         to_world.offset -= glm::dvec3(centre_.x, centre_.y, 0);
@@ -24960,7 +25122,9 @@ inline namespace INSONIFY_ABI {
 /// @param from       its rig
 /// @param to         which ground ranges the result's columns are: first_range, range and bins count
 /// @param altitudes  of the sonar above the bottom, one per row from the top, or none: then all are the rig's
-/// @throws invalid_input for a rig that can't be right, or a number of altitudes that is neither 0 nor that of rows
+/// @throws invalid_input for a rig that can't be right, or a number of altitudes that is neither 0 nor that of rows, or
+/// one
+///         that is not finite
 template <class Labels>
 frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from, const ground_range& to,
                               std::span<const double> altitudes = {}) {
@@ -24969,6 +25133,7 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
     detail::require(bins == from.bins, "from.bins", from.bins, "the recording's width");
     detail::require(altitudes.empty() || altitudes.size() == static_cast<std::size_t>(rows), "altitudes.size()",
                     altitudes.size(), "0 or one per row");
+    for (const double altitude : altitudes) detail::require_finite("altitudes", altitude);
     frame<Labels> out;
     out.stats = slant.stats;
     out.rows = slant.rows;
