@@ -22,42 +22,64 @@
 
 #if defined(INSONIFY_IMPLEMENTATION)
 #include <insonify/sonar/overhead/render.hpp>
-#define INSONIFY_ONCE template
-#else
-#define INSONIFY_ONCE extern template
 #endif
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace seabed::inline INSONIFY_ONCE {
 
-#define INSONIFY_PAINT(Shadow, Labels)                                                                      \
-    INSONIFY_ONCE frame<Labels> paint(const scene&, const overhead&, const render_options<Shadow, Labels>&, \
-                                      executor_ref);
-INSONIFY_PAINT(shadow::none, labels)
-INSONIFY_PAINT(shadow::none, no_labels)
-INSONIFY_PAINT(shadow::exact, labels)
-INSONIFY_PAINT(shadow::exact, no_labels)
-#undef INSONIFY_PAINT
-INSONIFY_ONCE visibility see(const scene&, const overhead&, const render_options<shadow::none, labels>&, executor_ref);
+std::shared_ptr<const detail::model_interface> hold(flat m);
+std::shared_ptr<const detail::model_interface> hold(mud m);
+std::shared_ptr<const detail::model_interface> hold(ripples m);
+std::shared_ptr<const detail::model_interface> hold(rock m);
 
-}  // namespace detail
+}  // namespace seabed::inline INSONIFY_ONCE
 
-namespace seabed {
+#if defined(INSONIFY_IMPLEMENTATION)
 
-#define INSONIFY_SEABED(Model)               \
-    INSONIFY_ONCE struct any::holder<Model>; \
-    INSONIFY_ONCE struct any_sampler::prepared<Model>;
-INSONIFY_SEABED(flat)
-INSONIFY_SEABED(mud)
-INSONIFY_SEABED(ripples)
-INSONIFY_SEABED(rock)
-#undef INSONIFY_SEABED
+namespace seabed::inline INSONIFY_ONCE {
 
-}  // namespace seabed
+std::shared_ptr<const detail::model_interface> hold(flat m) {
+    return seabed::hold<flat>(m);
+}
+std::shared_ptr<const detail::model_interface> hold(mud m) {
+    return seabed::hold<mud>(m);
+}
+std::shared_ptr<const detail::model_interface> hold(ripples m) {
+    return seabed::hold<ripples>(m);
+}
+std::shared_ptr<const detail::model_interface> hold(rock m) {
+    return seabed::hold<rock>(m);
+}
+
+}  // namespace seabed::inline INSONIFY_ONCE
+
+namespace detail::inline INSONIFY_ONCE {
+
+frame<labels> paint(const scene& s, const overhead& rig, built_in<shadow::exact, labels> options, executor_ref ex) {
+    return detail::paint<>(s, rig, options, ex);
+}
+frame<labels> paint(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex) {
+    return detail::paint<>(s, rig, options, ex);
+}
+frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::exact, no_labels> options,
+                       executor_ref ex) {
+    return detail::paint<>(s, rig, options, ex);
+}
+frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::none, no_labels> options,
+                       executor_ref ex) {
+    return detail::paint<>(s, rig, options, ex);
+}
+visibility see(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex) {
+    return detail::see<>(s, rig, options, ex);
+}
+
+}  // namespace detail::inline INSONIFY_ONCE
+
+#endif
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
-#undef INSONIFY_ONCE
 #endif

@@ -10,9 +10,11 @@
 //     INSONIFY_COMPILED       the compiled form: this unit calls the code that one unit of the program compiles,
 //     INSONIFY_IMPLEMENTATION which defines this one; see compiled.hpp
 //
-// All symbols live in an inline namespace that names the version and whatever changes the code behind a symbol, so
-// that two translation units compiled with different flags never share one by accident. Units of the compiled form
-// share theirs whatever their flags.
+// Three inline namespaces keep apart what the linker must not merge:
+//   INSONIFY_ABI    the version. Public types are there, so that they pass between units whatever their flags.
+//   INSONIFY_FLAGS  inside it, what changes the code behind a symbol: functions, and classes that compute. A unit's
+//                   calls never end in a copy that another unit compiled for another processor, or with other checks.
+//   INSONIFY_ONCE   functions that the compiled form compiles once: there a fixed name, else INSONIFY_FLAGS.
 #pragma once
 
 #include <insonify/version.hpp>
@@ -150,30 +152,48 @@
 #define INSONIFY_JOIN_RAW(a, b) a##b
 #define INSONIFY_JOIN(a, b) INSONIFY_JOIN_RAW(a, b)
 
-#if defined(__cpp_exceptions) || defined(INSONIFY_COMPILED)
-#define INSONIFY_TAG_EXCEPTIONS
+// The instruction sets that a unit may use without asking the processor.
+#if !INSONIFY_SIMD
+#define INSONIFY_TAG_SIMD built_scalar
 #else
-#define INSONIFY_TAG_EXCEPTIONS _noexcept
+#define INSONIFY_TAG_SIMD built
+#endif
+#if defined(__AVX512F__)
+#define INSONIFY_TAG_TARGET _avx512
+#elif defined(__AVX2__) || defined(__FMA__) || defined(__BMI__) || defined(__BMI2__)
+#define INSONIFY_TAG_TARGET _avx2
+#elif defined(__AVX__)
+#define INSONIFY_TAG_TARGET _avx
+#elif defined(__SSE3__) || defined(__SSSE3__) || defined(__SSE4_1__) || defined(__POPCNT__)
+#define INSONIFY_TAG_TARGET _sse4
+#elif defined(__ARM_FEATURE_SVE)
+#define INSONIFY_TAG_TARGET _sve
+#else
+#define INSONIFY_TAG_TARGET
 #endif
 
-#if defined(INSONIFY_COMPILED)
-#define INSONIFY_TAG_SIMD _compiled
-#elif !INSONIFY_SIMD
-#define INSONIFY_TAG_SIMD _scalar
-#elif !INSONIFY_DISPATCH
-#define INSONIFY_TAG_SIMD _plain
-#elif defined(__AVX512F__)
-#define INSONIFY_TAG_SIMD _avx512
-#elif defined(__AVX2__)
-#define INSONIFY_TAG_SIMD _avx2
+#if defined(__OPTIMIZE__) || !defined(__GNUC__)
+#define INSONIFY_TAG_SPEED
 #else
-#define INSONIFY_TAG_SIMD _base
+#define INSONIFY_TAG_SPEED _debug
 #endif
 
-#if defined(NDEBUG) || defined(INSONIFY_COMPILED)
+#if defined(INSONIFY_SANITIZED)
+#define INSONIFY_TAG_SANITIZED _sanitized
+#else
+#define INSONIFY_TAG_SANITIZED
+#endif
+
+#if defined(NDEBUG)
 #define INSONIFY_TAG_ASSERT
 #else
 #define INSONIFY_TAG_ASSERT _checked
+#endif
+
+#if defined(__cpp_exceptions)
+#define INSONIFY_TAG_EXCEPTIONS
+#else
+#define INSONIFY_TAG_EXCEPTIONS _noexcept
 #endif
 
 #if INSONIFY_KEEP_MEMORY
@@ -182,14 +202,31 @@
 #define INSONIFY_TAG_MEMORY _new
 #endif
 
-#define INSONIFY_TAGS                                                        \
-    INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SIMD, INSONIFY_TAG_EXCEPTIONS), \
-                  INSONIFY_JOIN(INSONIFY_TAG_ASSERT, INSONIFY_TAG_MEMORY))
 #define INSONIFY_ABI_OF(major, minor, patch) v##major##_##minor##_##patch
 #define INSONIFY_ABI_NAME(major, minor, patch) INSONIFY_ABI_OF(major, minor, patch)
 #define INSONIFY_ABI                                                                                         \
     INSONIFY_JOIN(INSONIFY_ABI_NAME(INSONIFY_VERSION_MAJOR, INSONIFY_VERSION_MINOR, INSONIFY_VERSION_PATCH), \
-                  INSONIFY_TAGS)
+                  INSONIFY_TAG_MEMORY)
+#define INSONIFY_FLAGS                                                                                      \
+    INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SIMD, INSONIFY_TAG_TARGET), INSONIFY_TAG_SPEED), \
+                  INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SANITIZED, INSONIFY_TAG_ASSERT), INSONIFY_TAG_EXCEPTIONS))
+#if defined(INSONIFY_COMPILED)
+#define INSONIFY_ONCE compiled
+#else
+#define INSONIFY_ONCE INSONIFY_FLAGS
+#endif
+
+// Members of public types: those of a line are inlined, in builds without optimization as well; longer ones carry the
+// unit's flags in their own name.
+#if defined(__GNUC__)
+#define INSONIFY_MEMBER inline __attribute__((always_inline))
+#define INSONIFY_TAGGED __attribute__((abi_tag(INSONIFY_TEXT(INSONIFY_FLAGS))))
+#else
+#define INSONIFY_MEMBER
+#define INSONIFY_TAGGED
+#endif
+#define INSONIFY_TEXT_RAW(x) #x
+#define INSONIFY_TEXT(x) INSONIFY_TEXT_RAW(x)
 
 namespace insonify {
 inline namespace INSONIFY_ABI {}

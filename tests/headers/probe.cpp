@@ -22,7 +22,7 @@ probe_result PROBE() {
     in::image<float> color(97, 61, -1.0f), depth(97, 61, in::empty_depth(in::keep_depth::smaller));
     in::draw(in::to_mesh(in::cube{}), place, speckle, in::framebuffer<float>{color, depth});
 
-    probe_result result{TEXT_OF(INSONIFY_ABI), 0xcbf29ce484222325u, 0};
+    probe_result result{TEXT_OF(INSONIFY_ABI) " " TEXT_OF(INSONIFY_FLAGS), 0xcbf29ce484222325u, 0};
     for (std::size_t i = 0; i < color.size(); ++i) {
         for (const float value : {color.pixels()[i], depth.pixels()[i]})
             result.bytes = (result.bytes ^ std::bit_cast<std::uint32_t>(value)) * 0x100000001b3u;

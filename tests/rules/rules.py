@@ -113,6 +113,14 @@ def faults(header, path):
     opened = [i for i, line in enumerate(lines) if line == "namespace insonify {"]
     if any(not lines[i + 1].startswith("inline namespace INSONIFY_ABI {") for i in opened):
         yield opened[0] + 1, "inline namespace INSONIFY_ABI follows"
+    spaces = []  # open namespaces
+    for number, line in enumerate(lines, 1):
+        if re.match(r"\}  // namespace", line):
+            spaces.pop()
+        elif space := re.match(r"(?:inline )?namespace (.+) \{$", line):
+            if any(re.search("FLAGS|ONCE", outer) for outer in spaces):
+                yield number, "INSONIFY_FLAGS and INSONIFY_ONCE are the innermost namespaces"
+            spaces.append(space[1])
     if len(lines) > MOST_LINES:
         yield len(lines), f"{len(lines)} lines, at most {MOST_LINES}: one concept per file"
     for number, (line, code) in enumerate(zip(lines, code_of(text).splitlines()), 1):

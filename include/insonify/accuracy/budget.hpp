@@ -22,11 +22,15 @@ namespace accuracy {
 /// Errors that are tolerated, each above 0.
 using budget = errors;
 
+inline namespace INSONIFY_FLAGS {
+
 /// Whether each error is within its budget.
 inline bool keeps_to(const errors& found, const budget& tolerated) {
     return found.shadow_edge <= tolerated.shadow_edge && found.silhouette <= tolerated.silhouette &&
            found.height <= tolerated.height && found.intensity <= tolerated.intensity;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 /// What a picture is made of: plain values, to read and to change.
 template <shadow::policy Shadow = shadow::exact>
@@ -42,7 +46,7 @@ struct settings {
 
     /// The same for `render`; `settings.options<no_labels>()` leaves the labels out.
     template <class Labels = labels, backscatter_law Law = lambert>
-    render_options<Shadow, Labels, Law> options() const {
+    INSONIFY_MEMBER render_options<Shadow, Labels, Law> options() const {
         return {.shadow = shadow, .cells = cells, .edge_error = edge_error, .subpixel_bits = subpixel_bits};
     }
 
@@ -54,7 +58,7 @@ struct settings {
     /// (Thatcher Ulrich. Rendering Massive Terrains using Chunked Level of Detail Control. SIGGRAPH course, 2002, has
     /// the first; the second is the same for the light's parallel rays.)
     /// @param placement  of the target; what counts is the top of a ball of `radius` metres around its position
-    double deviation(const pose& placement, double radius) const {
+    INSONIFY_TAGGED double deviation(const pose& placement, double radius) const {
         const overhead_geometry view(rig);
         const glm::dvec3 at = view.rig_from(to_world(placement)).offset;
         const double size = radius * static_cast<double>(placement.scale);
@@ -69,21 +73,21 @@ struct settings {
     }
 
     /// The shape with as few segments as `deviation` allows.
-    cylinder modelled(cylinder shape, const pose& placement) const {
+    INSONIFY_MEMBER cylinder modelled(cylinder shape, const pose& placement) const {
         const double half = 0.5 * static_cast<double>(shape.length), radius = static_cast<double>(shape.radius);
         return with_segments(shape, deviation(placement, numeric::square_root(half * half + radius * radius)));
     }
-    capsule modelled(capsule shape, const pose& placement) const {
+    INSONIFY_MEMBER capsule modelled(capsule shape, const pose& placement) const {
         return with_segments(shape, deviation(placement, 0.5 * static_cast<double>(shape.length)));
     }
-    cone modelled(cone shape, const pose& placement) const {
+    INSONIFY_TAGGED cone modelled(cone shape, const pose& placement) const {
         const double half = 0.5 * static_cast<double>(shape.height);
         const auto radius = static_cast<double>((std::max)(shape.radius, shape.top_radius));
         return with_segments(shape, deviation(placement, numeric::square_root(half * half + radius * radius)));
     }
     template <class Round>
         requires(std::same_as<Round, sphere> || std::same_as<Round, hemisphere>)
-    Round modelled(Round shape, const pose& placement)
+    INSONIFY_MEMBER Round modelled(Round shape, const pose& placement)
     const {
         const float longest = (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
         return with_segments(shape, deviation(placement, static_cast<double>(shape.radius * longest)));
@@ -91,11 +95,13 @@ struct settings {
 
   private:
     template <class Shape>
-    static Shape with_segments(Shape shape, double deviation) {
+    INSONIFY_MEMBER static Shape with_segments(Shape shape, double deviation) {
         shape.segments = segments_for(shape, static_cast<float>(deviation));
         return shape;
     }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The cheapest settings with which pictures of a seabed keep to a budget, as far as a probe can tell; where none does,
 /// those that are the least beyond it, and `expected` says how far off they are.
@@ -195,6 +201,8 @@ inline settings<> exact(const overhead& rig) {
             .shadow_error = 0.02,
             .rig = rig};
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace accuracy
 }  // namespace INSONIFY_ABI

@@ -24,16 +24,16 @@ struct mask_difference {
     std::size_t missed_pixels = 0;    ///< in the truth, not in the result: for shadows, light leaks
     std::size_t boundary_pixels = 0;  ///< of the truth: in the mask, with a 4-neighbour in the image that is not
 
-    std::size_t wrong_pixels() const { return false_pixels + missed_pixels; }
+    INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_pixels + missed_pixels; }
 
     /// Intersection over union (Jaccard index), 1 when both masks are empty.
-    double intersection_over_union() const {
+    INSONIFY_MEMBER double intersection_over_union() const {
         const std::size_t joined = common + wrong_pixels();
         return joined == 0 ? 1.0 : static_cast<double>(common) / static_cast<double>(joined);
     }
     /// How many pixels the border has moved, on average along it: wrong pixels over boundary pixels. Infinite if there
     /// are wrong pixels but no border.
-    double mean_boundary_displacement() const {
+    INSONIFY_TAGGED double mean_boundary_displacement() const {
         if (wrong_pixels() == 0) return 0;
         if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();
         return static_cast<double>(wrong_pixels()) / static_cast<double>(boundary_pixels);
@@ -48,12 +48,12 @@ struct pixel_difference {
     double largest = 0;  ///< of the absolute differences
 
     /// Root of the mean square difference.
-    double rmse() const { return numeric::square_root(mean_square); }
+    INSONIFY_MEMBER double rmse() const { return numeric::square_root(mean_square); }
 
     /// Peak signal-to-noise ratio, 10 log10(peak^2 / mean square), in decibels; infinite without a difference.
     /// @param peak  the largest value a pixel can take, finite and positive: 1 for the library's floats, 255 for bytes
     /// @throws invalid_input for another peak
-    double psnr(double peak) const {
+    INSONIFY_TAGGED double psnr(double peak) const {
         detail::require(numeric::is_finite(peak) && peak > 0, "peak", peak, "finite and positive");
         if (mean_square == 0) return std::numeric_limits<double>::infinity();
         constexpr double decibels = 20 / 2.302585092994045684;  // 20 / ln 10
@@ -67,7 +67,7 @@ struct pixel_difference {
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class T>
 void require_same_size(image_view<const T> result, image_view<const T> truth) {
@@ -96,13 +96,15 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
     return out;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace accuracy {
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input if the sizes differ
 inline mask_difference compare_masks(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
@@ -133,6 +135,8 @@ inline pixel_difference compare_images(image_view<const float> result, image_vie
 inline pixel_difference compare_images(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
     return detail::compare_pixels(result, truth);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace accuracy
 }  // namespace INSONIFY_ABI

@@ -23,6 +23,8 @@ struct errors {
     double intensity = 0.05;  ///< root mean square error of the linear picture
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// How `settings_for` looks at a seabed.
 struct probe {
     int chips = 4;       ///< small pictures, spread over the large one
@@ -31,13 +33,15 @@ struct probe {
     double spare = 0.7;  ///< share of a budget that may be used where others have not been looked at
 };
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace accuracy
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Small pictures of a seabed, as fine as makes sense, to compare coarser ones with.
 class seabed_probe {
@@ -200,7 +204,7 @@ class seabed_probe {
     std::vector<picture> truths_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -26,7 +26,7 @@ struct io_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class Error>
 [[noreturn]] void raise(Error error) {
@@ -66,6 +66,6 @@ void require(bool holds, std::string_view argument, Number value, std::string_vi
     if (!holds) refuse(argument, value, expected);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

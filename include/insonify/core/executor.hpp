@@ -21,7 +21,7 @@ concept executor = requires(E& ex, void (*fn)(std::size_t)) {
 /// Runs everything on the calling thread, in order.
 struct serial_executor {
     template <std::invocable<std::size_t> Fn>
-    void bulk(std::size_t count, Fn&& fn) const {
+    INSONIFY_MEMBER void bulk(std::size_t count, Fn&& fn) const {
         for (std::size_t i = 0; i < count; ++i) fn(i);
     }
 };
@@ -36,13 +36,13 @@ class executor_ref {
   public:
     template <executor E>
         requires(!std::same_as<std::remove_const_t<E>, executor_ref>)
-    executor_ref(E& ex)
+    INSONIFY_TAGGED executor_ref(E& ex)
         : executor_(&ex), bulk_([](const void* to, std::size_t count, call_type call, const void* fn) {
               const_cast<E*>(static_cast<const E*>(to))->bulk(count, [=](std::size_t i) { call(fn, i); });
           }) {}
 
     template <std::invocable<std::size_t> Fn>
-    void bulk(std::size_t count, Fn&& fn) const {
+    INSONIFY_TAGGED void bulk(std::size_t count, Fn&& fn) const {
         using function = std::remove_reference_t<Fn>;
         bulk_(
             executor_, count,
@@ -56,6 +56,8 @@ class executor_ref {
     void (*bulk_)(const void* to, std::size_t count, call_type call, const void* fn);
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// Splits [0, count) into runs of `grain` and calls `fn(first, last)` for each. The split depends on the arguments
 /// alone, so whatever is summed per run comes out the same on any executor.
 template <executor E, std::invocable<std::size_t, std::size_t> Fn>
@@ -66,6 +68,8 @@ void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
         fn(first, count - first < grain ? count : first + grain);
     });
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

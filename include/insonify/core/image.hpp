@@ -31,15 +31,15 @@ class image {
 
     /// @param width, height  pixels, each in [0, 2^30], together at most 2^40
     /// @throws invalid_input for a size outside that range
-    image(int width, int height, T fill = T{})
+    INSONIFY_MEMBER image(int width, int height, T fill = T{})
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), fill) {}
 
-    image(int width, int height, detail::uninitialized)
+    INSONIFY_MEMBER image(int width, int height, detail::uninitialized)
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area()) {}
 
     /// Rows written out, for tests and small tables: `image<float>{{0, 1}, {2, 3}}`.
     /// @throws invalid_input for rows of different lengths
-    image(std::initializer_list<std::initializer_list<T>> rows)
+    INSONIFY_TAGGED image(std::initializer_list<std::initializer_list<T>> rows)
         : width_(rows.size() == 0 ? 0 : static_cast<int>(rows.begin()->size())),
           height_(static_cast<int>(rows.size())) {
         pixels_.reserve(area());
@@ -51,7 +51,8 @@ class image {
     }
 
     /// A packed copy of what a view shows.
-    explicit image(image_view<const T> source) : image(source.width(), source.height(), detail::uninitialized{}) {
+    INSONIFY_TAGGED explicit image(image_view<const T> source)
+        : image(source.width(), source.height(), detail::uninitialized{}) {
         for (int y = 0; y < height_; ++y) {
             const auto from = source.row(y);
             std::copy(from.begin(), from.end(), row(y).begin());
@@ -70,38 +71,40 @@ class image {
 
     int width() const { return width_; }
     int height() const { return height_; }
-    std::size_t size() const { return pixels_.size(); }
-    bool empty() const { return pixels_.empty(); }
+    INSONIFY_MEMBER std::size_t size() const { return pixels_.size(); }
+    INSONIFY_MEMBER bool empty() const { return pixels_.empty(); }
 
-    T& operator()(int x, int y) { return pixels_[index(x, y)]; }
-    const T& operator()(int x, int y) const { return pixels_[index(x, y)]; }
+    INSONIFY_MEMBER T& operator()(int x, int y) { return pixels_[index(x, y)]; }
+    INSONIFY_MEMBER const T& operator()(int x, int y) const { return pixels_[index(x, y)]; }
 
-    std::span<T> row(int y) { return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)}; }
-    std::span<const T> row(int y) const { return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)}; }
+    INSONIFY_MEMBER std::span<T> row(int y) { return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)}; }
+    INSONIFY_MEMBER std::span<const T> row(int y) const {
+        return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)};
+    }
     std::span<T> pixels() { return pixels_; }
     std::span<const T> pixels() const { return pixels_; }
 
-    image_view<T> view() & { return {pixels_.data(), width_, height_}; }
-    image_view<const T> view() const& { return {pixels_.data(), width_, height_}; }
+    INSONIFY_MEMBER image_view<T> view() & { return {pixels_.data(), width_, height_}; }
+    INSONIFY_MEMBER image_view<const T> view() const& { return {pixels_.data(), width_, height_}; }
     image_view<T> view() && = delete;  // the view would outlive its pixels
-    operator image_view<T>() & { return view(); }
-    operator image_view<const T>() const& { return view(); }
+    INSONIFY_MEMBER operator image_view<T>() & { return view(); }
+    INSONIFY_MEMBER operator image_view<const T>() const& { return view(); }
 
     friend bool operator==(const image&, const image&) = default;
 
   private:
-    static int checked(int extent, const char* name) {
+    INSONIFY_MEMBER static int checked(int extent, const char* name) {
         detail::require(extent >= 0 && extent <= (1 << 30), name, extent, "0 to 2^30");
         return extent;
     }
-    std::size_t area() const {
+    INSONIFY_TAGGED std::size_t area() const {
         const std::uint64_t pixels = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
         detail::require(pixels <= (std::uint64_t{1} << 40), "width x height", pixels, "at most 2^40 pixels");
         constexpr std::uint64_t addressable = (std::numeric_limits<std::size_t>::max)() / sizeof(T);
         detail::require(pixels <= addressable, "width x height", pixels, "as many as this machine can address");
         return static_cast<std::size_t>(pixels);
     }
-    std::size_t index(int x, int y) const {
+    INSONIFY_MEMBER std::size_t index(int x, int y) const {
         INSONIFY_ASSERT(0 <= x && (x < width_ || width_ == 0) && 0 <= y && y < height_);
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
@@ -110,6 +113,8 @@ class image {
     int height_ = 0;
     detail::uninitialized_vector<T> pixels_;
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The image with every pixel replaced by `fn(pixel)`; the size stays, the type is what `fn` returns.
 template <class T, class Fn>
@@ -126,6 +131,8 @@ template <class T, class Fn>
 auto map_pixels(const image<T>& source, Fn&& fn) {
     return map_pixels(source.view(), fn);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -24,39 +24,41 @@ class image_view {
     /// @param height  rows, >= 0
     /// @param stride  pixels from one row to the next, >= width
     /// @throws invalid_input for a negative size or a stride shorter than a row
-    image_view(T* data, int width, int height, std::ptrdiff_t stride)
+    INSONIFY_TAGGED image_view(T* data, int width, int height, std::ptrdiff_t stride)
         : data_(data), width_(width), height_(height), stride_(stride) {
         detail::require(width >= 0, "width", width, "at least 0");
         detail::require(height >= 0, "height", height, "at least 0");
         detail::require(stride >= width, "stride", stride, "at least the width");
     }
-    image_view(T* data, int width, int height) : image_view(data, width, height, width) {}
+    INSONIFY_MEMBER image_view(T* data, int width, int height) : image_view(data, width, height, width) {}
 
     /// A view of mutable pixels reads as a view of constant ones.
     template <std::same_as<value_type> Mutable>
         requires(std::is_const_v<T>)
-    image_view(image_view<Mutable> other)
+    INSONIFY_MEMBER image_view(image_view<Mutable> other)
         : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
 
     int width() const { return width_; }
     int height() const { return height_; }
     std::ptrdiff_t stride() const { return stride_; }
-    std::size_t size() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
-    bool empty() const { return width_ == 0 || height_ == 0; }
+    INSONIFY_MEMBER std::size_t size() const {
+        return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    }
+    INSONIFY_MEMBER bool empty() const { return width_ == 0 || height_ == 0; }
     T* data() const { return data_; }
 
-    T& operator()(int x, int y) const {
+    INSONIFY_MEMBER T& operator()(int x, int y) const {
         INSONIFY_ASSERT(0 <= x && x < width_ && 0 <= y && y < height_);
         return data_[y * stride_ + x];
     }
-    std::span<T> row(int y) const {
+    INSONIFY_MEMBER std::span<T> row(int y) const {
         INSONIFY_ASSERT(0 <= y && y < height_);
         return {data_ + y * stride_, static_cast<std::size_t>(width_)};
     }
 
     /// The part of the view that starts at (x, y); shares the pixels.
     /// @throws invalid_input if the part is not inside the view
-    image_view part(int x, int y, int width, int height) const {
+    INSONIFY_TAGGED image_view part(int x, int y, int width, int height) const {
         detail::require(x >= 0 && x <= width_, "x", x, "a column of the view");
         detail::require(y >= 0 && y <= height_, "y", y, "a row of the view");
         detail::require(width >= 0 && width <= width_ - x, "width", width, "a part inside the view");

@@ -13,6 +13,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace numeric {
 
+inline namespace INSONIFY_FLAGS {
+
 template <class T>
 INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -54,6 +56,8 @@ template <class T>
 T determinant(const glm::mat<3, 3, T>& m) {
     return dot(m[0], cross(m[1], m[2]));
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace numeric
 }  // namespace INSONIFY_ABI

@@ -20,6 +20,9 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 namespace literals {
+
+inline namespace INSONIFY_FLAGS {
+
 /// Angles are radians in the API: `6_deg` is 0.10472.
 constexpr float operator""_deg(long double degrees) {
     return static_cast<float>(degrees * std::numbers::pi_v<long double> / 180);
@@ -27,11 +30,16 @@ constexpr float operator""_deg(long double degrees) {
 constexpr float operator""_deg(unsigned long long degrees) {
     return operator""_deg(static_cast<long double>(degrees));
 }
+
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace literals
 
 namespace numeric {
 
 inline constexpr double pi = std::numbers::pi;
+
+inline namespace INSONIFY_FLAGS {
 
 constexpr double to_radians(double degrees) {
     return degrees * (pi / 180);
@@ -116,10 +124,14 @@ constexpr double exp(double x) {
     return sum * power(half) * power(k - half);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 struct sine_cosine {
     double sine;
     double cosine;
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Sine and cosine of 2 pi x, absolute error < 2e-16; x in turns, so that the reduction is exact. |x| < 2^50.
 inline sine_cosine sin_cos_turns(double x) {
@@ -176,6 +188,8 @@ inline double atan2(double y, double x) {
     if (x < 0) angle = pi - angle;
     return y < 0 ? -angle : angle;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace numeric
 namespace detail {

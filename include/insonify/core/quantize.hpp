@@ -19,6 +19,8 @@ inline namespace INSONIFY_ABI {
 template <class T>
 concept pixel_code = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t>;
 
+inline namespace INSONIFY_FLAGS {
+
 /// The code nearest to `value`, 1 being the largest code; ties go up, values outside [0, 1] to the end they passed,
 /// NaN to 0.
 template <pixel_code Code>
@@ -29,7 +31,9 @@ constexpr Code quantize(float value) {
     return static_cast<Code>(static_cast<double>(value) * largest + 0.5);  // 24 + 16 bits: exact until the truncation
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// N codes in a row; the lanes hold numbers that they can.
 template <int N, class Code>
@@ -94,7 +98,9 @@ struct quantize_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Quantizes as many values as `to` takes; the same codes at every level.
 /// @pre from.size() >= to.size()
@@ -124,6 +130,8 @@ void dequantize_row(std::span<const Code> from, std::span<float> to) {
         for (std::size_t i = 0; i < to.size(); ++i) to[i] = dequantize(from[i]);
     }
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

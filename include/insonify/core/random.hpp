@@ -20,6 +20,8 @@ inline namespace INSONIFY_ABI {
 using philox_counter = std::array<std::uint32_t, 4>;
 using philox_key = std::array<std::uint32_t, 2>;
 
+inline namespace INSONIFY_FLAGS {
+
 /// Philox4x32 with ten rounds: four independent 32-bit words for each counter and key.
 constexpr philox_counter philox4x32(philox_counter counter, philox_key key) {
     for (int round = 0; round < 10; ++round) {
@@ -94,6 +96,8 @@ class random_sequence {
     philox_counter block_{};
     std::size_t used_ = 4;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -22,20 +22,22 @@ struct color_table {
     using is_filter = std::true_type;
 
     template <std::same_as<std::uint8_t> Level>
-    constexpr rgb8 operator()(Level level) const {
+    INSONIFY_MEMBER constexpr rgb8 operator()(Level level) const {
         return colors[level];
     }
     template <std::same_as<float> Value>
-    constexpr rgb8 operator()(Value value) const {
+    INSONIFY_MEMBER constexpr rgb8 operator()(Value value) const {
         return colors[quantize<std::uint8_t>(value)];
     }
-    void row(const float* from, rgb8* to, int count, int, int) const {
+    INSONIFY_TAGGED void row(const float* from, rgb8* to, int count, int, int) const {
         std::uint8_t codes[run_length];
         quantize_row(std::span<const float>(from, static_cast<std::size_t>(count)),
                      std::span<std::uint8_t>(codes, static_cast<std::size_t>(count)));
         for (int i = 0; i < count; ++i) to[i] = colors[codes[i]];
     }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The table of `color(level)` for levels 0 to 255.
 template <class Fn>
@@ -45,7 +47,9 @@ constexpr color_table tabulate_colors(Fn color) {
     return table;
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Straight lines between five colours, that are those of levels 0, 63.75, 127.5, 191.25 and 255; ties up.
 constexpr rgb8 between_colors(int level, const std::array<rgb8, 5>& colors) {
@@ -57,7 +61,7 @@ constexpr rgb8 between_colors(int level, const std::array<rgb8, 5>& colors) {
     return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 namespace colormap {
 

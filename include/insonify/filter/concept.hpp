@@ -24,7 +24,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// What an image can hold: not void, not bool (whose vector has no pixels to point at).
 template <class T>
@@ -42,7 +42,7 @@ INSONIFY_INLINE auto call_pixel(Fn& fn, const Pixel& pixel, int, int) {
     return fn(pixel);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// A function of a pixel, or of a pixel with its column and row, that returns a pixel.
 template <class Fn, class Pixel>
@@ -58,12 +58,12 @@ struct pixel_area {
 /// The most pixels that `row` is asked for at once; they fit the nearest cache several times over.
 inline constexpr int run_length = 512;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class Fn, class Pixel>
 using pass_result = decltype(call_pixel(std::declval<Fn&>(), std::declval<const Pixel&>(), 0, 0));
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// A function of a pixel that does many pixels of a row at once.
 template <class Fn, class Pixel>

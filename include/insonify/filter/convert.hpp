@@ -11,7 +11,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Gray or colour, the same conversion per channel.
 template <pixel_code Code>
@@ -43,7 +43,7 @@ struct to_unit {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// [0, 1] -> 0 ... 255 or 65535, to the nearest; values outside go to the nearer end, NaN to 0.
 inline constexpr detail::to_code<std::uint8_t> to_uint8{};

@@ -23,7 +23,7 @@ inline namespace INSONIFY_ABI {
 /// What the pixels of an image of echoes hold. An amplitude is the square root of an intensity.
 enum class echo { amplitude, intensity };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 struct exponential_draws {
     template <int N>
@@ -206,7 +206,7 @@ inline void check_shape(const char* name, const parameter& shape) {
         name, [](float v) { return v >= 0.01f && v <= 1e6f; }, "0.01 to 1e6");
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Fully developed speckle: exponential intensities, Rayleigh amplitudes, of which std / mean is 0.5227.
 struct rayleigh {
@@ -218,7 +218,7 @@ struct rayleigh {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a correlation length outside 0 to 16
-    auto pass() const {
+    INSONIFY_MEMBER auto pass() const {
         detail::require_correlation("rayleigh.correlation", correlation);
         return detail::echo_pass(detail::noise_stream::rayleigh, seed, frame,
                                  {"rayleigh", detail::echo_draw::exponential}, of, correlation);
@@ -237,7 +237,7 @@ struct gamma_speckle {
 
     /// @throws invalid_input for looks outside 0.01 to 1e6, or a correlation length outside 0 to 16; on application,
     ///         for a map of another size than the image
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::check_shape("gamma_speckle.looks", looks);
         detail::require_correlation("gamma_speckle.correlation", correlation);
         return detail::echo_pass(detail::noise_stream::gamma_speckle, seed, frame,
@@ -259,7 +259,7 @@ struct k_speckle {
 
     /// @throws invalid_input for a shape or looks outside 0.01 to 1e6, or a correlation length outside 0 to 16; on
     ///         application, for a map of another size than the image
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::check_shape("k_speckle.shape", shape);
         detail::check_shape("k_speckle.looks", looks);
         detail::require_correlation("k_speckle.correlation", correlation);
@@ -283,7 +283,7 @@ struct rician {
 
     /// @throws invalid_input for a steady part outside 0 to 1e6, or a correlation length outside 0 to 16; on
     ///         application, for a map of another size than the image
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         steady.check(
             "rician.steady", [](float v) { return v >= 0 && v <= 1e6f; }, "0 to 1e6");
         detail::require_correlation("rician.correlation", correlation);

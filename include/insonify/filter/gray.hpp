@@ -50,7 +50,7 @@ struct to_gray {
     };
 
     /// @throws invalid_input for a weight that is not in [0, 1], or a sum above 1 (by more than rounding)
-    weighted_sum pass() const {
+    INSONIFY_TAGGED weighted_sum pass() const {
         for (const double weight : {weights.r, weights.g, weights.b}) {
             detail::require(weight >= 0 && weight <= 1, "to_gray.weights", weight, "in [0, 1]");
         }

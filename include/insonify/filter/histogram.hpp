@@ -35,14 +35,14 @@ inline namespace INSONIFY_ABI {
 struct histogram {
     std::vector<std::uint64_t> counts;
 
-    std::uint64_t total() const {
+    INSONIFY_TAGGED std::uint64_t total() const {
         std::uint64_t sum = 0;
         for (const std::uint64_t count : counts) sum += count;
         return sum;
     }
 
     /// @throws invalid_input for another number of bins
-    histogram& operator+=(const histogram& other) {
+    INSONIFY_TAGGED histogram& operator+=(const histogram& other) {
         detail::require(other.counts.size() == counts.size(), "bins of the histogram to add", other.counts.size(),
                         "those of the sum");
         for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
@@ -56,7 +56,7 @@ struct histogram {
 template <class T>
 concept countable_pixel = std::same_as<T, float> || pixel_code<T>;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void require_bins(const char* name, int bins) {
     require(bins >= 2 && bins <= 65536, name, bins, "2 to 65536");
@@ -195,7 +195,9 @@ histogram count_parts(image_view<const Pixel> source, int bins, E& ex, const Mak
     return result;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// MATLAB's imhist. Pixels are floats in [0, 1], of which NaN is not counted, or codes that mean code / 255 or / 65535.
 /// @throws invalid_input for bins outside 2 to 65536
@@ -218,7 +220,9 @@ histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) 
     return histogram_of(source.view(), bins, ex);
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// How many levels a source is told apart by.
 template <class Pixel>
@@ -316,7 +320,7 @@ level_map<Pixel> map_levels(const histogram& source, const histogram& wanted) {
     return level_map<Pixel>(std::move(values));
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Looks at no more of an image of floats than how often each of 256 levels comes: `f.pass(histogram)` returns a
 /// function of the level.
@@ -333,18 +337,18 @@ struct equalize {
 
     /// @throws invalid_input for levels outside 2 to 65536
     template <countable_pixel Pixel, executor_argument E = serial_executor>
-    detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
+    INSONIFY_MEMBER detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         detail::require_bins("equalize.levels", levels);
         return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), flat());
     }
     /// For floats that were counted by 256 levels.
-    detail::level_values<float> pass(const histogram& counted) const {
+    INSONIFY_MEMBER detail::level_values<float> pass(const histogram& counted) const {
         detail::require_bins("equalize.levels", levels);
         return detail::map_levels<float>(counted, flat()).by_level();
     }
 
   private:
-    histogram flat() const { return {std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)}; }
+    INSONIFY_MEMBER histogram flat() const { return {std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)}; }
 };
 
 /// Gives an image the histogram of a reference, by bins: fast, and as coarse as the bins. MATLAB: imhistmatch(I,
@@ -356,24 +360,25 @@ class match_binned {
 
     /// @throws invalid_input for a reference without a number in it, or bins outside 2 to 65536
     template <countable_pixel Pixel>
-    explicit match_binned(image_view<const Pixel> reference, int bins = 64)
+    INSONIFY_MEMBER explicit match_binned(image_view<const Pixel> reference, int bins = 64)
         : match_binned(histogram_of(reference, bins)) {}
     template <countable_pixel Pixel>
-    explicit match_binned(const image<Pixel>& reference, int bins = 64) : match_binned(reference.view(), bins) {}
+    INSONIFY_MEMBER explicit match_binned(const image<Pixel>& reference, int bins = 64)
+        : match_binned(reference.view(), bins) {}
 
     /// @throws invalid_input for an empty histogram, or bins outside 2 to 65536
-    explicit match_binned(histogram wanted) : wanted_(std::move(wanted)) {
+    INSONIFY_MEMBER explicit match_binned(histogram wanted) : wanted_(std::move(wanted)) {
         detail::require(wanted_.counts.size() >= 2 && wanted_.counts.size() <= 65536, "wanted.counts.size()",
                         wanted_.counts.size(), "2 to 65536");
         detail::require(wanted_.total() > 0, "pixels in the reference", wanted_.total(), "at least 1");
     }
 
     template <countable_pixel Pixel, executor_argument E = serial_executor>
-    detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
+    INSONIFY_MEMBER detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), wanted_);
     }
     /// For floats that were counted by 256 levels.
-    detail::level_values<float> pass(const histogram& counted) const {
+    INSONIFY_MEMBER detail::level_values<float> pass(const histogram& counted) const {
         return detail::map_levels<float>(counted, wanted_).by_level();
     }
 

@@ -28,10 +28,10 @@ struct distribution {
     std::vector<float> values;
     std::vector<std::uint64_t> cumulative;
 
-    std::uint64_t total() const { return cumulative.empty() ? 0 : cumulative.back(); }
+    INSONIFY_MEMBER std::uint64_t total() const { return cumulative.empty() ? 0 : cumulative.back(); }
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Bits that compare as unsigned integers the way floats compare, and back.
 constexpr std::uint32_t ordered_bits(float value) {
@@ -58,7 +58,9 @@ inline void sort_keys(std::vector<std::uint32_t>& keys) {
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Counts the finite pixels; others are passed over.
 inline distribution distribution_of(image_view<const float> source) {
@@ -98,7 +100,9 @@ distribution distribution_of(const image<Pixel>& source) {
     return distribution_of(source.view());
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The value of `reference` at the rank of each value of `source`.
 inline std::vector<float> values_at_ranks(const distribution& source, const distribution& reference) {
@@ -176,7 +180,7 @@ class rank_pass {
     std::shared_ptr<const table> table_;  // passes are copied; the table isn't
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Gives an image the distribution of a reference, by exact ranks. What the reference was is counted once and shared by
 /// copies of the filter. Floats become floats, NaN stays NaN; codes become codes, to the nearest. An image without a
@@ -192,12 +196,13 @@ class match_histogram {
 
     /// @throws invalid_input for a reference without a finite pixel
     template <countable_pixel Pixel>
-    explicit match_histogram(image_view<const Pixel> reference) : match_histogram(distribution_of(reference)) {}
+    INSONIFY_MEMBER explicit match_histogram(image_view<const Pixel> reference)
+        : match_histogram(distribution_of(reference)) {}
     template <countable_pixel Pixel>
-    explicit match_histogram(const image<Pixel>& reference) : match_histogram(reference.view()) {}
+    INSONIFY_MEMBER explicit match_histogram(const image<Pixel>& reference) : match_histogram(reference.view()) {}
 
     /// @throws invalid_input for an empty distribution, or values and cumulative of different sizes
-    explicit match_histogram(distribution reference) {
+    INSONIFY_TAGGED explicit match_histogram(distribution reference) {
         detail::require(reference.total() > 0, "finite pixels in the reference", reference.total(), "at least 1");
         detail::require(reference.values.size() == reference.cumulative.size(), "reference.values.size()",
                         reference.values.size(), "that of cumulative");
@@ -205,11 +210,11 @@ class match_histogram {
     }
 
     template <std::same_as<float> Pixel>
-    detail::rank_pass pass(image_view<const Pixel> source) const {
+    INSONIFY_MEMBER detail::rank_pass pass(image_view<const Pixel> source) const {
         return {distribution_of(source), *reference_};
     }
     template <pixel_code Code, executor_argument E = serial_executor>
-    detail::level_map<Code> pass(image_view<const Code> source, E&& ex = {}) const {
+    INSONIFY_TAGGED detail::level_map<Code> pass(image_view<const Code> source, E&& ex = {}) const {
         const distribution codes = distribution_of(source, ex);
         const std::vector<float> ranked =
             codes.values.empty() ? std::vector<float>{} : detail::values_at_ranks(codes, *reference_);

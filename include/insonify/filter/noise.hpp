@@ -21,7 +21,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void check_variance(const char* name, const parameter& variance) {
     variance.check(
@@ -137,7 +137,7 @@ class salt_law {
     parameter density_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Adds normal noise: J = I + N(mean, variance). MATLAB, Octave: imnoise(I, "gaussian", mean, variance); scikit-image:
 /// random_noise(I, "gaussian").
@@ -152,7 +152,7 @@ struct gaussian {
 
     /// @throws invalid_input for a mean that is not finite, a variance that is negative or not finite, or a correlation
     ///         length outside 0 to 16; on application, for a map of another size than the image
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::require(numeric::is_finite(mean), "gaussian.mean", mean, "finite");
         detail::check_variance("gaussian.variance", variance);
         detail::require_correlation("gaussian.correlation", correlation);
@@ -172,7 +172,7 @@ struct speckle {
 
     /// @throws invalid_input for a variance that is negative or not finite; on application, for a map of another size
     ///         than the image
-    auto pass() const {
+    INSONIFY_MEMBER auto pass() const {
         detail::check_variance("speckle.variance", variance);
         return detail::noise_pass(detail::scaled_law<detail::symmetric_draws, detail::multiplied_draw>(
             {}, {seed, detail::noise_stream::speckle, frame}, {"speckle.variance", variance, 3}));
@@ -190,7 +190,7 @@ struct gaussian_speckle {
     using is_filter = std::true_type;
 
     /// @throws invalid_input as `gaussian`
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::check_variance("gaussian_speckle.variance", variance);
         detail::require_correlation("gaussian_speckle.correlation", correlation);
         return detail::noise_pass(detail::scaled_law<detail::normal_draws, detail::multiplied_draw>(
@@ -209,7 +209,7 @@ struct salt_and_pepper {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a density outside 0 to 1; on application, for a map of another size than the image
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         density.check(
             "salt_and_pepper.density", [](float d) { return d >= 0 && d <= 1; }, "0 to 1");
         return detail::noise_pass(detail::salt_law({seed, detail::noise_stream::salt_and_pepper, frame}, density));

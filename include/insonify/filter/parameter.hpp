@@ -16,7 +16,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// @throws invalid_input for a map of another size than the area
 inline void check_size(const std::string& name, int width, int height, const pixel_area& area) {
@@ -24,7 +24,7 @@ inline void check_size(const std::string& name, int width, int height, const pix
     require(height == area.height, "height of the map for " + name, height, "that of the image");
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// One number for all pixels, or a map of them that is as large as the image. Views are looked at when the filter runs,
 /// and not kept alive.
@@ -36,27 +36,27 @@ class parameter {
   public:
     template <std::convertible_to<float> Number>
         requires(std::is_arithmetic_v<Number>)
-    parameter(Number value) : values_{static_cast<float>(value)} {}
+    INSONIFY_MEMBER parameter(Number value) : values_{static_cast<float>(value)} {}
 
     /// A number for each pixel.
-    parameter(image_view<const float> map) : map_(map) {}
-    parameter(image_view<float> map) : map_(map) {}
+    INSONIFY_MEMBER parameter(image_view<const float> map) : map_(map) {}
+    INSONIFY_MEMBER parameter(image_view<float> map) : map_(map) {}
 
     /// `values[type]` for a pixel of that type, the last of them for types beyond.
     /// @throws invalid_input for no values
-    parameter(image_view<const std::uint8_t> types, std::vector<float> values)
+    INSONIFY_MEMBER parameter(image_view<const std::uint8_t> types, std::vector<float> values)
         : values_(std::move(values)), types_(types), by_type_(true) {
         detail::require(!values_.empty(), "values of a parameter by type", values_.size(), "at least 1");
     }
 
-    bool is_constant() const { return !by_type_ && !values_.empty(); }
+    INSONIFY_MEMBER bool is_constant() const { return !by_type_ && !values_.empty(); }
 
     /// The number of all pixels. @pre is_constant()
-    float value() const { return values_.front(); }
+    INSONIFY_MEMBER float value() const { return values_.front(); }
 
     /// Where the pixels that it is asked for lie.
     /// @throws invalid_input for a map of another size
-    void place(const std::string& name, const pixel_area& area) {
+    INSONIFY_TAGGED void place(const std::string& name, const pixel_area& area) {
         x_ = area.x, y_ = area.y;
         if (by_type_) {
             detail::check_size(name, types_.width(), types_.height(), area);
@@ -66,7 +66,7 @@ class parameter {
     }
 
     /// The numbers of `count` pixels of a row from (x, y) on, into `buffer`.
-    void row(float* buffer, int count, int x, int y) const {
+    INSONIFY_TAGGED void row(float* buffer, int count, int x, int y) const {
         if (by_type_) {
             const std::uint8_t* const type = types_.row(y - y_).data() + (x - x_);
             for (int i = 0; i < count; ++i) buffer[i] = values_[(std::min)(std::size_t{type[i]}, values_.size() - 1)];
@@ -79,7 +79,7 @@ class parameter {
 
     /// @throws invalid_input for a number that isn't `allowed`
     template <std::predicate<float> Allowed>
-    void check(std::string_view name, const Allowed& allowed, std::string_view expected) const {
+    INSONIFY_TAGGED void check(std::string_view name, const Allowed& allowed, std::string_view expected) const {
         for (const float value : values_) detail::require(allowed(value), name, value, expected);
         for (int y = 0; y < map_.height(); ++y)
             for (const float value : map_.row(y)) detail::require(allowed(value), name, value, expected);

@@ -22,7 +22,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class T>
 inline constexpr bool is_image = false;
@@ -224,7 +224,9 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Filters in a row, made by `f | g`. Stages are kept by value; the same chain serves any number of images.
 template <class... Stages>
@@ -249,7 +251,9 @@ struct filter_chain {
     }
 };
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class F>
 inline constexpr bool is_chain = false;
@@ -284,7 +288,9 @@ auto apply_to(Source&& source, const F& f, E& ex, pixel_origin origin, Sink sink
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The filtered image, its rows shared out by the executor; the same bytes for any executor. An image that is moved in
 /// lends its memory to the result where the pixel type stays.
@@ -350,6 +356,8 @@ auto operator|(F&& f, G&& g) {
     return detail::make_chain(
         std::tuple_cat(detail::as_stages(std::forward<F>(f)), detail::as_stages(std::forward<G>(g))));
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -11,7 +11,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// ln k! - k ln m + m for whole k >= 10 and m > 0, less half of ln(k + 1): what is left of a Poisson probability,
 /// without the large terms that cancel. Stirling's series to below 1e-11.
@@ -107,7 +107,7 @@ inline auto exact_poisson(float photons, std::uint64_t seed, std::uint32_t frame
     return noise_pass(poisson_law(photons, seed, frame, rejected_large_counts{{seed, noise_stream::poisson, frame}}));
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Poisson counts: J = k / photons, k drawn with the mean I photons. The default is what MATLAB's
 /// imnoise(I, "poisson") does to uint8 images; its rule for doubles, photons = 1e12, is no noise at all to the eye.
@@ -119,7 +119,7 @@ struct poisson {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for photons outside (0, 1e9]
-    auto pass() const {
+    INSONIFY_MEMBER auto pass() const {
         detail::require(photons > 0 && photons <= 1e9f, "poisson.photons", photons, "above 0 and at most 1e9");
         return detail::exact_poisson(photons, seed, frame);
     }
@@ -133,7 +133,7 @@ struct matlab_poisson {
 
     using is_filter = std::true_type;
 
-    auto pass() const { return detail::exact_poisson(0, seed, frame); }
+    INSONIFY_MEMBER auto pass() const { return detail::exact_poisson(0, seed, frame); }
 };
 
 }  // namespace INSONIFY_ABI

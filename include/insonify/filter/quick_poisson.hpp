@@ -13,7 +13,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The count that a normal draw z means, for means of 256 and above.
 template <int N>
@@ -68,7 +68,7 @@ struct quick_large_counts {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Poisson counts where a normal draw, bent as the distribution is, will do. Means below 256 are drawn exactly, to
 /// `poisson`'s very counts; from there on, no set of counts is more probable or less than it should be by more than
@@ -81,7 +81,7 @@ struct quick_poisson {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for photons outside (0, 1e6]
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::require(photons > 0 && photons <= 1e6f, "quick_poisson.photons", photons, "above 0 and at most 1e6");
         using namespace detail;
         return noise_pass(

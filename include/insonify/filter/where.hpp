@@ -9,7 +9,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A pass for the pixels of a mask that are not 0; the others stay.
 template <class Pass>
@@ -40,7 +40,9 @@ class masked_pass {
     int x_ = 0, y_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The pixels where the mask isn't 0, in one row: what `histogram_of`, `distribution_of` and the filters that match
 /// take for a reference, if only a part of a picture is one.
@@ -109,6 +111,8 @@ filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask,
         },
         chain.stages);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -22,17 +22,19 @@ struct bounding_box {
     glm::dvec3 lower{std::numeric_limits<double>::infinity()};
     glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
 
-    bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
+    INSONIFY_MEMBER bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
     /// Edge lengths; 0 for an empty box.
-    glm::dvec3 size() const { return empty() ? glm::dvec3(0) : upper - lower; }
+    INSONIFY_MEMBER glm::dvec3 size() const { return empty() ? glm::dvec3(0) : upper - lower; }
     /// @pre the box is not empty
-    glm::dvec3 centre() const { return 0.5 * (lower + upper); }
+    INSONIFY_MEMBER glm::dvec3 centre() const { return 0.5 * (lower + upper); }
     /// One of eight: bit k of `i` takes the upper end of axis k.
-    glm::dvec3 corner(int i) const {
+    INSONIFY_MEMBER glm::dvec3 corner(int i) const {
         return {(i & 1) != 0 ? upper.x : lower.x, (i & 2) != 0 ? upper.y : lower.y, (i & 4) != 0 ? upper.z : lower.z};
     }
     friend bool operator==(const bounding_box&, const bounding_box&) = default;
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The smallest box around both.
 inline bounding_box merge(bounding_box a, const bounding_box& b) {
@@ -49,7 +51,9 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
     return finite ? merge(box, {point, point}) : box;
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The least and the largest coordinates of positions, if all of them are finite.
 struct bounds_kernel {
@@ -93,7 +97,9 @@ struct bounds_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The smallest box around all finite positions, whether a triangle uses them or not.
 template <executor_argument E = serial_executor>
@@ -115,6 +121,8 @@ bounding_box bounds(const mesh_view& m, E&& ex = {}) {
     for (const bounding_box& part : parts) box = merge(box, part);
     return box;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

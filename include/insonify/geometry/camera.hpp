@@ -27,6 +27,8 @@ struct camera {
     float z_near = 0.01f;                                       ///< metres; what is nearer is clipped
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// From the world to the camera's frame: x right, y up, z towards the viewer.
 /// @throws invalid_input for a coordinate that is not finite, an eye at the target, or `up` along the line of sight
 inline affine look_at(const camera& c) {
@@ -76,6 +78,8 @@ class camera_view {
 constexpr glm::vec4 from_gl_clip(const glm::vec4& p) {
     return {p.x, p.y, 0.5f * (p.z + p.w), p.w};
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -19,6 +19,8 @@ struct cone {
     int segments = 64;     ///< around the axis, 3 to 2^20; see `segments_for`
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// The rims (and the tip) have vertices of their own for each side's normal.
 /// @throws invalid_input for a radius or height that is not finite and positive, a top radius that is not finite or
 ///         negative, or segments outside 3 to 2^20
@@ -51,6 +53,8 @@ inline mesh to_mesh(const cone& shape) {
 inline int segments_for(const cone& shape, float deviation) {
     return segments_for((std::max)(shape.radius, shape.top_radius), deviation);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

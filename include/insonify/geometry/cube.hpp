@@ -18,6 +18,8 @@ struct cube {
     glm::vec3 size{1};  ///< edge lengths, metres
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// 24 vertices (each corner three times, once for each face's normal) and 12 triangles.
 /// @throws invalid_input for a size that is not finite and positive
 inline mesh to_mesh(const cube& shape) {
@@ -44,6 +46,8 @@ inline mesh to_mesh(const cube& shape) {
     }
     return out;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -25,6 +25,8 @@ struct capsule {
     int segments = 64;    ///< around the axis, 3 to 8192; half as many rings over both ends
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// 4 segments + 2 vertices, of which the rims have two sets, one for each normal.
 /// @throws invalid_input for a radius or length that is not finite and positive, or segments outside 3 to 2^20
 inline mesh to_mesh(const cylinder& shape) {
@@ -69,6 +71,8 @@ inline int segments_for(const cylinder& shape, float deviation) {
 inline int segments_for(const capsule& shape, float deviation) {
     return detail::round_segments_for(shape.radius, deviation, [](int segments) { return 2 * ((segments + 3) / 4); });
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

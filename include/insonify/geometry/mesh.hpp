@@ -27,12 +27,13 @@ struct mesh_view {
     std::span<const glm::uvec3> triangles;
 
     mesh_view() = default;
-    mesh_view(std::span<const glm::vec3> places, std::span<const glm::vec3> ups, std::span<const glm::uvec3> corners)
+    INSONIFY_MEMBER mesh_view(std::span<const glm::vec3> places, std::span<const glm::vec3> ups,
+                              std::span<const glm::uvec3> corners)
         : positions(places), normals(ups), triangles(corners) {}
-    mesh_view(const mesh& m) : mesh_view(m.positions, m.normals, m.triangles) {}
+    INSONIFY_MEMBER mesh_view(const mesh& m) : mesh_view(m.positions, m.normals, m.triangles) {}
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A mesh with uninitialized storage, for meshes that are rebuilt in every picture.
 struct uninitialized_mesh {
@@ -42,7 +43,9 @@ struct uninitialized_mesh {
     operator mesh_view() const { return {positions, normals, triangles}; }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input if an index has no position, or normals are neither absent nor one per position
 inline void validate(const mesh& m) {
@@ -53,6 +56,8 @@ inline void validate(const mesh& m) {
         detail::require(largest < m.positions.size(), "mesh.triangles", largest, "an index of a position");
     }
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

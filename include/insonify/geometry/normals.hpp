@@ -19,6 +19,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// One unit normal per position: the mean of the triangles around it, weighted by their angle there, so that it does
 /// not depend on how a face was cut into triangles. Triangles without area or with non-finite corners do not count; a
 /// position that nothing counts for gets +z. Edges stay sharp only between triangles that share no position by index.
@@ -62,6 +64,8 @@ inline std::size_t wind_by_normals(mesh& m) {
     }
     return turned;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -28,7 +28,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// One pass over the text. Words are parted by blanks; a backslash at the end of a line continues it.
 class obj_reader {
@@ -229,7 +229,9 @@ class obj_reader {
     std::vector<glm::uvec3> cuts_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The polygons of a Wavefront OBJ text as one mesh, in time linear in its length.
 ///
@@ -266,6 +268,8 @@ inline mesh load_obj(const std::string& path) {
         }
     }
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -31,7 +31,7 @@ struct regular_grid {
     bool is_rising = true;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Compares numbers, Period of them a block, with what goes on in equal steps from block to block.
 template <class T, int Period>
@@ -119,7 +119,9 @@ struct cell_cut {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// How a mesh lies on a regular grid; nothing if it doesn't. All heights are finite.
 /// @param off  by which share of a step vertices may lie beside the lattice
@@ -167,6 +169,8 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
     if (differs) return std::nullopt;
     return grid;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -27,6 +27,8 @@ struct outline_point {
     double normal_height = 0;
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// Fewest segments of a regular polygon, at least 3, whose edges stay within `chord_error` of the circle around it:
 /// n >= pi / acos(1 - e / r).
 /// @param radius, chord_error  in the same unit, finite and positive
@@ -46,7 +48,9 @@ inline int segments_for(float radius, float chord_error) {
     return static_cast<int>(numeric::floor_to_int(segments * (1 - 1e-12))) + 1;
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Appends an arc of a circle centred on the axis, `steps` + 1 points from `first` to `last`: turns, counted from the
 /// lowest point (0) over the equator (1/4) to the highest (1/2).
@@ -84,7 +88,9 @@ int round_segments_for(float radius, float deviation, const RingsOf& rings_of) {
     return segments;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_ONCE {
 
 /// The outline turned about an axis. Two points in the same place with different normals make a sharp edge.
 ///
@@ -159,6 +165,7 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
 }
 #endif
 
+}  // namespace INSONIFY_ONCE
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -18,6 +18,49 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+namespace detail {
+
+/// What copies of a shared mesh refer to.
+struct mesh_facts {
+    mesh shape;
+    bounding_box box;
+    surface_kind kind = surface_kind::open;
+    std::optional<regular_grid> grid;
+
+    static constexpr double grid_error = 0x1p-12;
+};
+
+}  // namespace detail
+
+namespace detail::inline INSONIFY_ONCE {
+
+/// @throws invalid_input for indices or normals that don't match the positions
+INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
+    const auto made = std::make_shared<mesh_facts>();
+    mesh_facts& facts = *made;
+    facts.shape = std::move(m);
+    validate(facts.shape);
+    facts.box = bounds(facts.shape);
+    facts.grid = regular_grid_of(facts.shape, serial_executor{}, mesh_facts::grid_error);
+    if (!facts.grid && order_by_lattice(facts.shape))
+        facts.grid = regular_grid_of(facts.shape, serial_executor{}, mesh_facts::grid_error);
+    else if (!facts.grid && is_incoherent(facts.shape))
+        order_along_curve(facts.shape, facts.box);
+    if (facts.shape.normals.empty())
+        facts.shape.normals = smooth_normals(facts.shape);
+    else
+        wind_by_normals(facts.shape);
+    facts.kind = kind_of(facts.shape);
+    if (facts.kind != surface_kind::heightfield) facts.grid.reset();
+    return made;
+}
+#endif
+
+}  // namespace detail::inline INSONIFY_ONCE
+
 /// An immutable mesh: copies refer to the same triangles. A mesh whose triangles follow one another without order, as
 /// those of a shuffled one, is renumbered, triangles and vertices, and so is a regular grid that comes in another order
 /// than its rows'; otherwise a mesh keeps its numbers. Triangles that are
@@ -27,55 +70,24 @@ inline namespace INSONIFY_ABI {
 class shared_mesh {
   public:
     /// No triangles.
-    shared_mesh() : state_(empty()) {}
+    shared_mesh() : facts_(std::make_shared<const detail::mesh_facts>()) {}
     /// @throws invalid_input for indices or normals that don't match the positions
-    shared_mesh(mesh m) : state_(made_of(std::move(m))) {}
+    INSONIFY_MEMBER shared_mesh(mesh m) : facts_(detail::facts_of(std::move(m))) {}
 
-    const mesh& operator*() const { return state_->shape; }
-    const mesh* operator->() const { return &state_->shape; }
-    operator mesh_view() const { return state_->shape; }
+    const mesh& operator*() const { return facts_->shape; }
+    const mesh* operator->() const { return &facts_->shape; }
+    operator mesh_view() const { return facts_->shape; }
 
     /// Around all finite positions, in the mesh's own frame.
-    const bounding_box& box() const { return state_->box; }
-    surface_kind kind() const { return state_->kind; }
+    const bounding_box& box() const { return facts_->box; }
+    surface_kind kind() const { return facts_->kind; }
     /// The grid of a heightfield whose vertices lie on one, within `grid_error` steps; null otherwise.
-    const regular_grid* grid() const { return state_->grid ? &*state_->grid : nullptr; }
-    static constexpr double grid_error = 0x1p-12;
+    const regular_grid* grid() const { return facts_->grid ? &*facts_->grid : nullptr; }
+    static constexpr double grid_error = detail::mesh_facts::grid_error;
 
   private:
-    struct state {
-        mesh shape;
-        bounding_box box;
-        surface_kind kind = surface_kind::open;
-        std::optional<regular_grid> grid;
-    };
-    static std::shared_ptr<const state> made_of(mesh m);
-    static std::shared_ptr<const state> empty() { return std::make_shared<const state>(); }
-
-    std::shared_ptr<const state> state_;
+    std::shared_ptr<const detail::mesh_facts> facts_;
 };
-
-#if INSONIFY_BODIES
-INSONIFY_FUNCTION std::shared_ptr<const shared_mesh::state> shared_mesh::made_of(mesh m) {
-    const auto made = std::make_shared<state>();
-    state& s = *made;
-    s.shape = std::move(m);
-    validate(s.shape);
-    s.box = bounds(s.shape);
-    s.grid = regular_grid_of(s.shape, serial_executor{}, grid_error);
-    if (!s.grid && detail::order_by_lattice(s.shape))
-        s.grid = regular_grid_of(s.shape, serial_executor{}, grid_error);
-    else if (!s.grid && detail::is_incoherent(s.shape))
-        detail::order_along_curve(s.shape, s.box);
-    if (s.shape.normals.empty())
-        s.shape.normals = smooth_normals(s.shape);
-    else
-        wind_by_normals(s.shape);
-    s.kind = kind_of(s.shape);
-    if (s.kind != surface_kind::heightfield) s.grid.reset();
-    return made;
-}
-#endif
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

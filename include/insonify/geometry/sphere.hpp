@@ -30,7 +30,7 @@ struct hemisphere {
     int segments = 64;  ///< around z, 3 to 8192; a quarter as many rings
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Turns an outline about z and stretches the result; the normals follow.
 inline mesh stretched_round(const std::vector<outline_point>& outline, const char* name, const glm::vec3& aspect,
@@ -45,7 +45,9 @@ inline mesh stretched_round(const std::vector<outline_point>& outline, const cha
     return transformed(std::move(out), stretch);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Closed by index: every vertex is shared, and the poles are one vertex each.
 /// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
@@ -82,6 +84,8 @@ inline int segments_for(const hemisphere& shape, float deviation) {
     return detail::round_segments_for(shape.radius * longest, deviation,
                                       [](int segments) { return 2 * ((segments + 3) / 4); });
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -24,13 +24,17 @@ enum class surface_kind {
     heightfield,  ///< z over a convex part of the xy plane, all triangles counter-clockwise from above
 };
 
-/// Finds out what a mesh is. Linear in its triangles, but for sorting positions.
+inline namespace INSONIFY_ONCE {
+
+/// Classifies a mesh, in linear time but for sorting positions.
 /// @param m  its indices have positions
 INSONIFY_FUNCTION surface_kind kind_of(const mesh& m);
 
+}  // namespace INSONIFY_ONCE
+
 #if INSONIFY_BODIES
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Net directed edges of a mesh: those that triangles run along more often one way than the other.
 inline std::vector<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(const mesh& m) {
@@ -95,10 +99,10 @@ inline bool is_convex_loop(const mesh& m, const std::vector<std::pair<std::uint3
     return count == edges.size() && turns == 1;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
-/// Classifies a mesh, in linear time but for sorting positions.
-/// @param m  its indices have positions
+inline namespace INSONIFY_ONCE {
+
 INSONIFY_FUNCTION surface_kind kind_of(const mesh& m) {
     if (m.triangles.empty()) return surface_kind::open;
     bool is_finite = true, is_upward = true;
@@ -114,6 +118,8 @@ INSONIFY_FUNCTION surface_kind kind_of(const mesh& m) {
     if (edges.empty()) return surface_kind::closed;
     return is_upward && detail::is_convex_loop(m, edges) ? surface_kind::heightfield : surface_kind::open;
 }
+
+}  // namespace INSONIFY_ONCE
 
 #endif
 

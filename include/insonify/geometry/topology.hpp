@@ -19,6 +19,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// What a mesh is as a surface, with vertices in the same place taken as one (sharp edges split them for their
 /// normals).
 struct topology {
@@ -116,6 +118,8 @@ inline topology inspect(const mesh& m) {
     }
     return out;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -40,7 +40,7 @@ struct affine {
     glm::dvec3 offset{0};
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A vector without direction (zero, or not finite) stays as it is.
 inline glm::dvec3 unit(const glm::dvec3& n) {
@@ -48,7 +48,9 @@ inline glm::dvec3 unit(const glm::dvec3& n) {
     return square > 0 && numeric::is_finite(square) ? n / numeric::square_root(square) : n;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 inline glm::dvec3 transform_point(const affine& map, const glm::dvec3& point) {
     return numeric::product(map.linear, point) + map.offset;
@@ -112,6 +114,8 @@ inline mesh transformed(mesh m, const affine& map) {
     }
     return m;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -24,7 +24,7 @@ extern "C" __declspec(dllimport) int __stdcall MoveFileExA(const char* from, con
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 [[noreturn]] inline void raise_io(std::string_view path, std::string_view reason) {
     raise(io_error(std::string(path) + ": " + std::string(reason)));
@@ -94,7 +94,9 @@ inline bool rename_over(const std::string& from, const std::string& to) {
 #endif
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The bytes of a file.
 /// @throws io_error if it can't be opened or read
@@ -172,6 +174,8 @@ inline void write_file(const std::string& path, std::string_view bytes) {
     file.write(bytes.data(), bytes.size());
     file.commit();
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

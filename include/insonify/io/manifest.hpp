@@ -15,16 +15,18 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 template <class T>
 concept csv_text = std::convertible_to<const T&, std::string_view>;
 template <class T>
 concept csv_number = std::is_arithmetic_v<T> && !std::same_as<T, char>;
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// What a cell may hold: text, true or false, or a number, which is written so that it reads back as the same one.
 template <class T>
 concept csv_cell = detail::csv_text<T> || detail::csv_number<T>;
+
+inline namespace INSONIFY_FLAGS {
 
 /// A table with named columns, kept as text. Cells with commas, quotes or line breaks are quoted; lines end with CR LF.
 class csv_table {
@@ -83,6 +85,8 @@ class csv_table {
     std::size_t columns_;
     std::string text_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -27,7 +27,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class Pixel>
 struct netpbm_pixel {
@@ -43,13 +43,13 @@ struct netpbm_pixel<rgb<Sample>> {
 template <class T>
 concept netpbm_sample = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> || std::same_as<T, float>;
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Pixels that have a netpbm file format.
 template <class T>
 concept storable_pixel = detail::netpbm_sample<typename detail::netpbm_pixel<T>::sample>;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Reads a header, then samples, from untrusted bytes.
 class netpbm_reader {
@@ -191,7 +191,9 @@ void append_sample(std::string& bytes, const rgb<Sample>& pixel) {
     append_sample(bytes, pixel.b);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The image in the bytes of a netpbm file; the table at the top says which formats a pixel type takes. Bytes behind
 /// the image are ignored, as is the size of a PFM's scale.
@@ -277,6 +279,8 @@ template <storable_pixel Pixel>
 void write_netpbm(const std::string& path, const image<Pixel>& source) {
     write_netpbm(path, source.view());
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -13,7 +13,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void check(const draw_options& options, image_view<const float> depth) {
     require(options.subpixel_bits >= 4 && options.subpixel_bits <= 16, "subpixel_bits", options.subpixel_bits,
@@ -179,7 +179,9 @@ draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneS
     return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept, shade_tile);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Draws depth alone; no shading is compiled.
 ///
@@ -231,6 +233,8 @@ draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentSha
     return detail::draw_tiles<true, double>(m, place, target.depth, options, ex, detail::no_records, detail::every_tile,
                                             shade);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -21,7 +21,7 @@ struct draw_stats {
     std::uint64_t clipped = 0;     ///< of all these, how many were cut by a clipping plane
     std::uint64_t pixels = 0;      ///< shaded; 0 for depth alone
 
-    draw_stats& operator+=(const draw_stats& other) {
+    INSONIFY_TAGGED draw_stats& operator+=(const draw_stats& other) {
         triangles += other.triangles;
         drawn += other.drawn;
         culled += other.culled;

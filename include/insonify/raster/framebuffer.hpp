@@ -20,11 +20,15 @@ enum class depth_load {
     clear,  ///< nothing: the target's depth is overwritten, without being read; see framebuffer for its color
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// The depth of an empty pixel.
 constexpr float empty_depth(keep_depth keep) {
     return keep == keep_depth::smaller ? std::numeric_limits<float>::infinity()
                                        : -std::numeric_limits<float>::infinity();
 }
+
+}  // namespace INSONIFY_FLAGS
 
 /// Depth alone, correctly rounded: takes no fragment callable and compiles no shading.
 struct depth_target {

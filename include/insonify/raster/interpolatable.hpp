@@ -22,7 +22,7 @@ inline constexpr bool is_vector_of_floats = requires {
 template <>
 inline constexpr bool is_vector_of_floats<float> = true;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class V>
 constexpr bool consists_of_floats();
@@ -71,7 +71,7 @@ constexpr bool consists_of_floats() {
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Made of floats alone: float, glm::vec2..4, arrays and aggregates of those.
 template <class V>

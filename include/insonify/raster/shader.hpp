@@ -53,7 +53,7 @@ concept vertex_shader = position_shader<S> || varying_shader<S>;
 /// Stands for the varyings of a shader that has none.
 struct no_varyings {};
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <vertex_shader S>
 struct shader_varyings {
@@ -111,7 +111,7 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 template <vertex_shader S>
 using varyings_of = typename detail::shader_varyings<S>::type;

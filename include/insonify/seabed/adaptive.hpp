@@ -15,7 +15,7 @@ struct adaptive_mesh {
     std::vector<std::uint32_t> vertices;  ///< which vertex of the heightfield each is: j width + i
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Calls `emit(corner, corner, corner)`, counter-clockwise and each a glm::ivec2, for every triangle that a vertex
 /// brings: those whose right angle it is.
@@ -50,7 +50,9 @@ void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit)
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The surface of a heightfield as a mesh of the triangles that it takes, given what it may be off by: at no point of a
 /// triangle is the drawn surface (`height_at`) farther above or below it than `allowed` at the triangle's corners; nor
@@ -135,6 +137,8 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
     });
     return result;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

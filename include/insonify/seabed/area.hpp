@@ -15,11 +15,15 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 /// Patches strewn by a noise that exceeds a threshold.
 struct patches {
     float coverage = 0.5f;  ///< in [0, 1]: their share of the area, over many patches
     float size = 12.0f;     ///< metres, > 0: scale of the patches
 };
+
+}  // namespace INSONIFY_FLAGS
 
 /// What is nearer to a point than a radius.
 struct disc {
@@ -38,6 +42,8 @@ struct polygon {
     std::vector<glm::dvec2> corners;  ///< at least three
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// Where a picture, laid over the world like a heightfield, is above 1/2; interpolated between its pixels, outside as
 /// at its nearest edge. A step from 0 to 1 between two pixels is taken for a border across the spacing.
 struct stencil {
@@ -46,9 +52,11 @@ struct stencil {
     double spacing = 1;           ///< metres, > 0
 };
 
+}  // namespace INSONIFY_FLAGS
+
 using area = std::variant<patches, disc, band, polygon, stencil>;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The value that a standard normal variable exceeds with probability p, absolute error < 4.5e-4.
 /// Milton Abramowitz, Irene A. Stegun. Handbook of Mathematical Functions. 1964 (eq. 26.2.23, by C. Hastings).
@@ -197,7 +205,7 @@ class outline {
     float scale_ = 1, offset_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

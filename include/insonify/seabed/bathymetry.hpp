@@ -23,7 +23,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Splits a text into words and numbers; errors name the line.
 class survey_reader {
@@ -108,7 +108,9 @@ inline bool same_word(std::string_view a, std::string_view b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return low(x) == low(y); });
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Reads an Esri ASCII grid: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize, maybe
 /// nodata_value, then the heights row by row from the north. Vertices stand at the centres of its cells.
@@ -259,6 +261,8 @@ inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
     }
     return field;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

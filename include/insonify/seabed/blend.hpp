@@ -11,7 +11,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class blend_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// Patches of `first` in `second`: where a noise exceeds a threshold there is one, else the other. Across the border
 /// one relief sinks beneath the other, so ripples end in tips within about a border's width.
@@ -24,15 +28,17 @@ struct blend {
     std::uint64_t seed = 1;
 
     /// @throws invalid_input for parameters out of their range
-    blend_sampler prepare() const;
-    std::vector<type_properties> legend() const {
+    INSONIFY_TAGGED blend_sampler prepare() const;
+    INSONIFY_TAGGED std::vector<type_properties> legend() const {
         std::vector<type_properties> all = first.legend();
         extend(all, second.legend());
         return all;
     }
-    float operator()(double x, double y) const;
-    type type_at(double x, double y) const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED type type_at(double x, double y) const;
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `blend`.
 class blend_sampler {
@@ -65,6 +71,8 @@ class blend_sampler {
     detail::outline where_;
     detail::border edge_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 inline blend_sampler blend::prepare() const {
     return blend_sampler(*this);

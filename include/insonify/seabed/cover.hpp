@@ -13,7 +13,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The transition across a layer's border.
 class border {
@@ -102,7 +102,7 @@ void by_parts(const scanline& line, std::span<float> heights, std::span<type> ty
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

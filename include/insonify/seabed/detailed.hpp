@@ -11,7 +11,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class detailed_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// A heightfield, smooth between its vertices instead of in facets, and roughness on top.
 ///
@@ -24,12 +28,14 @@ struct detailed {
 
     /// By reference: the heightfield has to outlive the sampler.
     /// @throws invalid_input as `validate` of heightfields, and for parameters of the roughness out of their range
-    detailed_sampler prepare() const;
-    float operator()(double x, double y) const;
-    type type_at(double x, double y) const { return field.type_at(x, y); }
-    std::optional<type> only_type() const { return field.only_type(); }
-    std::vector<type_properties> legend() const { return field.legend(); }
+    INSONIFY_TAGGED detailed_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_MEMBER type type_at(double x, double y) const { return field.type_at(x, y); }
+    INSONIFY_MEMBER std::optional<type> only_type() const { return field.only_type(); }
+    INSONIFY_MEMBER std::vector<type_properties> legend() const { return field.legend(); }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `detailed`.
 class detailed_sampler {
@@ -81,6 +87,8 @@ class detailed_sampler {
     const heightfield* field_;
     power_law_noise surface_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 inline detailed_sampler detailed::prepare() const {
     return detailed_sampler(*this);

@@ -66,7 +66,7 @@ struct heap {
 
 using edit = std::variant<raise, flatten, smooth, ramp, stamp, scour, heap, moat>;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// 1 in the middle, 0 with its slope from a distance of 1.
 constexpr float brush(float r) {
@@ -304,7 +304,7 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

@@ -9,7 +9,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class flat_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// Level sand with power-law roughness; `{.surface = {.rms = 0}}` is a plane.
 struct flat {
@@ -18,10 +22,12 @@ struct flat {
     type kind = type::sand;
 
     /// @throws invalid_input for parameters out of the ranges of `roughness`
-    flat_sampler prepare() const;
-    float operator()(double x, double y) const;
-    float sink_depth() const { return 2 * surface.rms; }
+    INSONIFY_TAGGED flat_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_MEMBER float sink_depth() const { return 2 * surface.rms; }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `flat`.
 class flat_sampler {
@@ -39,6 +45,8 @@ class flat_sampler {
   private:
     power_law_noise surface_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 inline flat_sampler flat::prepare() const {
     return flat_sampler(*this);

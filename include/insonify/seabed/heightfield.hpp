@@ -17,7 +17,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A coordinate in cells, held inside a grid: which of its cells, and how far across, in [0, 1]. NaN counts as 0.
 struct grid_coordinate {
@@ -49,9 +49,13 @@ inline facet facet_at(image_view<const float> heights, double u, double v) {
     return {numeric::is_finite(height) ? height : (std::numeric_limits<double>::quiet_NaN)(), rise_x, rise_y};
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 class heightfield_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// Heights at the vertices of a square grid; vertex (i, j) stands at origin + spacing * (i, j), so that y, along track,
 /// grows with the row: the array looked at as a picture has forward at the bottom (`from_image` turns it).
@@ -69,34 +73,38 @@ struct heightfield {
     std::vector<type_properties> own_types{};
 
     /// Height of the drawn surface at a world position, metres; it and the next two expect a valid heightfield.
-    float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
+    INSONIFY_MEMBER float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
 
     /// Unit normal of the triangle at a world position; outside, that of the nearest one. NaN where there is no data.
-    glm::vec3 normal_at(double x, double y) const {
+    INSONIFY_TAGGED glm::vec3 normal_at(double x, double y) const {
         const detail::facet f = facet_at(x, y);
         const glm::dvec3 normal(-f.rise_x, -f.rise_y, spacing);
         return glm::vec3(normal / numeric::square_root(numeric::dot(normal, normal)));
     }
 
     /// Type at the nearest vertex.
-    type type_at(double x, double y) const {
+    INSONIFY_MEMBER type type_at(double x, double y) const {
         if (types.empty()) return fallback;
         return types(detail::grid_coordinate((x - origin.x) / spacing + 0.5, types.width()).cell,
                      detail::grid_coordinate((y - origin.y) / spacing + 0.5, types.height()).cell);
     }
 
-    float operator()(double x, double y) const { return height_at(x, y); }
+    INSONIFY_MEMBER float operator()(double x, double y) const { return height_at(x, y); }
 
     /// The sampler refers to the heightfield, which has to outlive it.
     /// @throws invalid_input as `validate`
-    heightfield_sampler prepare() const;
-    std::optional<type> only_type() const { return types.empty() ? std::optional(fallback) : std::nullopt; }
-    std::vector<type_properties> legend() const;
+    INSONIFY_TAGGED heightfield_sampler prepare() const;
+    INSONIFY_MEMBER std::optional<type> only_type() const {
+        return types.empty() ? std::optional(fallback) : std::nullopt;
+    }
+    INSONIFY_TAGGED std::vector<type_properties> legend() const;
 
-    detail::facet facet_at(double x, double y) const {
+    INSONIFY_MEMBER detail::facet facet_at(double x, double y) const {
         return detail::facet_at(heights, (x - origin.x) / spacing, (y - origin.y) / spacing);
     }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for fewer than 2 x 2 vertices, types of another size, an origin beyond 1e9 m or a spacing not
 /// above 0
@@ -136,6 +144,8 @@ class heightfield_sampler {
     const heightfield* field_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 inline heightfield_sampler heightfield::prepare() const {
     return heightfield_sampler(*this);
 }
@@ -148,6 +158,8 @@ inline std::vector<type_properties> heightfield::legend() const {
         if (occurs[i]) extend(all, {properties_of(static_cast<type>(i))});
     return all;
 }
+
+inline namespace INSONIFY_FLAGS {
 
 /// A heightfield from a picture of heights: one vertex per pixel, height = scale * pixel, the top row foremost (the
 /// largest y), vertex (0, 0) at the world's origin.
@@ -170,6 +182,8 @@ inline heightfield from_image(image_view<const float> picture, double spacing, f
     }
     return result;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

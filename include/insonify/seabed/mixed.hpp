@@ -11,7 +11,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class mixed_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// One bottom of a `mixed` seabed.
 struct layer {
@@ -31,15 +35,17 @@ struct mixed {
 
     /// The sampler owns what it needs.
     /// @throws invalid_input for parameters out of their range
-    mixed_sampler prepare() const;
-    std::vector<type_properties> legend() const {
+    INSONIFY_TAGGED mixed_sampler prepare() const;
+    INSONIFY_TAGGED std::vector<type_properties> legend() const {
         std::vector<type_properties> all = base.legend();
         for (const layer& l : layers) extend(all, l.bottom.legend());
         return all;
     }
-    float operator()(double x, double y) const;
-    type type_at(double x, double y) const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED type type_at(double x, double y) const;
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `mixed`.
 class mixed_sampler {
@@ -82,6 +88,8 @@ class mixed_sampler {
     any_sampler base_;
     std::vector<prepared_layer> layers_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 inline mixed_sampler mixed::prepare() const {
     return mixed_sampler(*this);

@@ -30,7 +30,7 @@ struct moat {
     float tail = 6;                           ///< its length, metres, >= 0; 0: none
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void validate(const moat& m) {
     validate_points(m.outline, "moat.outline", 3);
@@ -99,7 +99,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
     return change;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

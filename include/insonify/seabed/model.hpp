@@ -44,12 +44,14 @@ struct scanline {
     /// `carried`). 0: nothing does.
     double grid_spacing = 0;
 
-    double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
-    scanline from(std::size_t i) const { return {y, origin, spacing, number(i), grid_spacing}; }
+    INSONIFY_MEMBER double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
+    INSONIFY_MEMBER scanline from(std::size_t i) const { return {y, origin, spacing, number(i), grid_spacing}; }
 
   private:
-    std::int64_t number(std::size_t i) const { return first + static_cast<std::int64_t>(i); }
+    INSONIFY_MEMBER std::int64_t number(std::size_t i) const { return first + static_cast<std::int64_t>(i); }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The share in [0, 1] of a wave's amplitude that a grid keeps: nothing of two samples a wave or fewer, which would
 /// show up as another wave, and all from four on. Both in the same unit; a spacing of 0 keeps everything.
@@ -61,21 +63,28 @@ constexpr float carried(double wavelength, double spacing) {
     return wavelength <= 2 * spacing ? 0.0f : static_cast<float>(2 - 4 * spacing / wavelength);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// Heights that a seabed never leaves, metres above the datum; nothing at all where lowest > highest. Rounding has to
 /// be included: the parts of the bottom that may cast a shadow into a picture are found by it.
 struct height_range {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -std::numeric_limits<double>::infinity();
 
-    bool empty() const { return !(lowest <= highest); }
+    INSONIFY_MEMBER bool empty() const { return !(lowest <= highest); }
     /// Any height at all: the range of models that do not state theirs. Overhead pictures refuse it.
-    static constexpr height_range unlimited() {
+    INSONIFY_MEMBER static constexpr height_range unlimited() {
         return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     }
 };
+
+inline namespace INSONIFY_FLAGS {
+
 inline height_range merge(const height_range& a, const height_range& b) {
     return {(std::min)(a.lowest, b.lowest), (std::max)(a.highest, b.highest)};
 }
+
+}  // namespace INSONIFY_FLAGS
 
 /// Writes the heights of a row, in metres above the datum z = 0; NaN where there is no bottom. Heights depend on the
 /// model and the position alone; positions are good to 1e9 m from the origin.
@@ -102,7 +111,7 @@ concept single_typed = requires(const M& m) {
     { seabed::label_of(m.kind) } -> std::same_as<type>;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::refuse;
 using insonify::detail::require;
@@ -159,7 +168,7 @@ height_range range_of(const S& s) {
     return height_range::unlimited();
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// A seabed: see the top of this file.
 template <class M>
@@ -168,6 +177,8 @@ concept model = requires(const M& m) {
 }
 &&(typed_sampler<decltype(detail::sampler_of(std::declval<const M&>()))> ||
    (single_typed<M> && sampler<decltype(detail::sampler_of(std::declval<const M&>()))>));
+
+inline namespace INSONIFY_FLAGS {
 
 /// What the library evaluates: a typed sampler. It may refer to the model, which has to outlive it.
 /// @throws invalid_input for parameters out of their range
@@ -224,11 +235,16 @@ float sink_depth_of(const M& m) {
     }
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// Height and label at one point.
 struct ground {
     float height;
     type kind;
 };
+
+inline namespace INSONIFY_FLAGS {
+
 template <typed_sampler S>
 ground at(const S& prepared, double x, double y) {
     ground result{};
@@ -243,6 +259,8 @@ float height_at(const S& prepared, double x, double y) {
     prepared.row({.y = y, .origin = x}, {&height, 1});
     return height;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

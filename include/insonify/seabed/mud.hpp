@@ -11,7 +11,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class mud_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// Fine sediment: low, smooth relief; scattered mounds and pock marks, each a round bump or dent; furrows, if any.
 struct mud {
@@ -26,10 +30,14 @@ struct mud {
     type kind = type::mud;
 
     /// @throws invalid_input for parameters out of their range
-    mud_sampler prepare() const;
-    float operator()(double x, double y) const;
-    float sink_depth() const { return (std::max)((std::max)(mound_height, pock_depth), 2 * surface.rms); }
+    INSONIFY_TAGGED mud_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_MEMBER float sink_depth() const {
+        return (std::max)((std::max)(mound_height, pock_depth), 2 * surface.rms);
+    }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `mud`.
 class mud_sampler {
@@ -66,6 +74,8 @@ class mud_sampler {
     detail::round_marks marks_;
     detail::trawl_furrows trawls_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 inline mud_sampler mud::prepare() const {
     return mud_sampler(*this);

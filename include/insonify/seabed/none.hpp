@@ -21,8 +21,8 @@ struct none {
         }
         height_range range() const { return {}; }
     };
-    sampler prepare() const { return {}; }
-    float operator()(double, double) const { return std::numeric_limits<float>::quiet_NaN(); }
+    INSONIFY_MEMBER sampler prepare() const { return {}; }
+    INSONIFY_MEMBER float operator()(double, double) const { return std::numeric_limits<float>::quiet_NaN(); }
 };
 
 }  // namespace seabed

@@ -44,9 +44,9 @@ struct sediment_facts {
     sediment_form form{};
 
     /// Root mean square height of what is shorter than a metre, metres: 2 pi w2 K^-1.25 / 1.25 at K = 2 pi / 100 cm.
-    float rms() const { return 0.12641f * numeric::square_root(strength); }
+    INSONIFY_MEMBER float rms() const { return 0.12641f * numeric::square_root(strength); }
     /// The backscattering strength at normal incidence by Lambert's law, as a factor.
-    constexpr float strength_at_nadir() const {
+    INSONIFY_MEMBER constexpr float strength_at_nadir() const {
         return static_cast<float>(numeric::pow(10, static_cast<double>(level) / 10));
     }
 };
@@ -80,7 +80,7 @@ inline constexpr sediment_facts sediments[] = {
 };
 inline constexpr std::size_t sediment_count = std::size(sediments);
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 constexpr std::array<type_properties, type_count> registered_types() {
     std::array<type_properties, type_count> rows{};
@@ -94,7 +94,7 @@ constexpr std::array<type_properties, type_count> registered_types() {
     return rows;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Every label of the library.
 inline constexpr std::array<type_properties, type_count> built_in_types = detail::registered_types();
@@ -107,11 +107,15 @@ static_assert(
     }(),
     "the label of a row is its index");
 
+inline namespace INSONIFY_FLAGS {
+
 /// The properties of a label of the library; of any other label those of sand, without a name.
 constexpr type_properties properties_of(type t) {
     if (index_of(t) < type_count) return built_in_types[index_of(t)];
     return {t, "", built_in_types[0].reflectivity, built_in_types[0].speckle};
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

@@ -10,7 +10,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class ripples_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// Rippled sand. The first six parameters are those of `ripple_system`.
 struct ripples {
@@ -26,19 +30,23 @@ struct ripples {
     type kind = type::ripples;
 
     /// @throws invalid_input for parameters out of their range
-    ripples_sampler prepare() const;
-    float operator()(double x, double y) const;
+    INSONIFY_TAGGED ripples_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
 
-    ripple_system first() const { return {wavelength, steepness, direction, spread, bandwidth, sharpness}; }
+    INSONIFY_MEMBER ripple_system first() const {
+        return {wavelength, steepness, direction, spread, bandwidth, sharpness};
+    }
     /// Metres from trough to crest, of the first system.
-    float height() const { return steepness * wavelength; }
-    float sink_depth() const { return 0.5f * (height() + second.height()) + 2 * surface.rms; }
+    INSONIFY_MEMBER float height() const { return steepness * wavelength; }
+    INSONIFY_MEMBER float sink_depth() const { return 0.5f * (height() + second.height()) + 2 * surface.rms; }
     /// Ends of crests per square metre to expect, of the first system.
-    double forks() const {
+    INSONIFY_MEMBER double forks() const {
         return 2 * numeric::pi * static_cast<double>(spread) * static_cast<double>(bandwidth) /
                (static_cast<double>(wavelength) * static_cast<double>(wavelength));
     }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `ripples`.
 class ripples_sampler {
@@ -68,6 +76,8 @@ class ripples_sampler {
     detail::ripple_train first_, second_;
     power_law_noise surface_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 inline ripples_sampler ripples::prepare() const {
     return ripples_sampler(*this);

@@ -10,7 +10,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class rock_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// Outcrops with steep faces, blocks on and around them, and rough surfaces.
 ///
@@ -29,10 +33,12 @@ struct rock {
     type kind = type::rock;
 
     /// @throws invalid_input for parameters out of their range
-    rock_sampler prepare() const;
-    float operator()(double x, double y) const;
-    float sink_depth() const { return 0.5f * relief + 2 * surface.rms; }
+    INSONIFY_TAGGED rock_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_MEMBER float sink_depth() const { return 0.5f * relief + 2 * surface.rms; }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `rock`.
 class rock_sampler {
@@ -140,6 +146,8 @@ class rock_sampler {
     float relief_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 inline rock_sampler rock::prepare() const {
     return rock_sampler(*this);
 }
@@ -147,14 +155,16 @@ inline float rock::operator()(double x, double y) const {
     return height_at(prepare(), x, y);
 }
 
-#if INSONIFY_BODIES
-INSONIFY_FUNCTION void rock_sampler::row(const scanline& line, std::span<float> heights) const {
+inline namespace INSONIFY_FLAGS {
+
+inline void rock_sampler::row(const scanline& line, std::span<float> heights) const {
     detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
         if (relief_ > 0) detail::dispatch(kernel{*this, part, values.data()}, best_isa());
         surface_.add(part, values);
     });
 }
-#endif
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

@@ -20,6 +20,8 @@ struct grid {
     glm::ivec2 first{0, 0};
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
 /// vertices where they overlap: to the last bit if the spacing is a sum of few powers of two, as 1/64 m is.
 /// @throws invalid_input for a spacing not above 0, or corners beyond 1e9 metres or in the wrong order
@@ -70,6 +72,8 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     });
     return result;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

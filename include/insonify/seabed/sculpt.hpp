@@ -14,7 +14,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class sculpt_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// A seabed and a list of edits. Labels are those of the seabed.
 struct sculpted {
@@ -22,12 +26,14 @@ struct sculpted {
     std::vector<edit> edits;  ///< the first is done first
 
     /// @throws invalid_input for parameters out of their range
-    sculpt_sampler prepare() const;
-    std::optional<type> only_type() const { return ground.only_type(); }
-    std::vector<type_properties> legend() const { return ground.legend(); }
-    float operator()(double x, double y) const;
-    type type_at(double x, double y) const;
+    INSONIFY_TAGGED sculpt_sampler prepare() const;
+    INSONIFY_MEMBER std::optional<type> only_type() const { return ground.only_type(); }
+    INSONIFY_MEMBER std::vector<type_properties> legend() const { return ground.legend(); }
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED type type_at(double x, double y) const;
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `sculpted`.
 class sculpt_sampler {
@@ -92,6 +98,8 @@ class sculpt_sampler {
     any_sampler ground_;
     std::vector<bounded_edit> edits_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 inline sculpt_sampler sculpted::prepare() const {
     return sculpt_sampler(*this);

@@ -35,6 +35,8 @@ enum class sediment : std::uint8_t {
     silty_clay,
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// The label of a sediment.
 constexpr type type_of(sediment s) {
     return static_cast<type>(s);
@@ -92,6 +94,8 @@ inline ripples rippled(sediment s, ripples shape = {}) {
     shape.kind = type_of(s);
     return shape;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

@@ -12,7 +12,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Which triangles of a cell have data at all their corners.
 struct cell_facets {
@@ -76,7 +76,9 @@ void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 f
     });
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The surface of a heightfield as a mesh: two triangles per cell, counter-clockwise from above, cut from vertex (i, j)
 /// to (i + 1, j + 1); 2 (width - 1) (height - 1) triangles if no height is missing.
@@ -93,6 +95,8 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm
     detail::tessellate_into(result, field, ex, first);
     return result;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

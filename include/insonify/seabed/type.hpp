@@ -51,6 +51,8 @@ enum class type : std::uint8_t {
 inline constexpr std::size_t type_count = 16;    ///< of the library: labels below it
 inline constexpr std::size_t label_count = 256;  ///< of all; the last means no seabed in images of labels
 
+inline namespace INSONIFY_FLAGS {
+
 /// A label that the library does not use.
 /// @param number  0 to 238
 /// @throws invalid_input for a number out of its range
@@ -65,6 +67,8 @@ constexpr std::size_t index_of(type t) {
     return static_cast<std::size_t>(t);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// The properties of a label.
 struct type_properties {
     type label = type::sand;
@@ -74,6 +78,8 @@ struct type_properties {
     friend bool operator==(const type_properties&, const type_properties&) = default;
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// A label, or the properties of one, as a seabed's `kind`.
 constexpr type label_of(type t) {
     return t;
@@ -81,6 +87,8 @@ constexpr type label_of(type t) {
 constexpr type label_of(const type_properties& p) {
     return p.label;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

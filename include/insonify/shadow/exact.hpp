@@ -22,6 +22,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow {
 
+inline namespace INSONIFY_FLAGS {
+
 /// Casters that block one light, as `exact` builds them.
 class exact_occlusion {
   public:
@@ -374,6 +376,8 @@ class exact_occlusion {
     std::vector<plane_state> planes_;      ///< one, or six of which some are empty
     std::vector<horizon_state> horizons_;  ///< of the casters, under parallel light
 };
+
+}  // namespace INSONIFY_FLAGS
 
 template <executor E>
 exact_occlusion exact::build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,

@@ -28,6 +28,8 @@ struct point_light {
     glm::dvec3 position{0, 0, 1};  ///< metres
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// Frame of a directional light; coordinates are metres.
 class light_frame {
   public:
@@ -60,6 +62,8 @@ class light_frame {
     glm::dvec3 to_light_;
     double cot_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace shadow
 }  // namespace INSONIFY_ABI

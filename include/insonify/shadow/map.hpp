@@ -22,6 +22,8 @@ struct map_layout {
     int radius = 0;  ///< of the filter, texels
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value out of its range
 inline void validate(const map_layout& m) {
     insonify::detail::require(m.texels_per_pixel > 0 && numeric::is_finite(m.texels_per_pixel), "texels_per_pixel",
@@ -96,6 +98,8 @@ class map_occlusion {
     std::vector<height_map> maps_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 /// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
 struct map {
     float texels_per_pixel = 1.5f;  ///< of the points' spacing; a shadow edge is off by half a texel at most
@@ -104,8 +108,8 @@ struct map {
     /// See casting_policy.
     /// @throws invalid_input as map_occlusion does
     template <executor E>
-    map_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
-                        E& ex) const {
+    INSONIFY_MEMBER map_occlusion build(std::span<const caster> casters, const any_light& light,
+                                        const point_bounds& bounds, E& ex) const {
         return {{texels_per_pixel, largest, 0}, casters, light, bounds, ex};
     }
 };
@@ -119,8 +123,8 @@ struct pcf {
     /// See casting_policy.
     /// @throws invalid_input as map_occlusion does
     template <executor E>
-    map_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
-                        E& ex) const {
+    INSONIFY_MEMBER map_occlusion build(std::span<const caster> casters, const any_light& light,
+                                        const point_bounds& bounds, E& ex) const {
         return {{texels_per_pixel, largest, radius}, casters, light, bounds, ex};
     }
 };

@@ -15,6 +15,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow {
 
+inline namespace INSONIFY_FLAGS {
+
 /// Casters under several points of one light.
 class penumbra_occlusion {
   public:
@@ -129,6 +131,8 @@ class penumbra_occlusion {
     std::vector<sample> lights_;  ///< the middle first
 };
 
+}  // namespace INSONIFY_FLAGS
+
 /// Soft edges: exact shadows of several points of a round light. Each point costs as much as `exact`. The caster is
 /// that of the light's middle. The disc of light from nearby faces the origin of the frame in which it is described.
 struct penumbra {
@@ -137,7 +141,7 @@ struct penumbra {
 
     /// Radius of the light over its distance.
     /// @throws invalid_input for a diameter out of range
-    double light_radius() const {
+    INSONIFY_MEMBER double light_radius() const {
         insonify::detail::require(diameter >= 0 && diameter <= 1, "diameter", diameter, "0 to 1 radian");
         return numeric::tan(0.5 * static_cast<double>(diameter));
     }
@@ -145,8 +149,8 @@ struct penumbra {
     /// See casting_policy.
     /// @throws invalid_input for a diameter or samples out of range, else as exact_occlusion does
     template <executor E>
-    penumbra_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
-                             E& ex) const {
+    INSONIFY_MEMBER penumbra_occlusion build(std::span<const caster> casters, const any_light& light,
+                                             const point_bounds& bounds, E& ex) const {
         insonify::detail::require(samples >= 1 && samples <= 1024, "samples", samples, "1 to 1024");
         return {light_radius(), samples, casters, light, bounds, ex};
     }

@@ -50,8 +50,8 @@ struct points {
     std::uint32_t casters = invalid_id;       ///< casters numbered below this matter; others need not be tested
     bool face_light = true;                   ///< their own facets do; else only the caster's name matters
 
-    std::size_t size() const { return x.size(); }
-    glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+    INSONIFY_MEMBER std::size_t size() const { return x.size(); }
+    INSONIFY_MEMBER glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
 /// What becomes of points, as arrays of the same length as theirs.
@@ -59,7 +59,7 @@ struct shares {
     std::span<float> lit;             ///< fraction of the light that arrives, 0 to 1
     std::span<std::uint32_t> caster;  ///< lowest number of a caster that blocks the light's centre, or invalid_id
 
-    std::size_t size() const { return lit.size(); }
+    INSONIFY_MEMBER std::size_t size() const { return lit.size(); }
 };
 
 /// Where points will be tested.
@@ -67,6 +67,8 @@ struct point_bounds {
     bounding_box box;    ///< around all of them
     double spacing = 0;  ///< metres from one to the next on level ground; 0 if unknown
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Normal of the facet that point i lies on, of any length, in the frame of the light; 0 if it lies on none. Its sign
 /// is that of the triangle's order, whichever side is seen.
@@ -98,12 +100,14 @@ concept casting_policy = requires(const P& policy, std::span<const caster> caste
 
 class exact_occlusion;
 
+}  // namespace INSONIFY_FLAGS
+
 /// Hard shadows, exact for every point: the default. See exact.hpp, which makes it a model of casting_policy.
 struct exact {
     /// See casting_policy.
     template <executor E>
-    exact_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
-                          E& ex) const;
+    INSONIFY_TAGGED exact_occlusion build(std::span<const caster> casters, const any_light& light,
+                                          const point_bounds& bounds, E& ex) const;
 };
 
 /// No shadows: nothing is built, tested or compiled.
@@ -111,6 +115,8 @@ struct none {};
 
 template <class P>
 concept policy = std::same_as<P, none> || casting_policy<P>;
+
+inline namespace INSONIFY_FLAGS {
 
 /// Radius of the light over its distance: 0, unless a policy has a `light_radius()`.
 template <policy P>
@@ -120,6 +126,8 @@ double radius_of(const P& p) {
     else
         return 0;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 /// Occlusion that gains from seeing all points of a picture at once. `structure.screen(points, shares)` answers what
 /// can be told of points one by one and leaves `unknown` where it cannot; `structure.test(batches, shares, executor)`

@@ -25,9 +25,9 @@ concept backscatter_law = requires(const L& law, float s) {
 
 /// Optical Lambert, s: what the paper's game engine draws.
 struct lambert {
-    float operator()(float s) const { return s; }
+    INSONIFY_MEMBER float operator()(float s) const { return s; }
     template <class Lanes>
-    INSONIFY_INLINE void in_lanes(Lanes& into, const Lanes& s) const {
+    INSONIFY_MEMBER void in_lanes(Lanes& into, const Lanes& s) const {
         into = s;
     }
 };
@@ -35,9 +35,9 @@ struct lambert {
 /// Lambert's law for backscattered intensity, s^2 (K. V. Mackenzie. Bottom Reverberation for 530- and 1030-cps Sound in
 /// Deep Water. JASA 33, 1961, without its level): both the sound that arrives and the sound that returns spread by s.
 struct lambert_backscatter {
-    float operator()(float s) const { return s * s; }
+    INSONIFY_MEMBER float operator()(float s) const { return s * s; }
     template <class Lanes>
-    INSONIFY_INLINE void in_lanes(Lanes& into, const Lanes& s) const {
+    INSONIFY_MEMBER void in_lanes(Lanes& into, const Lanes& s) const {
         into = s * s;
     }
 };
@@ -50,7 +50,7 @@ struct facet_backscatter {
     float facets = 4;     ///< echo at normal incidence over that of Lambert's law, >= 0
     float slope = 0.15f;  ///< rms slope of the facets, above 0: smooth mud 0.05, sand 0.1 to 0.2, gravel 0.3
 
-    float operator()(float s) const {
+    INSONIFY_TAGGED float operator()(float s) const {
         const double square = static_cast<double>(s) * static_cast<double>(s);
         if (!(square > 1e-6)) return 0;
         const double tangent_square = 1 / square - 1, spread = static_cast<double>(slope);

@@ -15,6 +15,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// Levels in decibels that are added to a bottom's; all of them 0 is none.
 struct bottom_tone {
     float drift = 0;            ///< rms of what drifts, 0 to 30
@@ -32,7 +34,9 @@ struct bottom_tone {
     bool is_none() const { return drift == 0 && streaks == 0 && patches == 0; }
 };
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void validate(const bottom_tone& t) {
     const auto level = [](const char* name, float v) { require(v >= 0 && v <= 30, name, v, "0 to 30 dB"); };
@@ -108,7 +112,9 @@ class tone_sampler {
     double scale_ = 0, threshold_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The level that a tone adds at a position, decibels.
 /// @throws invalid_input for a parameter out of its range, or a position that is not finite
@@ -149,6 +155,8 @@ frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const b
     });
     return r;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -27,7 +27,7 @@ struct display {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a `white` that isn't positive, or an exponent outside its range
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::require(white > 0 && numeric::is_finite(white), "display.white", white, "above 0");
         detail::require(exponent > 0 && exponent <= 4, "display.exponent", exponent, "above 0, at most 4");
         return [scale = 1 / white, to = exponent]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
@@ -50,7 +50,7 @@ struct decibel_display {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::require(white > 0 && numeric::is_finite(white), "decibel_display.white", white, "above 0");
         detail::require(range > 0 && range <= 400, "decibel_display.range", range, "above 0, at most 400 dB");
         // 10 log10(e) / range for each natural logarithm
@@ -65,8 +65,12 @@ struct decibel_display {
     }
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// What automatic_display measures in.
 enum class display_scale { power, amplitude, decibels };
+
+}  // namespace INSONIFY_FLAGS
 
 /// Black and white by the picture's own percentiles, as the "auto" of survey software stretches a picture: the share
 /// `black` of the pixels is black, the share `white` of them white.
@@ -78,7 +82,7 @@ struct automatic_display {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    auto pass(image_view<const float> picture) const {
+    INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
         detail::require(
             scale == display_scale::power || scale == display_scale::amplitude || scale == display_scale::decibels,
             "automatic_display.scale", static_cast<int>(scale), "power, amplitude or decibels");
@@ -107,7 +111,7 @@ struct automatic_display {
 
   private:
     /// -300 dB stands for no sound at all, 1e30 for an endless one.
-    static double measure(double intensity, display_scale as) {
+    INSONIFY_TAGGED static double measure(double intensity, display_scale as) {
         if (!(intensity > 1e-30)) intensity = as == display_scale::decibels ? 1e-30 : 0.0;
         if (intensity > 1e30) intensity = 1e30;
         if (as == display_scale::power) return intensity;

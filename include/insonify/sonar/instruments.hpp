@@ -34,19 +34,19 @@ struct instrument {
     float vertical_beam;           ///< width, radians
     float tilt;                    ///< of the vertical beam's axis below the horizon, radians
 
-    float wavelength() const { return 1500 / frequency; }
-    horizontal_beam horizontal() const { return {beam}; }
-    bool is_synthetic_aperture() const { return along_track_resolution > 0; }
+    INSONIFY_MEMBER float wavelength() const { return 1500 / frequency; }
+    INSONIFY_MEMBER horizontal_beam horizontal() const { return {beam}; }
+    INSONIFY_MEMBER bool is_synthetic_aperture() const { return along_track_resolution > 0; }
     /// Metres along the track that one pixel mixes at a slant range.
-    double along_track(double slant_range) const {
+    INSONIFY_MEMBER double along_track(double slant_range) const {
         return is_synthetic_aperture() ? static_cast<double>(along_track_resolution)
                                        : slant_range * static_cast<double>(beam);
     }
     /// Metres over which the correlation of speckle intensities falls to 1 / e, across the track: 0.516 of the
     /// resolution for a pulse with a flat band, whose correlation is the square of sin(u) / u.
-    double grain_across() const { return 0.516 * static_cast<double>(range_resolution); }
+    INSONIFY_MEMBER double grain_across() const { return 0.516 * static_cast<double>(range_resolution); }
     /// The same along the track: see horizontal_beam::speckle_length.
-    double grain_along(double slant_range) const {
+    INSONIFY_MEMBER double grain_along(double slant_range) const {
         return is_synthetic_aperture() ? 0.516 * static_cast<double>(along_track_resolution)
                                        : horizontal().speckle_length(slant_range, static_cast<double>(wavelength()));
     }
@@ -73,6 +73,8 @@ inline constexpr std::array<instrument, 5> all{side_scan_450, side_scan_600, sid
 
 }  // namespace instruments
 
+inline namespace INSONIFY_FLAGS {
+
 /// An instrument by its name.
 /// @throws invalid_input for a name that none has
 inline const instrument& instrument_named(std::string_view name) {
@@ -82,6 +84,8 @@ inline const instrument& instrument_named(std::string_view name) {
                                 "', expected side_scan_450, side_scan_600, side_scan_900, side_scan_1800 or "
                                 "synthetic_aperture"));
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -44,7 +44,7 @@ struct labels {
 
     labels() = default;
     template <executor_argument Executor = serial_executor>
-    labels(int width, int height, Executor&& ex = serial_executor{})
+    INSONIFY_MEMBER labels(int width, int height, Executor&& ex = serial_executor{})
         : instance(detail::filled(width, height, no_instance, ex)),
           shadow(detail::filled(width, height, is_lit, ex)),
           seabed(detail::filled(width, height, no_seabed, ex)) {}
@@ -52,6 +52,8 @@ struct labels {
 
 /// Asks for no labels: none are stored or computed.
 struct no_labels {};
+
+inline namespace INSONIFY_FLAGS {
 
 /// 255 where a target is visible, 0 elsewhere.
 inline image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance) {
@@ -66,11 +68,16 @@ inline image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) 
     return mask;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// The class of every pixel.
 struct class_map {
     std::vector<std::string> names;  ///< each once, in the order in which the targets bring them
     image<std::uint16_t> classes;    ///< 0 for no target, 1 for names[0], ...
 };
+
+inline namespace INSONIFY_FLAGS {
+
 inline class_map classes_of(const labels& l) {
     class_map map;
     std::vector<std::uint16_t> class_of{0};  // by instance
@@ -82,6 +89,10 @@ inline class_map classes_of(const labels& l) {
     map.classes = map_pixels(l.instance, [&](std::uint16_t instance) { return class_of[instance]; });
     return map;
 }
+
+}  // namespace INSONIFY_FLAGS
+
+inline namespace INSONIFY_ONCE {
 
 /// Fills in labels::targets from the images.
 INSONIFY_FUNCTION void describe_targets(labels& l, const std::vector<target>& targets);
@@ -120,6 +131,7 @@ INSONIFY_FUNCTION void describe_targets(labels& l, const std::vector<target>& ta
 }
 #endif
 
+}  // namespace INSONIFY_ONCE
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -22,6 +22,8 @@ struct occlusion_bounds {
     double reach = 8;  ///< how far towards the light the seabed is sampled, at most, in lengths of the longer side
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// The light of a rig, in the world.
 inline shadow::any_light light_of(const overhead& rig) {
     const overhead_geometry view(rig);
@@ -32,11 +34,15 @@ inline shadow::any_light light_of(const overhead& rig) {
     return shadow::point_light{numeric::product(to_world, view.light_position()) + glm::dvec3(rig.position, 0)};
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// How much light points get, and from what they are shaded.
 struct point_light_shares {
     std::vector<float> lit;             ///< 0 to 1
     std::vector<std::uint16_t> shadow;  ///< as in labels::shadow: 0, an instance, or labels::by_seabed
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The casters of a scene under one light. It holds the targets' meshes; the scene may go.
 /// @param Occlusion  what a shadow policy builds
@@ -195,6 +201,8 @@ auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusio
     using built = decltype(policy.build(std::span<const shadow::caster>(), light, shadow::point_bounds{}, ex));
     return scene_occlusion<built>(s, light, within, policy, ex);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -40,19 +40,22 @@ struct scene {
     /// Several targets of one shape share it: make a `shared_mesh` once and add it as often as needed.
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
-    target& add(Shape&& shape, const pose& placement, std::string class_name, const material& surface = {0.9f}) {
+    INSONIFY_MEMBER target& add(Shape&& shape, const pose& placement, std::string class_name,
+                                const material& surface = {0.9f}) {
         targets.push_back({mesh_of(std::forward<Shape>(shape)), placement, std::move(class_name), surface});
         return targets.back();
     }
 
     template <class Shape>
-    static shared_mesh mesh_of(Shape&& shape) {
+    INSONIFY_MEMBER static shared_mesh mesh_of(Shape&& shape) {
         if constexpr (std::is_convertible_v<Shape&&, shared_mesh>)
             return std::forward<Shape>(shape);
         else
             return to_mesh(shape);
     }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a material whose reflectivity is negative or not finite. Poses, meshes and seabeds are
 ///         checked by what draws them
@@ -107,6 +110,8 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
     if (numeric::is_finite(clearance)) placement.position.z -= clearance;
     return placement;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -13,6 +13,8 @@ inline namespace INSONIFY_ABI {
 
 using seabed::sediment;
 
+inline namespace INSONIFY_FLAGS {
+
 /// The backscattering strength of a sediment at normal incidence by Lambert's law, as a factor; for those who compute
 /// levels. Use with `lambert_backscatter`.
 constexpr material surface_of(sediment s) {
@@ -33,6 +35,8 @@ constexpr bottom_materials default_bottom() {
         bottom[seabed::index_of(t.label)] = {t.reflectivity};
     return bottom;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -19,6 +19,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// The fluctuation of a sediment, as the table has it.
 constexpr speckle_law speckle_of(seabed::sediment s) {
     return seabed::properties_of(seabed::type_of(s)).speckle;
@@ -38,6 +40,8 @@ constexpr speckle_laws default_speckle() {
     return laws;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// Speckle by type of seabed. The defaults are illustrative: relief that is drawn makes its own fluctuations, so
 /// ripples take plain Rayleigh, and a texture stands for structure finer than the seabed is sampled.
 struct seabed_speckle {
@@ -50,7 +54,7 @@ struct seabed_speckle {
     std::uint64_t seed = 1;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Random streams; changing one changes the noise of every seed.
 enum class speckle_stream : std::uint32_t { field = 0x73706B00, texture = 0x73706B02, choice = 0x73706B04 };
@@ -154,7 +158,9 @@ inline void validate(const speckle_law& law) {
     require(law.steady >= 0 && numeric::is_finite(law.steady), "speckle_law.steady", law.steady, "0 or more");
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Makes an image of intensities fluctuate.
 ///
@@ -251,6 +257,8 @@ frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex
     r.image = beside(channel(side::port, 0, port), channel(side::starboard, port, r.image.width() - port));
     return r;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

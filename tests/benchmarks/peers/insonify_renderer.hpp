@@ -10,7 +10,7 @@
 
 #include "workload.hpp"
 
-namespace peers::inline INSONIFY_ABI {
+namespace peers::inline INSONIFY_FLAGS {
 
 namespace in = insonify;
 
@@ -48,4 +48,4 @@ class insonify_renderer {
     in::overhead rig_;
 };
 
-}  // namespace peers::inline INSONIFY_ABI
+}  // namespace peers::inline INSONIFY_FLAGS

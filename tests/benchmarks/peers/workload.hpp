@@ -16,7 +16,7 @@
 
 #include "task.hpp"
 
-namespace workload::inline INSONIFY_ABI {
+namespace workload::inline INSONIFY_FLAGS {
 
 namespace in = insonify;
 
@@ -152,4 +152,4 @@ struct scene {
     }
 };
 
-}  // namespace workload::inline INSONIFY_ABI
+}  // namespace workload::inline INSONIFY_FLAGS

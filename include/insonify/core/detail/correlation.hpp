@@ -9,7 +9,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The taps of a Gaussian filter under which white noise keeps its variance, from the middle outwards.
 ///
@@ -37,7 +37,7 @@ inline std::vector<float> intensity_taps(double length) {
     return gaussian_taps(length * 0.70710678118654752);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -12,7 +12,7 @@
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class T, executor E>
 image<T> filled(int width, int height, T value, E& ex) {
@@ -32,6 +32,6 @@ image<T> filled(int width, int height, T value, E& ex) {
     return result;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

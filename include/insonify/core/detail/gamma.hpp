@@ -10,7 +10,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// One trial at N gamma-distributed numbers of mean one, from four words each; `settled` where it succeeded, as 19 of
 /// 20 do.
@@ -85,7 +85,7 @@ inline double mean_of_rice(double steady) {
     return half_root_pi * sum * numeric::exp(-steady) / numeric::square_root(1 + steady);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -20,6 +20,8 @@ inline namespace INSONIFY_ABI {
 
 namespace numeric {
 
+inline namespace INSONIFY_FLAGS {
+
 /// The value of type To that has the same bits.
 template <class To, class From>
 constexpr To bit_cast(const From& from) noexcept {
@@ -31,9 +33,11 @@ constexpr To bit_cast(const From& from) noexcept {
 #endif
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace numeric
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// What became of a text that should be a number.
 enum class number_text { fine, malformed, out_of_range };
@@ -90,7 +94,7 @@ char* format_number(char* first, char* last, Number value) {
         return std::to_chars(first, last, value).ptr;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -24,7 +24,7 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Blocks as they come from the system and go back to it. Before its first byte each knows how much it holds.
 struct memory_block {
@@ -188,7 +188,9 @@ class spare_memory {
     std::size_t most_ = 0;    ///< that was in use at once
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Gives back to the system what the calling thread has kept of memory for its next picture. A thread keeps blocks of
 /// 64 KB and more, together with what it has in use never more than half as much again as it has had in use at once;
@@ -196,6 +198,8 @@ class spare_memory {
 inline void release_memory() noexcept {
     if (detail::spare_memory* const spare = detail::spare_memory::mine()) spare->release();
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -27,15 +27,15 @@ class uninitialized_allocator {
 
     uninitialized_allocator() = default;
     template <class U>
-    uninitialized_allocator(const uninitialized_allocator<U>&) {}
+    INSONIFY_MEMBER uninitialized_allocator(const uninitialized_allocator<U>&) {}
 
-    T* allocate(std::size_t count) {
+    INSONIFY_TAGGED T* allocate(std::size_t count) {
         if (!is_block(count)) return std::allocator<T>().allocate(count);
         spare_memory* const spare = spare_memory::mine();
         const std::size_t bytes = count * sizeof(T);
         return static_cast<T*>(spare != nullptr ? spare->take(bytes) : memory_block::allocate(bytes));
     }
-    void deallocate(T* memory, std::size_t count) {
+    INSONIFY_TAGGED void deallocate(T* memory, std::size_t count) {
         if (!is_block(count)) return std::allocator<T>().deallocate(memory, count);
         if (spare_memory* const spare = spare_memory::mine())
             spare->give(memory);
@@ -44,11 +44,11 @@ class uninitialized_allocator {
     }
 
     template <class U>
-    void construct(U* at) {
+    INSONIFY_MEMBER void construct(U* at) {
         ::new (static_cast<void*>(at)) U;
     }
     template <class U, class... From>
-    void construct(U* at, From&&... from) {
+    INSONIFY_MEMBER void construct(U* at, From&&... from) {
         std::construct_at(at, std::forward<From>(from)...);
     }
 
@@ -57,7 +57,7 @@ class uninitialized_allocator {
   private:
     static_assert(alignof(T) <= memory_block::alignment);
 
-    static bool is_block(std::size_t count) { return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T); }
+    INSONIFY_MEMBER static bool is_block(std::size_t count) { return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T); }
 };
 
 /// Elements stay unset until somebody sets them.

@@ -22,6 +22,8 @@ enum class isa {
     avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
 };
 
+inline namespace INSONIFY_ONCE {
+
 /// The widest instruction set that the library's kernels were compiled for and this processor runs.
 INSONIFY_FUNCTION isa best_isa();
 
@@ -43,7 +45,9 @@ INSONIFY_FUNCTION isa best_isa() {
 }
 #endif
 
-namespace detail {
+}  // namespace INSONIFY_ONCE
+
+namespace detail::inline INSONIFY_FLAGS {
 
 #if INSONIFY_DISPATCH
 template <class Kernel>
@@ -75,7 +79,7 @@ void dispatch(const Kernel& kernel, isa level) {
 #endif
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

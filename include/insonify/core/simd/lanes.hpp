@@ -17,7 +17,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class T, int N>
 struct lanes_of {
@@ -310,7 +310,7 @@ INSONIFY_INLINE void count_up(lanes<T, N>& into) {
     load(into, values);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

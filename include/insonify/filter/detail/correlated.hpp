@@ -17,7 +17,7 @@ struct correlation_length {
     float x = 0, y = 0;  ///< 0 to 16
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void require_correlation(const char* name, const correlation_length& length) {
     for (const float pixels : {length.x, length.y})
@@ -103,7 +103,7 @@ class correlated_draws {
     std::size_t last_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -13,7 +13,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A pass, and behind it the levels of its floats, counted.
 template <class Pass>
@@ -57,7 +57,7 @@ std::optional<histogram> sweep_levels(image_view<const From> from, image_view<st
     return histogram{std::vector<std::uint64_t>(counts.begin(), counts.end())};
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

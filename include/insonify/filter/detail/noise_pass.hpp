@@ -19,7 +19,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// One stream per kind of noise; the numbers are part of what a seed means.
 enum class noise_stream : std::uint32_t {
@@ -247,7 +247,7 @@ void apply_rule(const Rule& rule, const float* from, const float* draw, const fl
     dispatch(rule_kernel<Rule>{rule, from, draw, scale, to, count}, best_isa());
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -16,7 +16,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// For each whole mean below 256 the laws of 256 counts in a row, eight standard deviations and more to either side.
 ///
@@ -196,7 +196,7 @@ struct poisson_table_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -17,7 +17,7 @@ struct pixel_origin {
     int x = 0, y = 0;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Neighbours in a row, at most run_length of them; `to` may be `from`.
 template <class Pass, class From, class To>
@@ -61,7 +61,7 @@ void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& 
                 });
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -15,7 +15,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Whether most triangles share no vertex with the one before, as those of shuffled meshes and of triangle soups don't.
 inline bool is_incoherent(const mesh& m) {
@@ -83,7 +83,7 @@ inline void order_along_curve(mesh& m, const bounding_box& box) {
     m = std::move(sorted);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

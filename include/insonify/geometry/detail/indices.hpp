@@ -13,7 +13,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The largest of some indices.
 struct largest_index_kernel {
@@ -57,7 +57,7 @@ void require_indices(const mesh_view& m, E& ex) {
         if (index) refuse("mesh.triangles", *index, "an index of a position");
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

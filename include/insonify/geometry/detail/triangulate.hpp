@@ -22,7 +22,7 @@ inline namespace INSONIFY_ABI {
 /// Concave polygons with more corners are cut into a fan, which covers too much: the work stays linear for any input.
 inline constexpr std::size_t ear_clipping_limit = 512;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A polygon seen along its normal: counter-clockwise in the plane of the two axes it is widest in.
 class flat_polygon {
@@ -96,7 +96,9 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
     triangles.emplace_back(ring[tip].previous, tip, ring[tip].next);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Appends `corners.size() - 2` triangles that cover the polygon and face as it does, as numbers of its corners.
 /// Exact for simple polygons, also slightly bent ones; one that crosses itself is covered somehow. Nothing is appended
@@ -113,6 +115,8 @@ inline void triangulate(std::span<const glm::vec3> corners, std::vector<glm::uve
     }
     for (std::uint32_t i = 2; i < count; ++i) triangles.emplace_back(0u, i - 1, i);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -13,7 +13,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 class aeroplane_builder {
   public:
@@ -185,7 +185,9 @@ class aeroplane_builder {
     philox_key key_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The parts: fuselage with tail, wings with engine nacelles, propellers. Reflectivities are illustrative: aluminium
 /// sheet 0.9, steel 1. Each part is solid, and so is the merged mesh.
@@ -215,6 +217,8 @@ inline compound to_compound(const aeroplane& a) {
 inline mesh to_mesh(const aeroplane& a) {
     return to_mesh(to_compound(a));
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

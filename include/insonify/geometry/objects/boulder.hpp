@@ -26,6 +26,8 @@ struct boulder {
     std::uint64_t seed = 1;
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value outside its range
 inline void validate(const boulder& b) {
     const float largest = (std::max)((std::max)(b.size.x, b.size.y), b.size.z);
@@ -38,7 +40,9 @@ inline void validate(const boulder& b) {
     detail::require_segments("boulder.segments", b.segments, 2, 256);
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A unit octahedron with every face cut into n * n triangles, projected onto the sphere; 4 n^2 + 2 vertices.
 inline mesh geodesic_sphere(int n) {
@@ -84,7 +88,9 @@ inline mesh geodesic_sphere(int n) {
     return out;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// 8 segments^2 triangles. Deterministic in the seed.
 /// @throws invalid_input as `validate` does
@@ -129,6 +135,8 @@ inline mesh to_mesh(const boulder& b) {
     }
     return with_creases(body, 0.5f);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

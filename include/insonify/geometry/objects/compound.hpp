@@ -25,7 +25,7 @@ struct compound {
 
     /// Adds a mesh, or anything that has a `to_mesh`.
     template <class Shape>
-    compound& add(const Shape& shape, const pose& placement = {}, float reflectivity = 1) {
+    INSONIFY_TAGGED compound& add(const Shape& shape, const pose& placement = {}, float reflectivity = 1) {
         if constexpr (requires { shape.triangles; })
             parts.push_back({shape, placement, reflectivity});
         else
@@ -40,6 +40,8 @@ struct merged_compound {
     std::vector<std::uint16_t> part_ids;  ///< by triangle: an index of `reflectivities`
     std::vector<float> reflectivities;    ///< by part
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a part without matching indices or normals, a reflectivity that is negative or not finite,
 ///         or more than 65535 parts
@@ -72,6 +74,8 @@ inline merged_compound merge(const compound& c) {
 inline mesh to_mesh(const compound& c) {
     return merge(c).shape;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -25,6 +25,8 @@ struct crate {
     std::uint64_t seed = 1;            ///< which ones
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value outside its range
 inline void validate(const crate& c) {
     const float largest = (std::max)((std::max)(c.size.x, c.size.y), c.size.z);
@@ -86,6 +88,8 @@ inline mesh to_mesh(const crate& c) {
         }
     return with_creases(body, 0);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

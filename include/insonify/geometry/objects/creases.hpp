@@ -20,6 +20,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// The same triangles with unit normals. A corner's normal is the mean of the facets around its position that bend away
 /// from its own facet by less than `angle`, so a position has as many vertices as sides of it look different.
 /// Facets without area keep their corners, with +z as normal.
@@ -78,6 +80,8 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
     }
     return out;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -18,6 +18,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// The convex hull, counter-clockwise and without corners on straight edges, of the positions that are less than
 /// `height` above the lowest one, seen from above. Fewer than three corners if those lie on a line.
 /// @param height  metres, >= 0: masts and wings that stick out higher do not count
@@ -52,6 +54,8 @@ inline std::vector<glm::dvec2> footprint(const mesh_view& m, const pose& placeme
     if (outline.size() > 1) outline.pop_back();  // the first again
     return outline;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -15,7 +15,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 enum class hull_part : std::size_t { plating, decks, house, rigging, machinery, debris, count };
 using hull_parts = std::array<mesh, static_cast<std::size_t>(hull_part::count)>;
@@ -122,7 +122,9 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
     return out;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The parts of the ship in the order plating, decks, deckhouse, rigging, machinery, debris; empty parts are left out.
 /// Reflectivities are illustrative: steel 1, decks covered by silt and planks less. Each part is solid, and so is the
@@ -170,6 +172,8 @@ inline compound to_compound(const hull& h) {
 inline mesh to_mesh(const hull& h) {
     return to_mesh(to_compound(h));
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -28,6 +28,8 @@ struct lobster_pot {
     int segments = 12;        ///< straight pieces of a hoop, 6 to 256
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value outside its range
 inline void validate(const lobster_pot& p) {
     detail::require_size("lobster_pot.length", p.length);
@@ -46,7 +48,9 @@ inline void validate(const lobster_pot& p) {
     detail::require_segments("lobster_pot.segments", p.segments, 6, 256);
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A point of the arch, from one foot (0) over the top (1/2) to the other (1): upright sides, then half an ellipse.
 inline glm::dvec3 arch_point(const lobster_pot& p, double x, double t, double inset) {
@@ -67,7 +71,9 @@ inline glm::dvec3 arch_point(const lobster_pot& p, double x, double t, double in
     return {x, y + 0.8 * crushed * (z - base), base + (z - base) * (1 - 0.8 * crushed)};
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const lobster_pot& p) {
@@ -126,6 +132,8 @@ inline mesh to_mesh(const lobster_pot& p) {
     }
     return with_creases(body, 1.2f);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

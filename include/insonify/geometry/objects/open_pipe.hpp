@@ -29,6 +29,8 @@ struct open_pipe {
     std::uint64_t seed = 1;  ///< of the ragged end
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value outside its range
 inline void validate(const open_pipe& p) {
     detail::require_size("open_pipe.diameter", p.diameter);
@@ -89,6 +91,8 @@ inline mesh to_mesh(const open_pipe& p) {
 inline int segments_for(const open_pipe& p, float deviation) {
     return (std::max)(segments_for(0.5f * p.diameter + p.flange, deviation), 6);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

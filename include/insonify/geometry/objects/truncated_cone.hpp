@@ -29,6 +29,8 @@ struct truncated_cone {
     int segments = 64;            ///< around the axis, 6 to 8192; see `segments_for`
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value outside its range
 inline void validate(const truncated_cone& c) {
     detail::require_size("truncated_cone.diameter", c.diameter);
@@ -94,6 +96,8 @@ inline mesh to_mesh(const truncated_cone& c) {
 inline int segments_for(const truncated_cone& c, float deviation) {
     return (std::max)(segments_for(0.5f * c.diameter, deviation), 6);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

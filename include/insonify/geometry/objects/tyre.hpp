@@ -26,6 +26,8 @@ struct tyre {
     int segments = 64;            ///< around the axis, 6 to 8192; a quarter as many across the tread
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value outside its range
 inline void validate(const tyre& t) {
     detail::require_size("tyre.diameter", t.diameter);
@@ -80,6 +82,8 @@ inline mesh to_mesh(const tyre& t) {
 inline int segments_for(const tyre& t, float deviation) {
     return (std::max)(segments_for(0.5f * t.diameter, deviation), 6);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -27,7 +27,7 @@ struct wedge {
     float side_slope = 0.35f;   ///< inward per upward metre of the sides, >= 0; the ridge keeps a tenth of the width
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Length position, half width and height of the wedge's four cross sections.
 struct wedge_station {
@@ -46,7 +46,9 @@ inline std::array<wedge_station, 4> stations_of(const wedge& w) {
              {0.5 * length, nose, low}}};
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value outside its range
 inline void validate(const wedge& w) {
@@ -80,6 +82,8 @@ inline mesh to_mesh(const wedge& w) {
     detail::append_loft(body, sections);
     return with_creases(body, 0);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -34,7 +34,7 @@ struct draw_options {
     isa level = best_isa();  ///< the widest instruction set to use
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A triangle with a vertex that isn't compact, or a piece of one that was clipped.
 struct wide_triangle {
@@ -331,7 +331,7 @@ struct assembly_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -19,7 +19,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The image cut into square tiles of 2^log2_size pixels.
 struct tile_grid {
@@ -188,7 +188,7 @@ class tile_bins {
     uninitialized_vector<triangle_run> runs_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -20,7 +20,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A corner of a clipped piece: where it is, and what share each vertex of the whole triangle has in it.
 struct clip_corner {
@@ -207,7 +207,7 @@ class projection {
     bool exact_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

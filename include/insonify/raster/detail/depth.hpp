@@ -16,7 +16,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// z(x, y) at pixel centres of a triangle's own box.
 struct depth_plane {
@@ -77,7 +77,7 @@ inline float nearest_depth(const screen_vertex& a, const screen_vertex& b, const
     return (sum / wide(share.a + share.b + share.c)).to_float();
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -12,7 +12,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Where the centres of a row's pixels lie on the grid. Unsigned: what is off the grid has no place, and from there it
 /// may be farther than an integer holds.
@@ -201,7 +201,7 @@ struct shading_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -14,7 +14,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A triangle of any size, ready for the pixels of a box: its corners run clockwise on the screen, edges are named by
 /// their ends.
@@ -246,7 +246,7 @@ struct tile_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -13,7 +13,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Depth of a tile's pixels and, where Winners, the name of the triangle that each shows.
 template <bool Winners>
@@ -89,7 +89,7 @@ INSONIFY_INLINE void keep_nearer(float* depth, std::uint32_t* winner, const lane
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -13,7 +13,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace seabed::detail {
+namespace seabed::detail::inline INSONIFY_FLAGS {
 
 /// One size class of blocks. Continuous; walls no steeper than `steepness`.
 class block_layer {
@@ -179,7 +179,7 @@ class block_layer {
     float height_, wall_;
 };
 
-}  // namespace seabed::detail
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -21,7 +21,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace seabed::detail {
+namespace seabed::detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::dispatch;
 using insonify::detail::lanes;
@@ -266,7 +266,7 @@ INSONIFY_INLINE void clamp_lanes(Lanes& t) {
     t = t < 1.0f ? t : one;
 }
 
-}  // namespace seabed::detail
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

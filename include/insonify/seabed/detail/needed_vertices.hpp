@@ -30,7 +30,7 @@ struct leeway {
     glm::dvec2 nadir{0.0, 0.0};  ///< below the camera, metres from the heightfield's vertex (0, 0)
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Which vertices of a heightfield a mesh needs. Vertices of the hierarchy are the middles of longest sides: those of a
 /// step s have their lowest set bit at s in one coordinate ("edges", the side lies along an axis) or in both
@@ -251,8 +251,9 @@ class needed_vertices {
                 floats value;
                 load(value, row + x);
                 const floats off = value - (start + dx_ * (across + static_cast<float>(x - from_.x)));
-                const ints fit = ints(off <= most_) & ints(-off <= most_);
-                if (insonify::detail::any(ints(fit == 0))) return false;
+                const ints fit = (off <= most_) & (-off <= most_);
+                const ints missed = fit == 0;
+                if (insonify::detail::any(missed)) return false;
             }
             for (; x <= last; ++x) {
                 const float off = row[x] - (start + dx_ * static_cast<float>(x - from_.x));
@@ -300,7 +301,7 @@ class needed_vertices {
     image<float> slope_x_, slope_y_;  // rises per cell, or empty where slopes may be anything
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

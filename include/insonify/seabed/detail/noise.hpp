@@ -14,7 +14,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace seabed {
+namespace seabed::inline INSONIFY_FLAGS {
 
 /// Gradient noise: mean 0, variance 1, twice differentiable, waves of about one to three cells.
 class gradient_noise {
@@ -226,14 +226,11 @@ class power_law_noise {
     double slope_ = 0;
 };
 
-#if INSONIFY_BODIES
-INSONIFY_FUNCTION void power_law_noise::add(const detail::stretch& part, detail::stretch_values& values,
-                                            isa level) const {
+inline void power_law_noise::add(const detail::stretch& part, detail::stretch_values& values, isa level) const {
     if (!octaves_.empty()) detail::dispatch(kernel{*this, part, values.data()}, level);
 }
-#endif
 
-}  // namespace seabed
+}  // namespace seabed::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

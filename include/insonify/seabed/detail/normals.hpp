@@ -18,7 +18,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// How much a surface rises at the vertices of a row, by central differences: twice the rise of a cell. A neighbour
 /// that is missing or beyond the edge leaves the side that is there to count twice; at a vertex without data nothing
@@ -121,7 +121,9 @@ class row_normals {
     glm::vec3* out_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Unit normals at the vertices of a heightfield, by central differences, one-sided at edges and beside missing
 /// vertices; straight up at these.
@@ -136,6 +138,8 @@ image<glm::vec3> normals(const heightfield& field, Executor&& ex = serial_execut
     });
     return result;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

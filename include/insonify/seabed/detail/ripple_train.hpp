@@ -35,11 +35,11 @@ struct ripple_system {
     float bandwidth = 0.09f;  ///< in [0, 0.25]: relative standard deviation of the wave number
     float sharpness = 0.25f;  ///< in [0, 0.9]: 0 is sinusoidal, more is narrower crests and wider troughs: trochoidal
 
-    float height() const { return steepness * wavelength; }
+    INSONIFY_MEMBER float height() const { return steepness * wavelength; }
     friend bool operator==(const ripple_system&, const ripple_system&) = default;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Cosine and sine of 2 pi x for |x| <= 1/2, absolute error < 2e-6, without a branch.
 template <class Lanes>
@@ -301,14 +301,12 @@ class ripple_train {
     float half_height_, sharpness_;
 };
 
-#if INSONIFY_BODIES
-INSONIFY_FUNCTION void ripple_train::add(const stretch& part, stretch_values& values, isa level) const {
+inline void ripple_train::add(const stretch& part, stretch_values& values, isa level) const {
     if (half_height_ > 0 && carried(wavelength_, part.grid_spacing) > 0)
         dispatch(kernel{*this, part, values.data()}, level);
 }
-#endif
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -7,7 +7,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace seabed::detail {
+namespace seabed::detail::inline INSONIFY_FLAGS {
 
 /// Calls `visit(first, count)` for runs of columns of a lattice, which together hold each column from which something
 /// reaches a sample of the stretch once, in rising order.
@@ -101,7 +101,7 @@ class round_marks {
     float filled_ = 0, high_ = 0, mound_ = 0, pock_ = 0;
 };
 
-}  // namespace seabed::detail
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

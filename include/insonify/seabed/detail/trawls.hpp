@@ -26,7 +26,7 @@ struct trawl_marks {
     friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Evaluates `trawl_marks`.
 class trawl_furrows {
@@ -134,7 +134,7 @@ class trawl_furrows {
     cell_hash hash_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -17,7 +17,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// A light's rays: parallel, or to a point.
 class light_rays {
@@ -82,7 +82,7 @@ class light_rays {
     bool is_near_ = false;
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -17,7 +17,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow {
+namespace shadow::inline INSONIFY_FLAGS {
 
 /// A rectangle of the light's frame and the heights that count within it.
 struct map_extent {
@@ -196,7 +196,7 @@ class height_map {
     image<float> heights_;
 };
 
-}  // namespace shadow
+}  // namespace shadow::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

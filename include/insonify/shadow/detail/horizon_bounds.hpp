@@ -26,7 +26,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// A grid as the light crosses it: X counts its vertices along the axis that the light follows most, Y those across,
 /// both turned so that the light goes towards larger ones, by `slope` of Y for each of X.
@@ -272,7 +272,7 @@ class horizon_bounds {
     insonify::detail::uninitialized_vector<horizon_bound> bounds_;
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

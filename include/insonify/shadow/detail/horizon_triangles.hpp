@@ -15,7 +15,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// Where the ray at a point of a light's plane meets the plane z = 0 of a mesh, in the steps of its grid.
 class ray_feet {
@@ -165,7 +165,7 @@ class horizon_triangles {
     bool lower_is_first_ = true;
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -15,7 +15,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// One plane of a light.
 class light_plane {
@@ -61,7 +61,7 @@ class light_plane {
     bool is_near_ = false;
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -16,6 +16,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow {
+inline namespace INSONIFY_FLAGS {
 
 /// A surface point in the light's frame, and how the plane of its facet rises there.
 struct receiver_plane {
@@ -45,7 +46,9 @@ struct receiver_plane {
     }
 };
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A receiver in the units of one map.
 class map_receiver {
@@ -84,7 +87,9 @@ class map_receiver {
     float slope_u_, slope_v_, bias_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Share of the light that reaches a point, averaged over (2 radius + 1)^2 texels; surfaces that face away count as
 /// level.
@@ -95,6 +100,8 @@ inline float lit(const height_map& map, const receiver_plane& r, int radius) {
     const int rays = (2 * radius + 1) * (2 * radius + 1);
     return static_cast<float>(at.open_rays(radius)) / static_cast<float>(rays);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace shadow
 }  // namespace INSONIFY_ABI

@@ -13,7 +13,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// A rectangle of a light's plane, cut into tiles.
 struct plane_tiles {
@@ -231,7 +231,7 @@ class plane_caster {
     insonify::detail::tile_bins bins_;
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

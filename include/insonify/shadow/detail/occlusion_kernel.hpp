@@ -17,7 +17,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// Marks the receivers of a tile that a caster blocks and that no caster before it does.
 /// @param Decide  decide(triangle, i): whether the triangle blocks receiver i, in doubles
@@ -188,7 +188,7 @@ struct occlusion_kernel {
     }
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

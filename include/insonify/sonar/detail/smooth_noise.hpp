@@ -12,7 +12,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// What a smooth field is drawn for; part of what a seed means.
 enum class drift_stream : std::uint32_t {
@@ -58,7 +58,7 @@ inline double smooth_noise(double x, double y, std::uint32_t layer, const philox
     return q.low * (p.low * at(0, 0) + p.high * at(1, 0)) + q.high * (p.low * at(0, 1) + p.high * at(1, 1));
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -37,14 +37,14 @@ struct render_options {
 
     /// The same options with another shadow policy, another law, or without labels.
     template <shadow::policy Other>
-    render_options<Other, Labels, Law> with(const Other& other) const {
+    INSONIFY_MEMBER render_options<Other, Labels, Law> with(const Other& other) const {
         return {other, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
     }
     template <backscatter_law Other>
-    render_options<Shadow, Labels, Other> with(const Other& other) const {
+    INSONIFY_MEMBER render_options<Shadow, Labels, Other> with(const Other& other) const {
         return {shadow, other, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
     }
-    render_options<Shadow, no_labels, Law> without_labels() const {
+    INSONIFY_MEMBER render_options<Shadow, no_labels, Law> without_labels() const {
         return {shadow, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
     }
 };
@@ -57,7 +57,7 @@ struct visibility {
     image<std::uint32_t> triangle;  ///< of the target's mesh, or of the bottom's; no_triangle where nothing is shown
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class Shadow, class Labels, class Law>
 frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options,
@@ -66,7 +66,25 @@ template <class Law>
 visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law>& options,
                executor_ref ex);
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+#if defined(INSONIFY_COMPILED)
+namespace detail::inline INSONIFY_ONCE {
+
+template <class Shadow, class Labels>
+using built_in = const render_options<Shadow, Labels>&;
+
+frame<labels> paint(const scene& s, const overhead& rig, built_in<shadow::exact, labels> options, executor_ref ex);
+frame<labels> paint(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex);
+frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::exact, no_labels> options,
+                       executor_ref ex);
+frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::none, no_labels> options, executor_ref ex);
+visibility see(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex);
+
+}  // namespace detail::inline INSONIFY_ONCE
+#endif
+
+inline namespace INSONIFY_FLAGS {
 
 /// Draws a scene as the paper's rig sees it.
 ///
@@ -99,6 +117,8 @@ visibility visible_triangles(const scene& s, const overhead& rig,
                                                          .level = options.level};
     return detail::see(s, rig, seen, executor_ref(ex));
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -18,7 +18,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A picture under construction, in the rig's frame.
 template <class Shadow, class Labels, class Law>
@@ -319,7 +319,7 @@ visibility see(const scene& s, const overhead& rig, const render_options<shadow:
     return overhead_painter<shadow::none, labels, Law>(s, rig, options, ex).see(ex);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

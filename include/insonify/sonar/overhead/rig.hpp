@@ -36,6 +36,8 @@ struct overhead {
     float ambient = 0;    ///< light that reaches every surface alike, whatever its slope; 0 for none
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value that can't be right
 inline void validate(const overhead& rig) {
     using detail::require;
@@ -145,6 +147,8 @@ class overhead_geometry {
     glm::dvec2 right_;
     affine rig_from_world_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -20,7 +20,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void check_decibels(const char* name, float value) {
     require(value >= 0 && value <= 60, name, value, "0 to 60 dB");
@@ -73,7 +73,7 @@ class banding_law {
     float factor_ = 1;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// The error that time-varied gain leaves across range, in decibels: a slope, and a smooth random curve. Factors of a
 /// column are the same in all rows.
@@ -86,7 +86,7 @@ struct range_gain_error {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    auto pass(image_view<const float> picture) const {
+    INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
         detail::check_decibels("range_gain_error.rms", rms);
         detail::check_length("range_gain_error.length", length);
         detail::require(slope >= -60 && slope <= 60, "range_gain_error.slope", slope, "-60 to 60 dB");
@@ -112,7 +112,7 @@ struct ping_banding {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::check_decibels("ping_banding.drift", drift);
         detail::check_length("ping_banding.length", length);
         detail::check_decibels("ping_banding.jitter", jitter);

@@ -17,6 +17,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace range_geometry {
 
+inline namespace INSONIFY_FLAGS {
+
 /// Distance from the sonar to a point.
 inline double slant_range(double ground, double altitude, double height = 0) {
     const double down = altitude - height;
@@ -74,6 +76,8 @@ inline double ground_resolution(double bin, double grazing) {
 inline double along_track_footprint(double slant, double beam_width) {
     return slant * beam_width;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace range_geometry
 }  // namespace INSONIFY_ABI

@@ -31,6 +31,8 @@ struct ping {
     double roll = 0;               ///< radians, positive with starboard down: turns the beams within the fan
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value that can't be right
 inline void validate(const ping& p) {
     detail::require_finite("ping.position.x", p.position.x);
@@ -41,6 +43,8 @@ inline void validate(const ping& p) {
                     "at most 80 degrees, in radians");
     detail::require_finite("ping.roll", p.roll);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 /// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
 /// all else stays the same.
@@ -63,10 +67,14 @@ struct side_scan_rig {
     insonify::side side = insonify::side::starboard;
 
     /// Metres per bin.
-    double bin() const { return (static_cast<double>(range) - static_cast<double>(first_range)) / bins; }
+    INSONIFY_MEMBER double bin() const {
+        return (static_cast<double>(range) - static_cast<double>(first_range)) / bins;
+    }
 };
 using side_scan = side_scan_rig<across_track::slant_range>;
 using ground_range = side_scan_rig<across_track::ground_range>;
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value that can't be right
 template <across_track Axis>
@@ -151,6 +159,8 @@ class ping_frame {
     glm::dvec2 across_, along_;
     double sine_pitch_, cosine_pitch_, sine_roll_, cosine_roll_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

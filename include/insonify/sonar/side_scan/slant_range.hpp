@@ -27,17 +27,18 @@ struct record_options {
     /// The same options with another sonar equation, another law, or without labels:
     /// `record_options<>{}.with(sonar_equation{pulse{}, level_gain{}})`.
     template <class... Parts>
-    record_options<Labels, Law, sonar_equation<Parts...>> with(const sonar_equation<Parts...>& other) const {
+    INSONIFY_MEMBER record_options<Labels, Law, sonar_equation<Parts...>> with(
+        const sonar_equation<Parts...>& other) const {
         return {law, other, cell};
     }
     template <backscatter_law Other>
-    record_options<Labels, Other, Equation> with(const Other& other) const {
+    INSONIFY_MEMBER record_options<Labels, Other, Equation> with(const Other& other) const {
         return {other, equation, cell};
     }
-    record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
+    INSONIFY_MEMBER record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// As fine as the picture: a bin or a ping's spacing, whichever is longer. Where pictures are coarse, a fiftieth of the
 /// altitude, so that relief and targets aren't missed; but never finer than 1/2048 of the range.
@@ -266,7 +267,9 @@ image<T> rows_of(const image<T>& source, int first, int count) {
     return image<T>(source.view().part(0, first, source.width(), count));
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Records a track of any shape: pings may turn, rise and sink.
 ///
@@ -330,6 +333,8 @@ frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
     }
     return out;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -9,6 +9,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// Lays a recording out on a level bottom at the datum: the water column goes, what is raised stays shifted towards the
 /// sonar by its layover. Intensities are interpolated linearly between the centres of bins and labels are those of the
 /// nearest bin; what the recording doesn't reach is 0, without labels.
@@ -62,6 +64,8 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
     if constexpr (std::is_same_v<Labels, labels>) detail::describe_again(out.labels);
     return out;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

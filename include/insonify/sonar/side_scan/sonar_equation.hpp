@@ -19,20 +19,24 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// 10^(decibels / 10): for powers.
 inline double from_decibels(double decibels) {
     return numeric::exp(decibels * 0.23025850929940458);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// The level of the source.
 struct source_level {
     float decibels = 0;
-    double over_range(double) const { return from_decibels(static_cast<double>(decibels)); }
+    INSONIFY_MEMBER double over_range(double) const { return from_decibels(static_cast<double>(decibels)); }
 };
 
 /// Spherical spreading, there and back: 40 log10 R, R in metres.
 struct transmission_loss {
-    double over_range(double range) const { return 1 / (range * range * range * range); }
+    INSONIFY_MEMBER double over_range(double range) const { return 1 / (range * range * range * range); }
 };
 
 /// What sea water takes, there and back: 2 alpha R. About 76, 116, 169, 322 dB/km at 300, 450, 600, 900 kHz in salt
@@ -40,7 +44,7 @@ struct transmission_loss {
 /// Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m).
 struct absorption {
     float decibels_per_km = 169;
-    double over_range(double range) const {
+    INSONIFY_MEMBER double over_range(double range) const {
         return from_decibels(-0.002 * static_cast<double>(decibels_per_km) * range);
     }
 };
@@ -52,7 +56,7 @@ struct vertical_beam {
     float tilt = static_cast<float>(numeric::to_radians(20));   ///< of the axis below the horizon, radians
     float side_lobes = 1e-3f;                                   ///< power, both ways, over that on the axis
     /// @param across, down  of the unit vector along the ray
-    double over_direction(double across, double down) const {
+    INSONIFY_MEMBER double over_direction(double across, double down) const {
         const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(width);
         return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off * off);  // 8 ln 2
     }
@@ -63,10 +67,10 @@ struct vertical_beam {
 struct horizontal_beam {
     float width = static_cast<float>(numeric::to_radians(0.3));  ///< between the -3 dB points of one way, radians
     /// Metres of track that are heard fully, as it were: the integral of the pattern.
-    double footprint(double range) const { return 0.7526967 * range * static_cast<double>(width); }
+    INSONIFY_MEMBER double footprint(double range) const { return 0.7526967 * range * static_cast<double>(width); }
     /// Metres to either side beyond which nothing is heard.
-    double reach(double range) const { return range * static_cast<double>(width); }
-    double pattern(double along, double range) const {
+    INSONIFY_MEMBER double reach(double range) const { return range * static_cast<double>(width); }
+    INSONIFY_MEMBER double pattern(double along, double range) const {
         const double off = along / (range * static_cast<double>(width));
         return numeric::exp(-5.545177444479562 * off * off);
     }
@@ -75,7 +79,7 @@ struct horizontal_beam {
     /// moves by less than a part of the footprint. Gaussian patterns make both Gaussian: of 0.6006 range x width, and
     /// of 0.2650 wavelength / width.
     /// @param wavelength  of the sound, metres: 0.0033 at 450 kHz
-    double speckle_length(double range, double wavelength) const {
+    INSONIFY_TAGGED double speckle_length(double range, double wavelength) const {
         const double by_footprint = 0.6005612 * range * static_cast<double>(width);
         const double by_phase = 0.2650104 * wavelength / static_cast<double>(width);
         return by_footprint * by_phase / numeric::square_root(by_footprint * by_footprint + by_phase * by_phase);
@@ -85,13 +89,13 @@ struct horizontal_beam {
 /// The pulse: every echo lasts as long, centred where its range is.
 struct pulse {
     float length = 0.03f;  ///< metres of range: half of the speed of sound times the duration, or over twice the band
-    double duration() const { return static_cast<double>(length); }
+    INSONIFY_MEMBER double duration() const { return static_cast<double>(length); }
 };
 
 /// What the receiver hears where nothing is: a mean intensity. Under `speckle` it fluctuates as noise does.
 struct noise_floor {
     float intensity = 1e-3f;
-    double noise() const { return static_cast<double>(intensity); }
+    INSONIFY_MEMBER double noise() const { return static_cast<double>(intensity); }
 };
 
 /// The flat bottom that a receiver may expect at a range, before its own gain.
@@ -108,7 +112,7 @@ struct time_varied_gain {
     float absorption_per_km = 0;  ///< decibels, one way, as in `absorption`
     float decibels = 0;           ///< at 1 m
     template <class LevelAt>
-    double gain(const flat_echo& e, const LevelAt&) const {
+    INSONIFY_MEMBER double gain(const flat_echo& e, const LevelAt&) const {
         return numeric::pow(e.range, 0.1 * static_cast<double>(spreading)) *
                from_decibels(static_cast<double>(decibels) + 0.002 * static_cast<double>(absorption_per_km) * e.range);
     }
@@ -120,13 +124,15 @@ struct time_varied_gain {
 struct level_gain {
     float steepest = static_cast<float>(numeric::pi / 4);  ///< radians, below pi / 2
     template <class LevelAt>
-    double gain(const flat_echo& e, const LevelAt& level_at) const {
+    INSONIFY_TAGGED double gain(const flat_echo& e, const LevelAt& level_at) const {
         const double limit = numeric::sin_cos(static_cast<double>(steepest)).sine;
         const double sine = e.altitude / e.range;
         const double level = level_at(sine > 0 && sine < limit ? sine : limit);
         return level > 0 ? 1 / level : 0;
     }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 // Before anything is recorded, each part is checked by the `validate` that its type brings along; a user's own too.
 // They throw invalid_input for a value out of its range.
@@ -165,7 +171,9 @@ inline void validate(const level_gain& g) {
                     g.steepest, "above 0 and below pi / 2");
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 template <class P>
 concept direction_part = requires(const P& p) {
     { p.over_direction(1.0, 0.0) } -> std::convertible_to<double>;
@@ -190,7 +198,7 @@ template <class P>
 concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(double)) {
     { p.gain(e, level) } -> std::convertible_to<double>;
 };
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// A part of the sonar equation: one of the above, or a user's own type with one of their functions.
 template <class P>
@@ -207,14 +215,16 @@ class sonar_equation {
     static constexpr bool has_pulse = (detail::pulse_part<Parts> || ...);
     static constexpr bool has_noise = (detail::noise_part<Parts> || ...);
     static constexpr bool has_gain = (detail::gain_part<Parts> || ...);
-    static_assert((int{detail::footprint_part<Parts>} + ... + 0) <= 1, "a sonar has one horizontal beam");
+    static_assert((int{detail::footprint_part<Parts>} + ... + 0) <= 1,
+                                  "a sonar has one horizontal beam");
     static_assert((int{detail::pulse_part<Parts>} + ... + 0) <= 1, "a sonar has one pulse");
 
     sonar_equation() = default;
-    explicit(sizeof...(Parts) == 1) sonar_equation(Parts... parts) requires(sizeof...(Parts) > 0) : parts_(parts...) {}
+    INSONIFY_MEMBER explicit(sizeof...(Parts) == 1) sonar_equation(Parts... parts) requires(sizeof...(Parts) > 0)
+        : parts_(parts...) {}
 
     /// Power along a ray, given by its unit vector.
-    double over_direction(double across, double down) const {
+    INSONIFY_TAGGED double over_direction(double across, double down) const {
         return product([&](const auto& p) {
             if constexpr (detail::direction_part<decltype(p)>)
                 return static_cast<double>(p.over_direction(across, down));
@@ -223,7 +233,7 @@ class sonar_equation {
         });
     }
     /// Power from a range, for a ping that stands for `spacing` metres of track.
-    double over_range(double range, double spacing) const {
+    INSONIFY_TAGGED double over_range(double range, double spacing) const {
         return product([&](const auto& p) {
             if constexpr (detail::range_part<decltype(p)>)
                 return static_cast<double>(p.over_range(range));
@@ -235,7 +245,7 @@ class sonar_equation {
     }
     /// What a receiver multiplies by. `law` is that of the bottom.
     template <class Law>
-    double gain(const flat_echo& e, const Law& law) const {
+    INSONIFY_TAGGED double gain(const flat_echo& e, const Law& law) const {
         const auto level_at = [&](double sine) {
             const double cosine = numeric::square_root(1 - sine * sine);
             const double length = e.counts_time ? e.bin / cosine : e.bin;
@@ -250,7 +260,7 @@ class sonar_equation {
         });
     }
     /// Mean intensity of what is heard where nothing is.
-    double noise() const {
+    INSONIFY_TAGGED double noise() const {
         double sum = 0;
         for_each([&](const auto& p) {
             if constexpr (detail::noise_part<decltype(p)>) sum += p.noise();
@@ -259,13 +269,13 @@ class sonar_equation {
     }
     /// Calls `fn` with each part.
     template <class Fn>
-    void for_each(const Fn& fn) const {
+    INSONIFY_MEMBER void for_each(const Fn& fn) const {
         std::apply([&](const auto&... p) { (fn(p), ...); }, parts_);
     }
 
   private:
     template <class Fn>
-    double product(const Fn& factor) const {
+    INSONIFY_MEMBER double product(const Fn& factor) const {
         return std::apply([&](const auto&... p) { return (factor(p) * ... * 1.0); }, parts_);
     }
 

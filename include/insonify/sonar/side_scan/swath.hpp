@@ -8,6 +8,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// The picture with left and right exchanged: what grew to the right grows to the left.
 template <class T>
 image<T> mirrored(const image<T>& source) {
@@ -91,6 +93,8 @@ frame<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
     rig.side = side::starboard;
     return both_sides(port, render(s, rig, options, ex));
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

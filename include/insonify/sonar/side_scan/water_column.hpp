@@ -19,7 +19,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Of a water_column.
 template <class Water>
@@ -65,7 +65,7 @@ class water_law {
     double begins_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// A filter that adds mean intensities by slant range; speckle on top makes them fluctuate. Rows are pings and columns
 /// bins of equal slant range.
@@ -89,7 +89,7 @@ struct water_column {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    auto pass(image_view<const float> picture) const {
+    INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
         using detail::require;
         const auto at_least_0 = [](const char* name, float v) {
             require(v >= 0 && numeric::is_finite(v), name, v, "0 or more");

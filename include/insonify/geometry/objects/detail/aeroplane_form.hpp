@@ -47,6 +47,8 @@ struct aeroplane {
     std::uint64_t seed = 1;    ///< of torn edges
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value outside its range
 inline void validate(const aeroplane& a) {
     using detail::require;
@@ -76,7 +78,9 @@ inline void validate(const aeroplane& a) {
     detail::require_segments("aeroplane.segments", a.segments, 8, 512);
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A wing, tailplane or fin: straight edges from root to tip, the tip rounded. `out` is a unit vector along its span,
 /// `up` across its chord; the chord runs towards -x.
@@ -186,7 +190,7 @@ inline void append_propeller(mesh& into, const propeller& p, int corners) {
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

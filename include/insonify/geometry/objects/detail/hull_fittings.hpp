@@ -10,7 +10,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Where the deckhouse stands.
 inline stretch_of_hull house_of(const hull& h) {
@@ -155,7 +155,7 @@ inline void append_debris(mesh& into, const hull_lines& lines, const stretch_of_
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -49,6 +49,8 @@ struct hull {
     std::uint64_t seed = 1;       ///< of edges and losses
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value outside its range
 inline void validate(const hull& h) {
     using detail::require;
@@ -77,7 +79,9 @@ inline void validate(const hull& h) {
     detail::require_segments("hull.segments", h.segments, 16, 1024);
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Positions on a hull: u runs from the stern (0) to the bow (1), w from the keel (0) to the bulwark's top (1), side is
 /// +1 (port) or -1 (starboard).
@@ -166,7 +170,7 @@ class hull_lines {
     philox_key key_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

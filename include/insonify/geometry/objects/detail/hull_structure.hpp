@@ -10,7 +10,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A stretch of a hull's length.
 struct stretch_of_hull {
@@ -117,7 +117,7 @@ inline void append_coaming(mesh& into, const hull_lines& lines, const deck_plate
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

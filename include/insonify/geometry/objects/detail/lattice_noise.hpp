@@ -12,7 +12,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Value noise on the integer lattice, in [-1, 1], continuous with its slope.
 inline double lattice_noise(const glm::dvec3& p, const philox_key& key) {
@@ -37,7 +37,7 @@ inline double lattice_noise(const glm::dvec3& p, const philox_key& key) {
     return sum;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

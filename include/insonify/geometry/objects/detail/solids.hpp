@@ -23,7 +23,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A closed polygon in space, without coincident corners.
 using section = std::vector<glm::dvec3>;
@@ -148,7 +148,7 @@ inline void append(mesh& into, mesh part, const affine& map = {}) {
     for (const glm::uvec3& t : part.triangles) into.triangles.push_back(t + first);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -13,7 +13,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// An object in the rig's frame.
 struct placed_mesh {
@@ -63,7 +63,7 @@ inline pixel_box shown_pixels(const overhead_geometry& view, const placed_mesh& 
     return shadowed_pixels(view, object, std::numeric_limits<double>::infinity());  // no shadow falls so high
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

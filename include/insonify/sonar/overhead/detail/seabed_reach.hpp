@@ -8,7 +8,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A rectangle along the world's axes around the rig's position, metres.
 struct ground_box {
@@ -67,7 +67,7 @@ inline ground_box casting_ground(const overhead_geometry& view, const seabed::he
     return all;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

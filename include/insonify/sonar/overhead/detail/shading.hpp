@@ -15,7 +15,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// What pixels between the vertices are shaded from, in the rig's frame. The pixel's place gives the rest.
 struct surface_varyings {
@@ -235,7 +235,7 @@ class surface_shader {
     spread<float> to_light_[3];                           ///< where it stands, if it is near
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

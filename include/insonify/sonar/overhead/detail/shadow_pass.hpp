@@ -14,7 +14,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The object that a visibility buffer's id belongs to.
 inline const surface& surface_of(const std::vector<surface>& surfaces, std::uint32_t id) {
@@ -222,7 +222,7 @@ class shadow_pass {
     isa level_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -17,7 +17,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The bottom at a vertex, and between vertices.
 struct bottom_vertex {
@@ -204,7 +204,7 @@ class bottom_tiles {
     std::uint64_t sampled_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -19,7 +19,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Power and contents of a range bin; lengths are in bins.
 struct echo_bin {
@@ -374,7 +374,7 @@ class ping_listener {
     name_tally echoing_, casting_, types_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

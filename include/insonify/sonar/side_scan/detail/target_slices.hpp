@@ -12,7 +12,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A piece of outline in the plane of a ping.
 struct outline_piece {
@@ -113,7 +113,7 @@ inline std::vector<sliced_target> sliced_targets(const scene& s) {
     return all;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
