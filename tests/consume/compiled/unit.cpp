@@ -1,17 +1,18 @@
-// A unit with flags of its own: it draws a frame, and its function's name is the macro UNIT.
+// A unit with flags of its own, named by the macro UNIT.
+#include "unit.hpp"
+
 #include <insonify/insonify.hpp>
 
-#include <vector>
+#define JOIN_RAW(a, b) a##b
+#define JOIN(a, b) JOIN_RAW(a, b)
 
-namespace in = insonify;
-
-std::vector<float> UNIT();
-
-std::vector<float> UNIT() {
+in::image<float> JOIN(draw_, UNIT)() {
     in::scene scene;
     scene.seabed = in::seabed::ripples{.wavelength = 0.7f};
     scene.add(in::cube{.size = glm::vec3(0.3f)}, {.position = {0.5, 0, 0.15}}, "cube");
-    const auto frame = in::render(scene, {.altitude = 3, .size = {128, 96}, .grazing = 0.2f});
-    const auto image = frame.image | in::equalize{} | in::speckle{.variance = 0.1f, .seed = 7};
-    return {image.pixels().begin(), image.pixels().end()};
+    return in::render(scene, {.altitude = 3, .size = {128, 96}, .grazing = 0.2f}).image;
+}
+
+in::image<float> JOIN(look_, UNIT)(const in::image<float>& picture) {
+    return picture | in::equalize{} | in::speckle{.variance = 0.1f, .seed = 7};
 }

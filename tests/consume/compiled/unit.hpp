@@ -1,0 +1,12 @@
+// What units with flags of their own exchange.
+#pragma once
+
+#include <insonify/core/image.hpp>
+
+namespace in = insonify;
+
+#define UNITS(declare) declare(plain) declare(debug) declare(native) declare(alone) declare(alone_native)
+#define DECLARE(unit)              \
+    in::image<float> draw_##unit(); \
+    in::image<float> look_##unit(const in::image<float>& picture);
+UNITS(DECLARE)
