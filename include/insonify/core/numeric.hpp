@@ -192,7 +192,7 @@ inline double atan2(double y, double x) {
 }  // namespace INSONIFY_FLAGS
 
 }  // namespace numeric
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <std::floating_point Number>
 void require_finite(std::string_view argument, Number value) {
@@ -205,7 +205,7 @@ void validate_if_possible(const T& value) {
     if constexpr (requires { validate(value); }) validate(value);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -60,12 +60,16 @@ struct facet_backscatter {
     }
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value out of its range
 inline void validate(const facet_backscatter& f) {
     using detail::require;
     require(f.facets >= 0 && numeric::is_finite(f.facets), "facet_backscatter.facets", f.facets, "0 or more");
     require(f.slope > 0 && numeric::is_finite(f.slope), "facet_backscatter.slope", f.slope, "above 0");
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -57,7 +57,9 @@ class uninitialized_allocator {
   private:
     static_assert(alignof(T) <= memory_block::alignment);
 
-    INSONIFY_MEMBER static bool is_block(std::size_t count) { return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T); }
+    INSONIFY_MEMBER static bool is_block(std::size_t count) {
+        return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T);
+    }
 };
 
 /// Elements stay unset until somebody sets them.

@@ -215,8 +215,7 @@ class sonar_equation {
     static constexpr bool has_pulse = (detail::pulse_part<Parts> || ...);
     static constexpr bool has_noise = (detail::noise_part<Parts> || ...);
     static constexpr bool has_gain = (detail::gain_part<Parts> || ...);
-    static_assert((int{detail::footprint_part<Parts>} + ... + 0) <= 1,
-                                  "a sonar has one horizontal beam");
+    static_assert((int{detail::footprint_part<Parts>} + ... + 0) <= 1, "a sonar has one horizontal beam");
     static_assert((int{detail::pulse_part<Parts>} + ... + 0) <= 1, "a sonar has one pulse");
 
     sonar_equation() = default;

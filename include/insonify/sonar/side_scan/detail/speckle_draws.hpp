@@ -9,7 +9,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Draws of unit power for bins in a row, real and imaginary parts in turn: those of normal_pair, to the same bits. One
 /// block of Philox serves two bins.
@@ -48,7 +48,7 @@ struct speckle_draw_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
