@@ -44,9 +44,11 @@
 //     INSONIFY_COMPILED       the compiled form: this unit calls the code that one unit of the program compiles,
 //     INSONIFY_IMPLEMENTATION which defines this one; see compiled.hpp
 //
-// All symbols live in an inline namespace that names the version and whatever changes the code behind a symbol, so
-// that two translation units compiled with different flags never share one by accident. Units of the compiled form
-// share theirs whatever their flags.
+// Three inline namespaces keep apart what the linker must not merge:
+//   INSONIFY_ABI    the version. Public types are there, so that they pass between units whatever their flags.
+//   INSONIFY_FLAGS  inside it, what changes the code behind a symbol: functions, and classes that compute. A unit's
+//                   calls never end in a copy that another unit compiled for another processor, or with other checks.
+//   INSONIFY_ONCE   functions that the compiled form compiles once: there a fixed name, else INSONIFY_FLAGS.
 
 #if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 202002L
 #error "insonify needs C++20: compile with -std=c++20 (or /std:c++20) or newer."
@@ -181,30 +183,48 @@
 #define INSONIFY_JOIN_RAW(a, b) a##b
 #define INSONIFY_JOIN(a, b) INSONIFY_JOIN_RAW(a, b)
 
-#if defined(__cpp_exceptions) || defined(INSONIFY_COMPILED)
-#define INSONIFY_TAG_EXCEPTIONS
+// The instruction sets that a unit may use without asking the processor.
+#if !INSONIFY_SIMD
+#define INSONIFY_TAG_SIMD built_scalar
 #else
-#define INSONIFY_TAG_EXCEPTIONS _noexcept
+#define INSONIFY_TAG_SIMD built
+#endif
+#if defined(__AVX512F__)
+#define INSONIFY_TAG_TARGET _avx512
+#elif defined(__AVX2__) || defined(__FMA__) || defined(__BMI__) || defined(__BMI2__)
+#define INSONIFY_TAG_TARGET _avx2
+#elif defined(__AVX__)
+#define INSONIFY_TAG_TARGET _avx
+#elif defined(__SSE3__) || defined(__SSSE3__) || defined(__SSE4_1__) || defined(__POPCNT__)
+#define INSONIFY_TAG_TARGET _sse4
+#elif defined(__ARM_FEATURE_SVE)
+#define INSONIFY_TAG_TARGET _sve
+#else
+#define INSONIFY_TAG_TARGET
 #endif
 
-#if defined(INSONIFY_COMPILED)
-#define INSONIFY_TAG_SIMD _compiled
-#elif !INSONIFY_SIMD
-#define INSONIFY_TAG_SIMD _scalar
-#elif !INSONIFY_DISPATCH
-#define INSONIFY_TAG_SIMD _plain
-#elif defined(__AVX512F__)
-#define INSONIFY_TAG_SIMD _avx512
-#elif defined(__AVX2__)
-#define INSONIFY_TAG_SIMD _avx2
+#if defined(__OPTIMIZE__) || !defined(__GNUC__)
+#define INSONIFY_TAG_SPEED
 #else
-#define INSONIFY_TAG_SIMD _base
+#define INSONIFY_TAG_SPEED _debug
 #endif
 
-#if defined(NDEBUG) || defined(INSONIFY_COMPILED)
+#if defined(INSONIFY_SANITIZED)
+#define INSONIFY_TAG_SANITIZED _sanitized
+#else
+#define INSONIFY_TAG_SANITIZED
+#endif
+
+#if defined(NDEBUG)
 #define INSONIFY_TAG_ASSERT
 #else
 #define INSONIFY_TAG_ASSERT _checked
+#endif
+
+#if defined(__cpp_exceptions)
+#define INSONIFY_TAG_EXCEPTIONS
+#else
+#define INSONIFY_TAG_EXCEPTIONS _noexcept
 #endif
 
 #if INSONIFY_KEEP_MEMORY
@@ -213,14 +233,31 @@
 #define INSONIFY_TAG_MEMORY _new
 #endif
 
-#define INSONIFY_TAGS                                                        \
-    INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SIMD, INSONIFY_TAG_EXCEPTIONS), \
-                  INSONIFY_JOIN(INSONIFY_TAG_ASSERT, INSONIFY_TAG_MEMORY))
 #define INSONIFY_ABI_OF(major, minor, patch) v##major##_##minor##_##patch
 #define INSONIFY_ABI_NAME(major, minor, patch) INSONIFY_ABI_OF(major, minor, patch)
 #define INSONIFY_ABI                                                                                         \
     INSONIFY_JOIN(INSONIFY_ABI_NAME(INSONIFY_VERSION_MAJOR, INSONIFY_VERSION_MINOR, INSONIFY_VERSION_PATCH), \
-                  INSONIFY_TAGS)
+                  INSONIFY_TAG_MEMORY)
+#define INSONIFY_FLAGS                                                                                      \
+    INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SIMD, INSONIFY_TAG_TARGET), INSONIFY_TAG_SPEED), \
+                  INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SANITIZED, INSONIFY_TAG_ASSERT), INSONIFY_TAG_EXCEPTIONS))
+#if defined(INSONIFY_COMPILED)
+#define INSONIFY_ONCE compiled
+#else
+#define INSONIFY_ONCE INSONIFY_FLAGS
+#endif
+
+// Members of public types: those of a line are inlined, in builds without optimization as well; longer ones carry the
+// unit's flags in their own name.
+#if defined(__GNUC__)
+#define INSONIFY_MEMBER inline __attribute__((always_inline))
+#define INSONIFY_TAGGED __attribute__((abi_tag(INSONIFY_TEXT(INSONIFY_FLAGS))))
+#else
+#define INSONIFY_MEMBER
+#define INSONIFY_TAGGED
+#endif
+#define INSONIFY_TEXT_RAW(x) #x
+#define INSONIFY_TEXT(x) INSONIFY_TEXT_RAW(x)
 
 namespace insonify {
 inline namespace INSONIFY_ABI {}
@@ -246,6 +283,8 @@ inline namespace INSONIFY_ABI {
 
 namespace numeric {
 
+inline namespace INSONIFY_FLAGS {
+
 /// The value of type To that has the same bits.
 template <class To, class From>
 constexpr To bit_cast(const From& from) noexcept {
@@ -257,9 +296,11 @@ constexpr To bit_cast(const From& from) noexcept {
 #endif
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace numeric
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// What became of a text that should be a number.
 enum class number_text { fine, malformed, out_of_range };
@@ -316,7 +357,7 @@ char* format_number(char* first, char* last, Number value) {
         return std::to_chars(first, last, value).ptr;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -343,7 +384,7 @@ struct io_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class Error>
 [[noreturn]] void raise(Error error) {
@@ -383,7 +424,7 @@ void require(bool holds, std::string_view argument, Number value, std::string_vi
     if (!holds) refuse(argument, value, expected);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -406,7 +447,7 @@ concept executor = requires(E& ex, void (*fn)(std::size_t)) {
 /// Runs everything on the calling thread, in order.
 struct serial_executor {
     template <std::invocable<std::size_t> Fn>
-    void bulk(std::size_t count, Fn&& fn) const {
+    INSONIFY_MEMBER void bulk(std::size_t count, Fn&& fn) const {
         for (std::size_t i = 0; i < count; ++i) fn(i);
     }
 };
@@ -421,13 +462,13 @@ class executor_ref {
   public:
     template <executor E>
         requires(!std::same_as<std::remove_const_t<E>, executor_ref>)
-    executor_ref(E& ex)
+    INSONIFY_TAGGED executor_ref(E& ex)
         : executor_(&ex), bulk_([](const void* to, std::size_t count, call_type call, const void* fn) {
               const_cast<E*>(static_cast<const E*>(to))->bulk(count, [=](std::size_t i) { call(fn, i); });
           }) {}
 
     template <std::invocable<std::size_t> Fn>
-    void bulk(std::size_t count, Fn&& fn) const {
+    INSONIFY_TAGGED void bulk(std::size_t count, Fn&& fn) const {
         using function = std::remove_reference_t<Fn>;
         bulk_(
             executor_, count,
@@ -441,6 +482,8 @@ class executor_ref {
     void (*bulk_)(const void* to, std::size_t count, call_type call, const void* fn);
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// Splits [0, count) into runs of `grain` and calls `fn(first, last)` for each. The split depends on the arguments
 /// alone, so whatever is summed per run comes out the same on any executor.
 template <executor E, std::invocable<std::size_t, std::size_t> Fn>
@@ -451,6 +494,8 @@ void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
         fn(first, count - first < grain ? count : first + grain);
     });
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -476,7 +521,7 @@ void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Blocks as they come from the system and go back to it. Before its first byte each knows how much it holds.
 struct memory_block {
@@ -640,7 +685,9 @@ class spare_memory {
     std::size_t most_ = 0;    ///< that was in use at once
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Gives back to the system what the calling thread has kept of memory for its next picture. A thread keeps blocks of
 /// 64 KB and more, together with what it has in use never more than half as much again as it has had in use at once;
@@ -648,6 +695,8 @@ class spare_memory {
 inline void release_memory() noexcept {
     if (detail::spare_memory* const spare = detail::spare_memory::mine()) spare->release();
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -677,15 +726,15 @@ class uninitialized_allocator {
 
     uninitialized_allocator() = default;
     template <class U>
-    uninitialized_allocator(const uninitialized_allocator<U>&) {}
+    INSONIFY_MEMBER uninitialized_allocator(const uninitialized_allocator<U>&) {}
 
-    T* allocate(std::size_t count) {
+    INSONIFY_TAGGED T* allocate(std::size_t count) {
         if (!is_block(count)) return std::allocator<T>().allocate(count);
         spare_memory* const spare = spare_memory::mine();
         const std::size_t bytes = count * sizeof(T);
         return static_cast<T*>(spare != nullptr ? spare->take(bytes) : memory_block::allocate(bytes));
     }
-    void deallocate(T* memory, std::size_t count) {
+    INSONIFY_TAGGED void deallocate(T* memory, std::size_t count) {
         if (!is_block(count)) return std::allocator<T>().deallocate(memory, count);
         if (spare_memory* const spare = spare_memory::mine())
             spare->give(memory);
@@ -694,11 +743,11 @@ class uninitialized_allocator {
     }
 
     template <class U>
-    void construct(U* at) {
+    INSONIFY_MEMBER void construct(U* at) {
         ::new (static_cast<void*>(at)) U;
     }
     template <class U, class... From>
-    void construct(U* at, From&&... from) {
+    INSONIFY_MEMBER void construct(U* at, From&&... from) {
         std::construct_at(at, std::forward<From>(from)...);
     }
 
@@ -707,7 +756,9 @@ class uninitialized_allocator {
   private:
     static_assert(alignof(T) <= memory_block::alignment);
 
-    static bool is_block(std::size_t count) { return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T); }
+    INSONIFY_MEMBER static bool is_block(std::size_t count) {
+        return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T);
+    }
 };
 
 /// Elements stay unset until somebody sets them.
@@ -739,39 +790,41 @@ class image_view {
     /// @param height  rows, >= 0
     /// @param stride  pixels from one row to the next, >= width
     /// @throws invalid_input for a negative size or a stride shorter than a row
-    image_view(T* data, int width, int height, std::ptrdiff_t stride)
+    INSONIFY_TAGGED image_view(T* data, int width, int height, std::ptrdiff_t stride)
         : data_(data), width_(width), height_(height), stride_(stride) {
         detail::require(width >= 0, "width", width, "at least 0");
         detail::require(height >= 0, "height", height, "at least 0");
         detail::require(stride >= width, "stride", stride, "at least the width");
     }
-    image_view(T* data, int width, int height) : image_view(data, width, height, width) {}
+    INSONIFY_MEMBER image_view(T* data, int width, int height) : image_view(data, width, height, width) {}
 
     /// A view of mutable pixels reads as a view of constant ones.
     template <std::same_as<value_type> Mutable>
         requires(std::is_const_v<T>)
-    image_view(image_view<Mutable> other)
+    INSONIFY_MEMBER image_view(image_view<Mutable> other)
         : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
 
     int width() const { return width_; }
     int height() const { return height_; }
     std::ptrdiff_t stride() const { return stride_; }
-    std::size_t size() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
-    bool empty() const { return width_ == 0 || height_ == 0; }
+    INSONIFY_MEMBER std::size_t size() const {
+        return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    }
+    INSONIFY_MEMBER bool empty() const { return width_ == 0 || height_ == 0; }
     T* data() const { return data_; }
 
-    T& operator()(int x, int y) const {
+    INSONIFY_MEMBER T& operator()(int x, int y) const {
         INSONIFY_ASSERT(0 <= x && x < width_ && 0 <= y && y < height_);
         return data_[y * stride_ + x];
     }
-    std::span<T> row(int y) const {
+    INSONIFY_MEMBER std::span<T> row(int y) const {
         INSONIFY_ASSERT(0 <= y && y < height_);
         return {data_ + y * stride_, static_cast<std::size_t>(width_)};
     }
 
     /// The part of the view that starts at (x, y); shares the pixels.
     /// @throws invalid_input if the part is not inside the view
-    image_view part(int x, int y, int width, int height) const {
+    INSONIFY_TAGGED image_view part(int x, int y, int width, int height) const {
         detail::require(x >= 0 && x <= width_, "x", x, "a column of the view");
         detail::require(y >= 0 && y <= height_, "y", y, "a row of the view");
         detail::require(width >= 0 && width <= width_ - x, "width", width, "a part inside the view");
@@ -815,15 +868,15 @@ class image {
 
     /// @param width, height  pixels, each in [0, 2^30], together at most 2^40
     /// @throws invalid_input for a size outside that range
-    image(int width, int height, T fill = T{})
+    INSONIFY_MEMBER image(int width, int height, T fill = T{})
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), fill) {}
 
-    image(int width, int height, detail::uninitialized)
+    INSONIFY_MEMBER image(int width, int height, detail::uninitialized)
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area()) {}
 
     /// Rows written out, for tests and small tables: `image<float>{{0, 1}, {2, 3}}`.
     /// @throws invalid_input for rows of different lengths
-    image(std::initializer_list<std::initializer_list<T>> rows)
+    INSONIFY_TAGGED image(std::initializer_list<std::initializer_list<T>> rows)
         : width_(rows.size() == 0 ? 0 : static_cast<int>(rows.begin()->size())),
           height_(static_cast<int>(rows.size())) {
         pixels_.reserve(area());
@@ -835,7 +888,8 @@ class image {
     }
 
     /// A packed copy of what a view shows.
-    explicit image(image_view<const T> source) : image(source.width(), source.height(), detail::uninitialized{}) {
+    INSONIFY_TAGGED explicit image(image_view<const T> source)
+        : image(source.width(), source.height(), detail::uninitialized{}) {
         for (int y = 0; y < height_; ++y) {
             const auto from = source.row(y);
             std::copy(from.begin(), from.end(), row(y).begin());
@@ -854,38 +908,40 @@ class image {
 
     int width() const { return width_; }
     int height() const { return height_; }
-    std::size_t size() const { return pixels_.size(); }
-    bool empty() const { return pixels_.empty(); }
+    INSONIFY_MEMBER std::size_t size() const { return pixels_.size(); }
+    INSONIFY_MEMBER bool empty() const { return pixels_.empty(); }
 
-    T& operator()(int x, int y) { return pixels_[index(x, y)]; }
-    const T& operator()(int x, int y) const { return pixels_[index(x, y)]; }
+    INSONIFY_MEMBER T& operator()(int x, int y) { return pixels_[index(x, y)]; }
+    INSONIFY_MEMBER const T& operator()(int x, int y) const { return pixels_[index(x, y)]; }
 
-    std::span<T> row(int y) { return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)}; }
-    std::span<const T> row(int y) const { return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)}; }
+    INSONIFY_MEMBER std::span<T> row(int y) { return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)}; }
+    INSONIFY_MEMBER std::span<const T> row(int y) const {
+        return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)};
+    }
     std::span<T> pixels() { return pixels_; }
     std::span<const T> pixels() const { return pixels_; }
 
-    image_view<T> view() & { return {pixels_.data(), width_, height_}; }
-    image_view<const T> view() const& { return {pixels_.data(), width_, height_}; }
+    INSONIFY_MEMBER image_view<T> view() & { return {pixels_.data(), width_, height_}; }
+    INSONIFY_MEMBER image_view<const T> view() const& { return {pixels_.data(), width_, height_}; }
     image_view<T> view() && = delete;  // the view would outlive its pixels
-    operator image_view<T>() & { return view(); }
-    operator image_view<const T>() const& { return view(); }
+    INSONIFY_MEMBER operator image_view<T>() & { return view(); }
+    INSONIFY_MEMBER operator image_view<const T>() const& { return view(); }
 
     friend bool operator==(const image&, const image&) = default;
 
   private:
-    static int checked(int extent, const char* name) {
+    INSONIFY_MEMBER static int checked(int extent, const char* name) {
         detail::require(extent >= 0 && extent <= (1 << 30), name, extent, "0 to 2^30");
         return extent;
     }
-    std::size_t area() const {
+    INSONIFY_TAGGED std::size_t area() const {
         const std::uint64_t pixels = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
         detail::require(pixels <= (std::uint64_t{1} << 40), "width x height", pixels, "at most 2^40 pixels");
         constexpr std::uint64_t addressable = (std::numeric_limits<std::size_t>::max)() / sizeof(T);
         detail::require(pixels <= addressable, "width x height", pixels, "as many as this machine can address");
         return static_cast<std::size_t>(pixels);
     }
-    std::size_t index(int x, int y) const {
+    INSONIFY_MEMBER std::size_t index(int x, int y) const {
         INSONIFY_ASSERT(0 <= x && (x < width_ || width_ == 0) && 0 <= y && y < height_);
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
@@ -894,6 +950,8 @@ class image {
     int height_ = 0;
     detail::uninitialized_vector<T> pixels_;
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The image with every pixel replaced by `fn(pixel)`; the size stays, the type is what `fn` returns.
 template <class T, class Fn>
@@ -911,6 +969,8 @@ auto map_pixels(const image<T>& source, Fn&& fn) {
     return map_pixels(source.view(), fn);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -926,6 +986,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace numeric {
+
+inline namespace INSONIFY_FLAGS {
 
 template <class T>
 INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
@@ -969,6 +1031,8 @@ T determinant(const glm::mat<3, 3, T>& m) {
     return dot(m[0], cross(m[1], m[2]));
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace numeric
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -990,6 +1054,9 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 namespace literals {
+
+inline namespace INSONIFY_FLAGS {
+
 /// Angles are radians in the API: `6_deg` is 0.10472.
 constexpr float operator""_deg(long double degrees) {
     return static_cast<float>(degrees * std::numbers::pi_v<long double> / 180);
@@ -997,11 +1064,16 @@ constexpr float operator""_deg(long double degrees) {
 constexpr float operator""_deg(unsigned long long degrees) {
     return operator""_deg(static_cast<long double>(degrees));
 }
+
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace literals
 
 namespace numeric {
 
 inline constexpr double pi = std::numbers::pi;
+
+inline namespace INSONIFY_FLAGS {
 
 constexpr double to_radians(double degrees) {
     return degrees * (pi / 180);
@@ -1086,10 +1158,14 @@ constexpr double exp(double x) {
     return sum * power(half) * power(k - half);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 struct sine_cosine {
     double sine;
     double cosine;
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Sine and cosine of 2 pi x, absolute error < 2e-16; x in turns, so that the reduction is exact. |x| < 2^50.
 inline sine_cosine sin_cos_turns(double x) {
@@ -1147,8 +1223,10 @@ inline double atan2(double y, double x) {
     return y < 0 ? -angle : angle;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace numeric
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <std::floating_point Number>
 void require_finite(std::string_view argument, Number value) {
@@ -1161,7 +1239,7 @@ void validate_if_possible(const T& value) {
     if constexpr (requires { validate(value); }) validate(value);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -1189,6 +1267,8 @@ enum class isa {
     avx512,    ///< 512-bit ones (F, BW, DQ and VL), for kernels that gain by them
 };
 
+inline namespace INSONIFY_ONCE {
+
 /// The widest instruction set that the library's kernels were compiled for and this processor runs.
 INSONIFY_FUNCTION isa best_isa();
 
@@ -1210,7 +1290,9 @@ INSONIFY_FUNCTION isa best_isa() {
 }
 #endif
 
-namespace detail {
+}  // namespace INSONIFY_ONCE
+
+namespace detail::inline INSONIFY_FLAGS {
 
 #if INSONIFY_DISPATCH
 template <class Kernel>
@@ -1242,7 +1324,7 @@ void dispatch(const Kernel& kernel, isa level) {
 #endif
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -1259,7 +1341,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class T, int N>
 struct lanes_of {
@@ -1552,7 +1634,7 @@ INSONIFY_INLINE void count_up(lanes<T, N>& into) {
     load(into, values);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -1572,6 +1654,8 @@ inline namespace INSONIFY_ABI {
 template <class T>
 concept pixel_code = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t>;
 
+inline namespace INSONIFY_FLAGS {
+
 /// The code nearest to `value`, 1 being the largest code; ties go up, values outside [0, 1] to the end they passed,
 /// NaN to 0.
 template <pixel_code Code>
@@ -1582,7 +1666,9 @@ constexpr Code quantize(float value) {
     return static_cast<Code>(static_cast<double>(value) * largest + 0.5);  // 24 + 16 bits: exact until the truncation
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// N codes in a row; the lanes hold numbers that they can.
 template <int N, class Code>
@@ -1647,7 +1733,9 @@ struct quantize_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Quantizes as many values as `to` takes; the same codes at every level.
 /// @pre from.size() >= to.size()
@@ -1678,6 +1766,8 @@ void dequantize_row(std::span<const Code> from, std::span<float> to) {
     }
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -1690,7 +1780,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The products of the lower halves of the lanes with a word. Four lanes are for AVX2, eight for AVX-512: kernels of W
 /// lanes of 32 bits have W / 2 of these.
@@ -1840,7 +1930,7 @@ INSONIFY_INLINE void normal_lanes(lanes<double, N>& first, lanes<double, N>& sec
     second = radius * second;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -1861,6 +1951,8 @@ inline namespace INSONIFY_ABI {
 
 using philox_counter = std::array<std::uint32_t, 4>;
 using philox_key = std::array<std::uint32_t, 2>;
+
+inline namespace INSONIFY_FLAGS {
 
 /// Philox4x32 with ten rounds: four independent 32-bit words for each counter and key.
 constexpr philox_counter philox4x32(philox_counter counter, philox_key key) {
@@ -1937,6 +2029,8 @@ class random_sequence {
     std::size_t used_ = 4;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -1962,7 +2056,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// What an image can hold: not void, not bool (whose vector has no pixels to point at).
 template <class T>
@@ -1980,7 +2074,7 @@ INSONIFY_INLINE auto call_pixel(Fn& fn, const Pixel& pixel, int, int) {
     return fn(pixel);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// A function of a pixel, or of a pixel with its column and row, that returns a pixel.
 template <class Fn, class Pixel>
@@ -1996,12 +2090,12 @@ struct pixel_area {
 /// The most pixels that `row` is asked for at once; they fit the nearest cache several times over.
 inline constexpr int run_length = 512;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class Fn, class Pixel>
 using pass_result = decltype(call_pixel(std::declval<Fn&>(), std::declval<const Pixel&>(), 0, 0));
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// A function of a pixel that does many pixels of a row at once.
 template <class Fn, class Pixel>
@@ -2053,20 +2147,22 @@ struct color_table {
     using is_filter = std::true_type;
 
     template <std::same_as<std::uint8_t> Level>
-    constexpr rgb8 operator()(Level level) const {
+    INSONIFY_MEMBER constexpr rgb8 operator()(Level level) const {
         return colors[level];
     }
     template <std::same_as<float> Value>
-    constexpr rgb8 operator()(Value value) const {
+    INSONIFY_MEMBER constexpr rgb8 operator()(Value value) const {
         return colors[quantize<std::uint8_t>(value)];
     }
-    void row(const float* from, rgb8* to, int count, int, int) const {
+    INSONIFY_TAGGED void row(const float* from, rgb8* to, int count, int, int) const {
         std::uint8_t codes[run_length];
         quantize_row(std::span<const float>(from, static_cast<std::size_t>(count)),
                      std::span<std::uint8_t>(codes, static_cast<std::size_t>(count)));
         for (int i = 0; i < count; ++i) to[i] = colors[codes[i]];
     }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The table of `color(level)` for levels 0 to 255.
 template <class Fn>
@@ -2076,7 +2172,9 @@ constexpr color_table tabulate_colors(Fn color) {
     return table;
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Straight lines between five colours, that are those of levels 0, 63.75, 127.5, 191.25 and 255; ties up.
 constexpr rgb8 between_colors(int level, const std::array<rgb8, 5>& colors) {
@@ -2088,7 +2186,7 @@ constexpr rgb8 between_colors(int level, const std::array<rgb8, 5>& colors) {
     return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 namespace colormap {
 
@@ -2147,7 +2245,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Gray or colour, the same conversion per channel.
 template <pixel_code Code>
@@ -2179,7 +2277,7 @@ struct to_unit {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// [0, 1] -> 0 ... 255 or 65535, to the nearest; values outside go to the nearer end, NaN to 0.
 inline constexpr detail::to_code<std::uint8_t> to_uint8{};
@@ -2203,7 +2301,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// One trial at N gamma-distributed numbers of mean one, from four words each; `settled` where it succeeded, as 19 of
 /// 20 do.
@@ -2278,7 +2376,7 @@ inline double mean_of_rice(double steady) {
     return half_root_pi * sum * numeric::exp(-steady) / numeric::square_root(1 + steady);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -2291,7 +2389,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The taps of a Gaussian filter under which white noise keeps its variance, from the middle outwards.
 ///
@@ -2319,7 +2417,7 @@ inline std::vector<float> intensity_taps(double length) {
     return gaussian_taps(length * 0.70710678118654752);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -2335,7 +2433,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Which of N blocks lane k of their words and draws belongs to, so that store_draws gets by with shuffles inside of
 /// 128 bits.
@@ -2481,7 +2579,7 @@ INSONIFY_INLINE void normal_lanes(lanes<float, N>& first, lanes<float, N>& secon
     second = radius * second;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -2497,7 +2595,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// One stream per kind of noise; the numbers are part of what a seed means.
 enum class noise_stream : std::uint32_t {
@@ -2725,7 +2823,7 @@ void apply_rule(const Rule& rule, const float* from, const float* draw, const fl
     dispatch(rule_kernel<Rule>{rule, from, draw, scale, to, count}, best_isa());
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -2745,7 +2843,7 @@ struct correlation_length {
     float x = 0, y = 0;  ///< 0 to 16
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void require_correlation(const char* name, const correlation_length& length) {
     for (const float pixels : {length.x, length.y})
@@ -2831,7 +2929,7 @@ class correlated_draws {
     std::size_t last_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -2844,7 +2942,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Pixels of a run, by their place in it.
 struct pixel_list {
@@ -2906,7 +3004,7 @@ struct rejection_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -2920,7 +3018,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// @throws invalid_input for a map of another size than the area
 inline void check_size(const std::string& name, int width, int height, const pixel_area& area) {
@@ -2928,7 +3026,7 @@ inline void check_size(const std::string& name, int width, int height, const pix
     require(height == area.height, "height of the map for " + name, height, "that of the image");
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// One number for all pixels, or a map of them that is as large as the image. Views are looked at when the filter runs,
 /// and not kept alive.
@@ -2940,27 +3038,27 @@ class parameter {
   public:
     template <std::convertible_to<float> Number>
         requires(std::is_arithmetic_v<Number>)
-    parameter(Number value) : values_{static_cast<float>(value)} {}
+    INSONIFY_MEMBER parameter(Number value) : values_{static_cast<float>(value)} {}
 
     /// A number for each pixel.
-    parameter(image_view<const float> map) : map_(map) {}
-    parameter(image_view<float> map) : map_(map) {}
+    INSONIFY_MEMBER parameter(image_view<const float> map) : map_(map) {}
+    INSONIFY_MEMBER parameter(image_view<float> map) : map_(map) {}
 
     /// `values[type]` for a pixel of that type, the last of them for types beyond.
     /// @throws invalid_input for no values
-    parameter(image_view<const std::uint8_t> types, std::vector<float> values)
+    INSONIFY_MEMBER parameter(image_view<const std::uint8_t> types, std::vector<float> values)
         : values_(std::move(values)), types_(types), by_type_(true) {
         detail::require(!values_.empty(), "values of a parameter by type", values_.size(), "at least 1");
     }
 
-    bool is_constant() const { return !by_type_ && !values_.empty(); }
+    INSONIFY_MEMBER bool is_constant() const { return !by_type_ && !values_.empty(); }
 
     /// The number of all pixels. @pre is_constant()
-    float value() const { return values_.front(); }
+    INSONIFY_MEMBER float value() const { return values_.front(); }
 
     /// Where the pixels that it is asked for lie.
     /// @throws invalid_input for a map of another size
-    void place(const std::string& name, const pixel_area& area) {
+    INSONIFY_TAGGED void place(const std::string& name, const pixel_area& area) {
         x_ = area.x, y_ = area.y;
         if (by_type_) {
             detail::check_size(name, types_.width(), types_.height(), area);
@@ -2970,7 +3068,7 @@ class parameter {
     }
 
     /// The numbers of `count` pixels of a row from (x, y) on, into `buffer`.
-    void row(float* buffer, int count, int x, int y) const {
+    INSONIFY_TAGGED void row(float* buffer, int count, int x, int y) const {
         if (by_type_) {
             const std::uint8_t* const type = types_.row(y - y_).data() + (x - x_);
             for (int i = 0; i < count; ++i) buffer[i] = values_[(std::min)(std::size_t{type[i]}, values_.size() - 1)];
@@ -2983,7 +3081,7 @@ class parameter {
 
     /// @throws invalid_input for a number that isn't `allowed`
     template <std::predicate<float> Allowed>
-    void check(std::string_view name, const Allowed& allowed, std::string_view expected) const {
+    INSONIFY_TAGGED void check(std::string_view name, const Allowed& allowed, std::string_view expected) const {
         for (const float value : values_) detail::require(allowed(value), name, value, expected);
         for (int y = 0; y < map_.height(); ++y)
             for (const float value : map_.row(y)) detail::require(allowed(value), name, value, expected);
@@ -3022,7 +3120,7 @@ inline namespace INSONIFY_ABI {
 /// What the pixels of an image of echoes hold. An amplitude is the square root of an intensity.
 enum class echo { amplitude, intensity };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 struct exponential_draws {
     template <int N>
@@ -3205,7 +3303,7 @@ inline void check_shape(const char* name, const parameter& shape) {
         name, [](float v) { return v >= 0.01f && v <= 1e6f; }, "0.01 to 1e6");
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Fully developed speckle: exponential intensities, Rayleigh amplitudes, of which std / mean is 0.5227.
 struct rayleigh {
@@ -3217,7 +3315,7 @@ struct rayleigh {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a correlation length outside 0 to 16
-    auto pass() const {
+    INSONIFY_MEMBER auto pass() const {
         detail::require_correlation("rayleigh.correlation", correlation);
         return detail::echo_pass(detail::noise_stream::rayleigh, seed, frame,
                                  {"rayleigh", detail::echo_draw::exponential}, of, correlation);
@@ -3236,7 +3334,7 @@ struct gamma_speckle {
 
     /// @throws invalid_input for looks outside 0.01 to 1e6, or a correlation length outside 0 to 16; on application,
     ///         for a map of another size than the image
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::check_shape("gamma_speckle.looks", looks);
         detail::require_correlation("gamma_speckle.correlation", correlation);
         return detail::echo_pass(detail::noise_stream::gamma_speckle, seed, frame,
@@ -3258,7 +3356,7 @@ struct k_speckle {
 
     /// @throws invalid_input for a shape or looks outside 0.01 to 1e6, or a correlation length outside 0 to 16; on
     ///         application, for a map of another size than the image
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::check_shape("k_speckle.shape", shape);
         detail::check_shape("k_speckle.looks", looks);
         detail::require_correlation("k_speckle.correlation", correlation);
@@ -3282,7 +3380,7 @@ struct rician {
 
     /// @throws invalid_input for a steady part outside 0 to 1e6, or a correlation length outside 0 to 16; on
     ///         application, for a map of another size than the image
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         steady.check(
             "rician.steady", [](float v) { return v >= 0 && v <= 1e6f; }, "0 to 1e6");
         detail::require_correlation("rician.correlation", correlation);
@@ -3341,7 +3439,7 @@ struct to_gray {
     };
 
     /// @throws invalid_input for a weight that is not in [0, 1], or a sum above 1 (by more than rounding)
-    weighted_sum pass() const {
+    INSONIFY_TAGGED weighted_sum pass() const {
         for (const double weight : {weights.r, weights.g, weights.b}) {
             detail::require(weight >= 0 && weight <= 1, "to_gray.weights", weight, "in [0, 1]");
         }
@@ -3380,14 +3478,14 @@ inline namespace INSONIFY_ABI {
 struct histogram {
     std::vector<std::uint64_t> counts;
 
-    std::uint64_t total() const {
+    INSONIFY_TAGGED std::uint64_t total() const {
         std::uint64_t sum = 0;
         for (const std::uint64_t count : counts) sum += count;
         return sum;
     }
 
     /// @throws invalid_input for another number of bins
-    histogram& operator+=(const histogram& other) {
+    INSONIFY_TAGGED histogram& operator+=(const histogram& other) {
         detail::require(other.counts.size() == counts.size(), "bins of the histogram to add", other.counts.size(),
                         "those of the sum");
         for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
@@ -3401,7 +3499,7 @@ struct histogram {
 template <class T>
 concept countable_pixel = std::same_as<T, float> || pixel_code<T>;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void require_bins(const char* name, int bins) {
     require(bins >= 2 && bins <= 65536, name, bins, "2 to 65536");
@@ -3540,7 +3638,9 @@ histogram count_parts(image_view<const Pixel> source, int bins, E& ex, const Mak
     return result;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// MATLAB's imhist. Pixels are floats in [0, 1], of which NaN is not counted, or codes that mean code / 255 or / 65535.
 /// @throws invalid_input for bins outside 2 to 65536
@@ -3563,7 +3663,9 @@ histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) 
     return histogram_of(source.view(), bins, ex);
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// How many levels a source is told apart by.
 template <class Pixel>
@@ -3661,7 +3763,7 @@ level_map<Pixel> map_levels(const histogram& source, const histogram& wanted) {
     return level_map<Pixel>(std::move(values));
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Looks at no more of an image of floats than how often each of 256 levels comes: `f.pass(histogram)` returns a
 /// function of the level.
@@ -3678,18 +3780,18 @@ struct equalize {
 
     /// @throws invalid_input for levels outside 2 to 65536
     template <countable_pixel Pixel, executor_argument E = serial_executor>
-    detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
+    INSONIFY_MEMBER detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         detail::require_bins("equalize.levels", levels);
         return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), flat());
     }
     /// For floats that were counted by 256 levels.
-    detail::level_values<float> pass(const histogram& counted) const {
+    INSONIFY_MEMBER detail::level_values<float> pass(const histogram& counted) const {
         detail::require_bins("equalize.levels", levels);
         return detail::map_levels<float>(counted, flat()).by_level();
     }
 
   private:
-    histogram flat() const { return {std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)}; }
+    INSONIFY_MEMBER histogram flat() const { return {std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)}; }
 };
 
 /// Gives an image the histogram of a reference, by bins: fast, and as coarse as the bins. MATLAB: imhistmatch(I,
@@ -3701,24 +3803,25 @@ class match_binned {
 
     /// @throws invalid_input for a reference without a number in it, or bins outside 2 to 65536
     template <countable_pixel Pixel>
-    explicit match_binned(image_view<const Pixel> reference, int bins = 64)
+    INSONIFY_MEMBER explicit match_binned(image_view<const Pixel> reference, int bins = 64)
         : match_binned(histogram_of(reference, bins)) {}
     template <countable_pixel Pixel>
-    explicit match_binned(const image<Pixel>& reference, int bins = 64) : match_binned(reference.view(), bins) {}
+    INSONIFY_MEMBER explicit match_binned(const image<Pixel>& reference, int bins = 64)
+        : match_binned(reference.view(), bins) {}
 
     /// @throws invalid_input for an empty histogram, or bins outside 2 to 65536
-    explicit match_binned(histogram wanted) : wanted_(std::move(wanted)) {
+    INSONIFY_MEMBER explicit match_binned(histogram wanted) : wanted_(std::move(wanted)) {
         detail::require(wanted_.counts.size() >= 2 && wanted_.counts.size() <= 65536, "wanted.counts.size()",
                         wanted_.counts.size(), "2 to 65536");
         detail::require(wanted_.total() > 0, "pixels in the reference", wanted_.total(), "at least 1");
     }
 
     template <countable_pixel Pixel, executor_argument E = serial_executor>
-    detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
+    INSONIFY_MEMBER detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), wanted_);
     }
     /// For floats that were counted by 256 levels.
-    detail::level_values<float> pass(const histogram& counted) const {
+    INSONIFY_MEMBER detail::level_values<float> pass(const histogram& counted) const {
         return detail::map_levels<float>(counted, wanted_).by_level();
     }
 
@@ -3748,10 +3851,10 @@ struct distribution {
     std::vector<float> values;
     std::vector<std::uint64_t> cumulative;
 
-    std::uint64_t total() const { return cumulative.empty() ? 0 : cumulative.back(); }
+    INSONIFY_MEMBER std::uint64_t total() const { return cumulative.empty() ? 0 : cumulative.back(); }
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Bits that compare as unsigned integers the way floats compare, and back.
 constexpr std::uint32_t ordered_bits(float value) {
@@ -3778,7 +3881,9 @@ inline void sort_keys(std::vector<std::uint32_t>& keys) {
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Counts the finite pixels; others are passed over.
 inline distribution distribution_of(image_view<const float> source) {
@@ -3818,7 +3923,9 @@ distribution distribution_of(const image<Pixel>& source) {
     return distribution_of(source.view());
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The value of `reference` at the rank of each value of `source`.
 inline std::vector<float> values_at_ranks(const distribution& source, const distribution& reference) {
@@ -3896,7 +4003,7 @@ class rank_pass {
     std::shared_ptr<const table> table_;  // passes are copied; the table isn't
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Gives an image the distribution of a reference, by exact ranks. What the reference was is counted once and shared by
 /// copies of the filter. Floats become floats, NaN stays NaN; codes become codes, to the nearest. An image without a
@@ -3912,12 +4019,13 @@ class match_histogram {
 
     /// @throws invalid_input for a reference without a finite pixel
     template <countable_pixel Pixel>
-    explicit match_histogram(image_view<const Pixel> reference) : match_histogram(distribution_of(reference)) {}
+    INSONIFY_MEMBER explicit match_histogram(image_view<const Pixel> reference)
+        : match_histogram(distribution_of(reference)) {}
     template <countable_pixel Pixel>
-    explicit match_histogram(const image<Pixel>& reference) : match_histogram(reference.view()) {}
+    INSONIFY_MEMBER explicit match_histogram(const image<Pixel>& reference) : match_histogram(reference.view()) {}
 
     /// @throws invalid_input for an empty distribution, or values and cumulative of different sizes
-    explicit match_histogram(distribution reference) {
+    INSONIFY_TAGGED explicit match_histogram(distribution reference) {
         detail::require(reference.total() > 0, "finite pixels in the reference", reference.total(), "at least 1");
         detail::require(reference.values.size() == reference.cumulative.size(), "reference.values.size()",
                         reference.values.size(), "that of cumulative");
@@ -3925,11 +4033,11 @@ class match_histogram {
     }
 
     template <std::same_as<float> Pixel>
-    detail::rank_pass pass(image_view<const Pixel> source) const {
+    INSONIFY_MEMBER detail::rank_pass pass(image_view<const Pixel> source) const {
         return {distribution_of(source), *reference_};
     }
     template <pixel_code Code, executor_argument E = serial_executor>
-    detail::level_map<Code> pass(image_view<const Code> source, E&& ex = {}) const {
+    INSONIFY_TAGGED detail::level_map<Code> pass(image_view<const Code> source, E&& ex = {}) const {
         const distribution codes = distribution_of(source, ex);
         const std::vector<float> ranked =
             codes.values.empty() ? std::vector<float>{} : detail::values_at_ranks(codes, *reference_);
@@ -3965,7 +4073,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void check_variance(const char* name, const parameter& variance) {
     variance.check(
@@ -4081,7 +4189,7 @@ class salt_law {
     parameter density_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Adds normal noise: J = I + N(mean, variance). MATLAB, Octave: imnoise(I, "gaussian", mean, variance); scikit-image:
 /// random_noise(I, "gaussian").
@@ -4096,7 +4204,7 @@ struct gaussian {
 
     /// @throws invalid_input for a mean that is not finite, a variance that is negative or not finite, or a correlation
     ///         length outside 0 to 16; on application, for a map of another size than the image
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::require(numeric::is_finite(mean), "gaussian.mean", mean, "finite");
         detail::check_variance("gaussian.variance", variance);
         detail::require_correlation("gaussian.correlation", correlation);
@@ -4116,7 +4224,7 @@ struct speckle {
 
     /// @throws invalid_input for a variance that is negative or not finite; on application, for a map of another size
     ///         than the image
-    auto pass() const {
+    INSONIFY_MEMBER auto pass() const {
         detail::check_variance("speckle.variance", variance);
         return detail::noise_pass(detail::scaled_law<detail::symmetric_draws, detail::multiplied_draw>(
             {}, {seed, detail::noise_stream::speckle, frame}, {"speckle.variance", variance, 3}));
@@ -4134,7 +4242,7 @@ struct gaussian_speckle {
     using is_filter = std::true_type;
 
     /// @throws invalid_input as `gaussian`
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::check_variance("gaussian_speckle.variance", variance);
         detail::require_correlation("gaussian_speckle.correlation", correlation);
         return detail::noise_pass(detail::scaled_law<detail::normal_draws, detail::multiplied_draw>(
@@ -4153,7 +4261,7 @@ struct salt_and_pepper {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a density outside 0 to 1; on application, for a map of another size than the image
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         density.check(
             "salt_and_pepper.density", [](float d) { return d >= 0 && d <= 1; }, "0 to 1");
         return detail::noise_pass(detail::salt_law({seed, detail::noise_stream::salt_and_pepper, frame}, density));
@@ -4178,7 +4286,7 @@ struct pixel_origin {
     int x = 0, y = 0;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Neighbours in a row, at most run_length of them; `to` may be `from`.
 template <class Pass, class From, class To>
@@ -4222,7 +4330,7 @@ void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& 
                 });
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -4238,7 +4346,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A pass, and behind it the levels of its floats, counted.
 template <class Pass>
@@ -4282,7 +4390,7 @@ std::optional<histogram> sweep_levels(image_view<const From> from, image_view<st
     return histogram{std::vector<std::uint64_t>(counts.begin(), counts.end())};
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -4306,7 +4414,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class T>
 inline constexpr bool is_image = false;
@@ -4508,7 +4616,9 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Filters in a row, made by `f | g`. Stages are kept by value; the same chain serves any number of images.
 template <class... Stages>
@@ -4533,7 +4643,9 @@ struct filter_chain {
     }
 };
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class F>
 inline constexpr bool is_chain = false;
@@ -4568,7 +4680,9 @@ auto apply_to(Source&& source, const F& f, E& ex, pixel_origin origin, Sink sink
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The filtered image, its rows shared out by the executor; the same bytes for any executor. An image that is moved in
 /// lends its memory to the result where the pixel type stays.
@@ -4635,6 +4749,8 @@ auto operator|(F&& f, G&& g) {
         std::tuple_cat(detail::as_stages(std::forward<F>(f)), detail::as_stages(std::forward<G>(g))));
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -4652,7 +4768,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// For each whole mean below 256 the laws of 256 counts in a row, eight standard deviations and more to either side.
 ///
@@ -4832,7 +4948,7 @@ struct poisson_table_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -4849,7 +4965,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// ln k! - k ln m + m for whole k >= 10 and m > 0, less half of ln(k + 1): what is left of a Poisson probability,
 /// without the large terms that cancel. Stirling's series to below 1e-11.
@@ -4945,7 +5061,7 @@ inline auto exact_poisson(float photons, std::uint64_t seed, std::uint32_t frame
     return noise_pass(poisson_law(photons, seed, frame, rejected_large_counts{{seed, noise_stream::poisson, frame}}));
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Poisson counts: J = k / photons, k drawn with the mean I photons. The default is what MATLAB's
 /// imnoise(I, "poisson") does to uint8 images; its rule for doubles, photons = 1e12, is no noise at all to the eye.
@@ -4957,7 +5073,7 @@ struct poisson {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for photons outside (0, 1e9]
-    auto pass() const {
+    INSONIFY_MEMBER auto pass() const {
         detail::require(photons > 0 && photons <= 1e9f, "poisson.photons", photons, "above 0 and at most 1e9");
         return detail::exact_poisson(photons, seed, frame);
     }
@@ -4971,7 +5087,7 @@ struct matlab_poisson {
 
     using is_filter = std::true_type;
 
-    auto pass() const { return detail::exact_poisson(0, seed, frame); }
+    INSONIFY_MEMBER auto pass() const { return detail::exact_poisson(0, seed, frame); }
 };
 
 }  // namespace INSONIFY_ABI
@@ -4992,7 +5108,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The count that a normal draw z means, for means of 256 and above.
 template <int N>
@@ -5047,7 +5163,7 @@ struct quick_large_counts {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Poisson counts where a normal draw, bent as the distribution is, will do. Means below 256 are drawn exactly, to
 /// `poisson`'s very counts; from there on, no set of counts is more probable or less than it should be by more than
@@ -5060,7 +5176,7 @@ struct quick_poisson {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for photons outside (0, 1e6]
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::require(photons > 0 && photons <= 1e6f, "quick_poisson.photons", photons, "above 0 and at most 1e6");
         using namespace detail;
         return noise_pass(
@@ -5081,7 +5197,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A pass for the pixels of a mask that are not 0; the others stay.
 template <class Pass>
@@ -5112,7 +5228,9 @@ class masked_pass {
     int x_ = 0, y_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The pixels where the mask isn't 0, in one row: what `histogram_of`, `distribution_of` and the filters that match
 /// take for a reference, if only a part of a picture is one.
@@ -5182,6 +5300,8 @@ filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask,
         chain.stages);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -5207,12 +5327,13 @@ struct mesh_view {
     std::span<const glm::uvec3> triangles;
 
     mesh_view() = default;
-    mesh_view(std::span<const glm::vec3> places, std::span<const glm::vec3> ups, std::span<const glm::uvec3> corners)
+    INSONIFY_MEMBER mesh_view(std::span<const glm::vec3> places, std::span<const glm::vec3> ups,
+                              std::span<const glm::uvec3> corners)
         : positions(places), normals(ups), triangles(corners) {}
-    mesh_view(const mesh& m) : mesh_view(m.positions, m.normals, m.triangles) {}
+    INSONIFY_MEMBER mesh_view(const mesh& m) : mesh_view(m.positions, m.normals, m.triangles) {}
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A mesh with uninitialized storage, for meshes that are rebuilt in every picture.
 struct uninitialized_mesh {
@@ -5222,7 +5343,9 @@ struct uninitialized_mesh {
     operator mesh_view() const { return {positions, normals, triangles}; }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input if an index has no position, or normals are neither absent nor one per position
 inline void validate(const mesh& m) {
@@ -5233,6 +5356,8 @@ inline void validate(const mesh& m) {
         detail::require(largest < m.positions.size(), "mesh.triangles", largest, "an index of a position");
     }
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -5271,7 +5396,7 @@ struct affine {
     glm::dvec3 offset{0};
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A vector without direction (zero, or not finite) stays as it is.
 inline glm::dvec3 unit(const glm::dvec3& n) {
@@ -5279,7 +5404,9 @@ inline glm::dvec3 unit(const glm::dvec3& n) {
     return square > 0 && numeric::is_finite(square) ? n / numeric::square_root(square) : n;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 inline glm::dvec3 transform_point(const affine& map, const glm::dvec3& point) {
     return numeric::product(map.linear, point) + map.offset;
@@ -5344,6 +5471,8 @@ inline mesh transformed(mesh m, const affine& map) {
     return m;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -5372,6 +5501,8 @@ struct camera {
     float aspect = 1;                                           ///< width of the picture / its height
     float z_near = 0.01f;                                       ///< metres; what is nearer is clipped
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// From the world to the camera's frame: x right, y up, z towards the viewer.
 /// @throws invalid_input for a coordinate that is not finite, an eye at the target, or `up` along the line of sight
@@ -5423,6 +5554,8 @@ constexpr glm::vec4 from_gl_clip(const glm::vec4& p) {
     return {p.x, p.y, 0.5f * (p.z + p.w), p.w};
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -5447,6 +5580,8 @@ struct outline_point {
     double normal_height = 0;
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// Fewest segments of a regular polygon, at least 3, whose edges stay within `chord_error` of the circle around it:
 /// n >= pi / acos(1 - e / r).
 /// @param radius, chord_error  in the same unit, finite and positive
@@ -5466,7 +5601,9 @@ inline int segments_for(float radius, float chord_error) {
     return static_cast<int>(numeric::floor_to_int(segments * (1 - 1e-12))) + 1;
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Appends an arc of a circle centred on the axis, `steps` + 1 points from `first` to `last`: turns, counted from the
 /// lowest point (0) over the equator (1/4) to the highest (1/2).
@@ -5504,7 +5641,9 @@ int round_segments_for(float radius, float deviation, const RingsOf& rings_of) {
     return segments;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_ONCE {
 
 /// The outline turned about an axis. Two points in the same place with different normals make a sharp edge.
 ///
@@ -5579,6 +5718,7 @@ INSONIFY_FUNCTION mesh revolve(std::span<const outline_point> outline, int segme
 }
 #endif
 
+}  // namespace INSONIFY_ONCE
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -5599,6 +5739,8 @@ struct cone {
     float top_radius = 0;  ///< metres; above 0 the cone is truncated and has a flat top
     int segments = 64;     ///< around the axis, 3 to 2^20; see `segments_for`
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The rims (and the tip) have vertices of their own for each side's normal.
 /// @throws invalid_input for a radius or height that is not finite and positive, a top radius that is not finite or
@@ -5633,6 +5775,8 @@ inline int segments_for(const cone& shape, float deviation) {
     return segments_for((std::max)(shape.radius, shape.top_radius), deviation);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -5650,6 +5794,8 @@ inline namespace INSONIFY_ABI {
 struct cube {
     glm::vec3 size{1};  ///< edge lengths, metres
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// 24 vertices (each corner three times, once for each face's normal) and 12 triangles.
 /// @throws invalid_input for a size that is not finite and positive
@@ -5678,6 +5824,8 @@ inline mesh to_mesh(const cube& shape) {
     return out;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -5704,6 +5852,8 @@ struct capsule {
     float length = 2;     ///< metres from tip to tip, at least twice the radius
     int segments = 64;    ///< around the axis, 3 to 8192; half as many rings over both ends
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// 4 segments + 2 vertices, of which the rims have two sets, one for each normal.
 /// @throws invalid_input for a radius or length that is not finite and positive, or segments outside 3 to 2^20
@@ -5750,6 +5900,8 @@ inline int segments_for(const capsule& shape, float deviation) {
     return detail::round_segments_for(shape.radius, deviation, [](int segments) { return 2 * ((segments + 3) / 4); });
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -5768,17 +5920,19 @@ struct bounding_box {
     glm::dvec3 lower{std::numeric_limits<double>::infinity()};
     glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
 
-    bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
+    INSONIFY_MEMBER bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
     /// Edge lengths; 0 for an empty box.
-    glm::dvec3 size() const { return empty() ? glm::dvec3(0) : upper - lower; }
+    INSONIFY_MEMBER glm::dvec3 size() const { return empty() ? glm::dvec3(0) : upper - lower; }
     /// @pre the box is not empty
-    glm::dvec3 centre() const { return 0.5 * (lower + upper); }
+    INSONIFY_MEMBER glm::dvec3 centre() const { return 0.5 * (lower + upper); }
     /// One of eight: bit k of `i` takes the upper end of axis k.
-    glm::dvec3 corner(int i) const {
+    INSONIFY_MEMBER glm::dvec3 corner(int i) const {
         return {(i & 1) != 0 ? upper.x : lower.x, (i & 2) != 0 ? upper.y : lower.y, (i & 4) != 0 ? upper.z : lower.z};
     }
     friend bool operator==(const bounding_box&, const bounding_box&) = default;
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The smallest box around both.
 inline bounding_box merge(bounding_box a, const bounding_box& b) {
@@ -5795,7 +5949,9 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
     return finite ? merge(box, {point, point}) : box;
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The least and the largest coordinates of positions, if all of them are finite.
 struct bounds_kernel {
@@ -5839,7 +5995,9 @@ struct bounds_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The smallest box around all finite positions, whether a triangle uses them or not.
 template <executor_argument E = serial_executor>
@@ -5862,6 +6020,8 @@ bounding_box bounds(const mesh_view& m, E&& ex = {}) {
     return box;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -5876,7 +6036,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Whether most triangles share no vertex with the one before, as those of shuffled meshes and of triangle soups don't.
 inline bool is_incoherent(const mesh& m) {
@@ -5944,7 +6104,7 @@ inline void order_along_curve(mesh& m, const bounding_box& box) {
     m = std::move(sorted);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -5958,7 +6118,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The lattice that one of a mesh's triangles is half a cell of.
 class triangle_lattice {
@@ -6084,7 +6244,7 @@ inline bool order_by_lattice(mesh& m) {
     return true;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -6100,6 +6260,8 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
+
+inline namespace INSONIFY_FLAGS {
 
 /// One unit normal per position: the mean of the triangles around it, weighted by their angle there, so that it does
 /// not depend on how a face was cut into triangles. Triangles without area or with non-finite corners do not count; a
@@ -6145,6 +6307,8 @@ inline std::size_t wind_by_normals(mesh& m) {
     return turned;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -6169,7 +6333,7 @@ struct regular_grid {
     bool is_rising = true;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Compares numbers, Period of them a block, with what goes on in equal steps from block to block.
 template <class T, int Period>
@@ -6257,7 +6421,9 @@ struct cell_cut {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// How a mesh lies on a regular grid; nothing if it doesn't. All heights are finite.
 /// @param off  by which share of a step vertices may lie beside the lattice
@@ -6306,6 +6472,8 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
     return grid;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -6320,6 +6488,8 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
+
+inline namespace INSONIFY_FLAGS {
 
 /// What a mesh is as a surface, with vertices in the same place taken as one (sharp edges split them for their
 /// normals).
@@ -6419,6 +6589,8 @@ inline topology inspect(const mesh& m) {
     return out;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -6443,13 +6615,17 @@ enum class surface_kind {
     heightfield,  ///< z over a convex part of the xy plane, all triangles counter-clockwise from above
 };
 
-/// Finds out what a mesh is. Linear in its triangles, but for sorting positions.
+inline namespace INSONIFY_ONCE {
+
+/// Classifies a mesh, in linear time but for sorting positions.
 /// @param m  its indices have positions
 INSONIFY_FUNCTION surface_kind kind_of(const mesh& m);
 
+}  // namespace INSONIFY_ONCE
+
 #if INSONIFY_BODIES
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Net directed edges of a mesh: those that triangles run along more often one way than the other.
 inline std::vector<std::pair<std::uint32_t, std::uint32_t>> unbalanced_edges(const mesh& m) {
@@ -6514,10 +6690,10 @@ inline bool is_convex_loop(const mesh& m, const std::vector<std::pair<std::uint3
     return count == edges.size() && turns == 1;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
-/// Classifies a mesh, in linear time but for sorting positions.
-/// @param m  its indices have positions
+inline namespace INSONIFY_ONCE {
+
 INSONIFY_FUNCTION surface_kind kind_of(const mesh& m) {
     if (m.triangles.empty()) return surface_kind::open;
     bool is_finite = true, is_upward = true;
@@ -6533,6 +6709,8 @@ INSONIFY_FUNCTION surface_kind kind_of(const mesh& m) {
     if (edges.empty()) return surface_kind::closed;
     return is_upward && detail::is_convex_loop(m, edges) ? surface_kind::heightfield : surface_kind::open;
 }
+
+}  // namespace INSONIFY_ONCE
 
 #endif
 
@@ -6550,6 +6728,49 @@ INSONIFY_ARITHMETIC_END
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+namespace detail {
+
+/// What copies of a shared mesh refer to.
+struct mesh_facts {
+    mesh shape;
+    bounding_box box;
+    surface_kind kind = surface_kind::open;
+    std::optional<regular_grid> grid;
+
+    static constexpr double grid_error = 0x1p-12;
+};
+
+}  // namespace detail
+
+namespace detail::inline INSONIFY_ONCE {
+
+/// @throws invalid_input for indices or normals that don't match the positions
+INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
+    const auto made = std::make_shared<mesh_facts>();
+    mesh_facts& facts = *made;
+    facts.shape = std::move(m);
+    validate(facts.shape);
+    facts.box = bounds(facts.shape);
+    facts.grid = regular_grid_of(facts.shape, serial_executor{}, mesh_facts::grid_error);
+    if (!facts.grid && order_by_lattice(facts.shape))
+        facts.grid = regular_grid_of(facts.shape, serial_executor{}, mesh_facts::grid_error);
+    else if (!facts.grid && is_incoherent(facts.shape))
+        order_along_curve(facts.shape, facts.box);
+    if (facts.shape.normals.empty())
+        facts.shape.normals = smooth_normals(facts.shape);
+    else
+        wind_by_normals(facts.shape);
+    facts.kind = kind_of(facts.shape);
+    if (facts.kind != surface_kind::heightfield) facts.grid.reset();
+    return made;
+}
+#endif
+
+}  // namespace detail::inline INSONIFY_ONCE
+
 /// An immutable mesh: copies refer to the same triangles. A mesh whose triangles follow one another without order, as
 /// those of a shuffled one, is renumbered, triangles and vertices, and so is a regular grid that comes in another order
 /// than its rows'; otherwise a mesh keeps its numbers. Triangles that are
@@ -6559,55 +6780,24 @@ inline namespace INSONIFY_ABI {
 class shared_mesh {
   public:
     /// No triangles.
-    shared_mesh() : state_(empty()) {}
+    shared_mesh() : facts_(std::make_shared<const detail::mesh_facts>()) {}
     /// @throws invalid_input for indices or normals that don't match the positions
-    shared_mesh(mesh m) : state_(made_of(std::move(m))) {}
+    INSONIFY_MEMBER shared_mesh(mesh m) : facts_(detail::facts_of(std::move(m))) {}
 
-    const mesh& operator*() const { return state_->shape; }
-    const mesh* operator->() const { return &state_->shape; }
-    operator mesh_view() const { return state_->shape; }
+    const mesh& operator*() const { return facts_->shape; }
+    const mesh* operator->() const { return &facts_->shape; }
+    operator mesh_view() const { return facts_->shape; }
 
     /// Around all finite positions, in the mesh's own frame.
-    const bounding_box& box() const { return state_->box; }
-    surface_kind kind() const { return state_->kind; }
+    const bounding_box& box() const { return facts_->box; }
+    surface_kind kind() const { return facts_->kind; }
     /// The grid of a heightfield whose vertices lie on one, within `grid_error` steps; null otherwise.
-    const regular_grid* grid() const { return state_->grid ? &*state_->grid : nullptr; }
-    static constexpr double grid_error = 0x1p-12;
+    const regular_grid* grid() const { return facts_->grid ? &*facts_->grid : nullptr; }
+    static constexpr double grid_error = detail::mesh_facts::grid_error;
 
   private:
-    struct state {
-        mesh shape;
-        bounding_box box;
-        surface_kind kind = surface_kind::open;
-        std::optional<regular_grid> grid;
-    };
-    static std::shared_ptr<const state> made_of(mesh m);
-    static std::shared_ptr<const state> empty() { return std::make_shared<const state>(); }
-
-    std::shared_ptr<const state> state_;
+    std::shared_ptr<const detail::mesh_facts> facts_;
 };
-
-#if INSONIFY_BODIES
-INSONIFY_FUNCTION std::shared_ptr<const shared_mesh::state> shared_mesh::made_of(mesh m) {
-    const auto made = std::make_shared<state>();
-    state& s = *made;
-    s.shape = std::move(m);
-    validate(s.shape);
-    s.box = bounds(s.shape);
-    s.grid = regular_grid_of(s.shape, serial_executor{}, grid_error);
-    if (!s.grid && detail::order_by_lattice(s.shape))
-        s.grid = regular_grid_of(s.shape, serial_executor{}, grid_error);
-    else if (!s.grid && detail::is_incoherent(s.shape))
-        detail::order_along_curve(s.shape, s.box);
-    if (s.shape.normals.empty())
-        s.shape.normals = smooth_normals(s.shape);
-    else
-        wind_by_normals(s.shape);
-    s.kind = kind_of(s.shape);
-    if (s.kind != surface_kind::heightfield) s.grid.reset();
-    return made;
-}
-#endif
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -6635,7 +6825,7 @@ struct hemisphere {
     int segments = 64;  ///< around z, 3 to 8192; a quarter as many rings
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Turns an outline about z and stretches the result; the normals follow.
 inline mesh stretched_round(const std::vector<outline_point>& outline, const char* name, const glm::vec3& aspect,
@@ -6650,7 +6840,9 @@ inline mesh stretched_round(const std::vector<outline_point>& outline, const cha
     return transformed(std::move(out), stretch);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Closed by index: every vertex is shared, and the poles are one vertex each.
 /// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
@@ -6688,6 +6880,8 @@ inline int segments_for(const hemisphere& shape, float deviation) {
                                       [](int segments) { return 2 * ((segments + 3) / 4); });
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -6712,7 +6906,7 @@ extern "C" __declspec(dllimport) int __stdcall MoveFileExA(const char* from, con
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 [[noreturn]] inline void raise_io(std::string_view path, std::string_view reason) {
     raise(io_error(std::string(path) + ": " + std::string(reason)));
@@ -6782,7 +6976,9 @@ inline bool rename_over(const std::string& from, const std::string& to) {
 #endif
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The bytes of a file.
 /// @throws io_error if it can't be opened or read
@@ -6861,6 +7057,8 @@ inline void write_file(const std::string& path, std::string_view bytes) {
     file.commit();
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -6881,7 +7079,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class Pixel>
 struct netpbm_pixel {
@@ -6897,13 +7095,13 @@ struct netpbm_pixel<rgb<Sample>> {
 template <class T>
 concept netpbm_sample = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> || std::same_as<T, float>;
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Pixels that have a netpbm file format.
 template <class T>
 concept storable_pixel = detail::netpbm_sample<typename detail::netpbm_pixel<T>::sample>;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Reads a header, then samples, from untrusted bytes.
 class netpbm_reader {
@@ -7045,7 +7243,9 @@ void append_sample(std::string& bytes, const rgb<Sample>& pixel) {
     append_sample(bytes, pixel.b);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The image in the bytes of a netpbm file; the table at the top says which formats a pixel type takes. Bytes behind
 /// the image are ignored, as is the size of a PFM's scale.
@@ -7132,6 +7332,8 @@ void write_netpbm(const std::string& path, const image<Pixel>& source) {
     write_netpbm(path, source.view());
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -7156,7 +7358,7 @@ struct draw_stats {
     std::uint64_t clipped = 0;     ///< of all these, how many were cut by a clipping plane
     std::uint64_t pixels = 0;      ///< shaded; 0 for depth alone
 
-    draw_stats& operator+=(const draw_stats& other) {
+    INSONIFY_TAGGED draw_stats& operator+=(const draw_stats& other) {
         triangles += other.triangles;
         drawn += other.drawn;
         culled += other.culled;
@@ -7220,6 +7422,8 @@ enum class type : std::uint8_t {
 inline constexpr std::size_t type_count = 16;    ///< of the library: labels below it
 inline constexpr std::size_t label_count = 256;  ///< of all; the last means no seabed in images of labels
 
+inline namespace INSONIFY_FLAGS {
+
 /// A label that the library does not use.
 /// @param number  0 to 238
 /// @throws invalid_input for a number out of its range
@@ -7234,6 +7438,8 @@ constexpr std::size_t index_of(type t) {
     return static_cast<std::size_t>(t);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// The properties of a label.
 struct type_properties {
     type label = type::sand;
@@ -7243,6 +7449,8 @@ struct type_properties {
     friend bool operator==(const type_properties&, const type_properties&) = default;
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// A label, or the properties of one, as a seabed's `kind`.
 constexpr type label_of(type t) {
     return t;
@@ -7250,6 +7458,8 @@ constexpr type label_of(type t) {
 constexpr type label_of(const type_properties& p) {
     return p.label;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -7299,9 +7509,9 @@ struct sediment_facts {
     sediment_form form{};
 
     /// Root mean square height of what is shorter than a metre, metres: 2 pi w2 K^-1.25 / 1.25 at K = 2 pi / 100 cm.
-    float rms() const { return 0.12641f * numeric::square_root(strength); }
+    INSONIFY_MEMBER float rms() const { return 0.12641f * numeric::square_root(strength); }
     /// The backscattering strength at normal incidence by Lambert's law, as a factor.
-    constexpr float strength_at_nadir() const {
+    INSONIFY_MEMBER constexpr float strength_at_nadir() const {
         return static_cast<float>(numeric::pow(10, static_cast<double>(level) / 10));
     }
 };
@@ -7335,7 +7545,7 @@ inline constexpr sediment_facts sediments[] = {
 };
 inline constexpr std::size_t sediment_count = std::size(sediments);
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 constexpr std::array<type_properties, type_count> registered_types() {
     std::array<type_properties, type_count> rows{};
@@ -7349,7 +7559,7 @@ constexpr std::array<type_properties, type_count> registered_types() {
     return rows;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Every label of the library.
 inline constexpr std::array<type_properties, type_count> built_in_types = detail::registered_types();
@@ -7362,11 +7572,15 @@ static_assert(
     }(),
     "the label of a row is its index");
 
+inline namespace INSONIFY_FLAGS {
+
 /// The properties of a label of the library; of any other label those of sand, without a name.
 constexpr type_properties properties_of(type t) {
     if (index_of(t) < type_count) return built_in_types[index_of(t)];
     return {t, "", built_in_types[0].reflectivity, built_in_types[0].speckle};
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -7407,12 +7621,14 @@ struct scanline {
     /// `carried`). 0: nothing does.
     double grid_spacing = 0;
 
-    double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
-    scanline from(std::size_t i) const { return {y, origin, spacing, number(i), grid_spacing}; }
+    INSONIFY_MEMBER double x(std::size_t i) const { return origin + spacing * static_cast<double>(number(i)); }
+    INSONIFY_MEMBER scanline from(std::size_t i) const { return {y, origin, spacing, number(i), grid_spacing}; }
 
   private:
-    std::int64_t number(std::size_t i) const { return first + static_cast<std::int64_t>(i); }
+    INSONIFY_MEMBER std::int64_t number(std::size_t i) const { return first + static_cast<std::int64_t>(i); }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The share in [0, 1] of a wave's amplitude that a grid keeps: nothing of two samples a wave or fewer, which would
 /// show up as another wave, and all from four on. Both in the same unit; a spacing of 0 keeps everything.
@@ -7424,21 +7640,28 @@ constexpr float carried(double wavelength, double spacing) {
     return wavelength <= 2 * spacing ? 0.0f : static_cast<float>(2 - 4 * spacing / wavelength);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// Heights that a seabed never leaves, metres above the datum; nothing at all where lowest > highest. Rounding has to
 /// be included: the parts of the bottom that may cast a shadow into a picture are found by it.
 struct height_range {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -std::numeric_limits<double>::infinity();
 
-    bool empty() const { return !(lowest <= highest); }
+    INSONIFY_MEMBER bool empty() const { return !(lowest <= highest); }
     /// Any height at all: the range of models that do not state theirs. Overhead pictures refuse it.
-    static constexpr height_range unlimited() {
+    INSONIFY_MEMBER static constexpr height_range unlimited() {
         return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     }
 };
+
+inline namespace INSONIFY_FLAGS {
+
 inline height_range merge(const height_range& a, const height_range& b) {
     return {(std::min)(a.lowest, b.lowest), (std::max)(a.highest, b.highest)};
 }
+
+}  // namespace INSONIFY_FLAGS
 
 /// Writes the heights of a row, in metres above the datum z = 0; NaN where there is no bottom. Heights depend on the
 /// model and the position alone; positions are good to 1e9 m from the origin.
@@ -7465,7 +7688,7 @@ concept single_typed = requires(const M& m) {
     { seabed::label_of(m.kind) } -> std::same_as<type>;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::refuse;
 using insonify::detail::require;
@@ -7522,7 +7745,7 @@ height_range range_of(const S& s) {
     return height_range::unlimited();
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// A seabed: see the top of this file.
 template <class M>
@@ -7531,6 +7754,8 @@ concept model = requires(const M& m) {
 }
 &&(typed_sampler<decltype(detail::sampler_of(std::declval<const M&>()))> ||
    (single_typed<M> && sampler<decltype(detail::sampler_of(std::declval<const M&>()))>));
+
+inline namespace INSONIFY_FLAGS {
 
 /// What the library evaluates: a typed sampler. It may refer to the model, which has to outlive it.
 /// @throws invalid_input for parameters out of their range
@@ -7587,11 +7812,16 @@ float sink_depth_of(const M& m) {
     }
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// Height and label at one point.
 struct ground {
     float height;
     type kind;
 };
+
+inline namespace INSONIFY_FLAGS {
+
 template <typed_sampler S>
 ground at(const S& prepared, double x, double y) {
     ground result{};
@@ -7606,6 +7836,8 @@ float height_at(const S& prepared, double x, double y) {
     prepared.row({.y = y, .origin = x}, {&height, 1});
     return height;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -7632,8 +7864,8 @@ struct none {
         }
         height_range range() const { return {}; }
     };
-    sampler prepare() const { return {}; }
-    float operator()(double, double) const { return std::numeric_limits<float>::quiet_NaN(); }
+    INSONIFY_MEMBER sampler prepare() const { return {}; }
+    INSONIFY_MEMBER float operator()(double, double) const { return std::numeric_limits<float>::quiet_NaN(); }
 };
 
 }  // namespace seabed
@@ -7654,102 +7886,128 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+namespace detail {
+
+struct sampler_interface {
+    virtual ~sampler_interface() = default;
+    virtual void row(const scanline& line, std::span<float> heights, std::span<type> types) const = 0;
+    virtual height_range range() const = 0;
+};
+
+}  // namespace detail
+
 /// A prepared seabed of any model; shares ownership of the model.
 class any_sampler {
   public:
-    /// @throws invalid_input for parameters of the model out of their range
-    template <model M>
-    explicit any_sampler(std::shared_ptr<const M> owner)
-        : held_(std::make_shared<const prepared<M>>(seabed::prepare(*owner), owner)) {}
     any_sampler() = default;
+    INSONIFY_MEMBER explicit any_sampler(std::shared_ptr<const detail::sampler_interface> held)
+        : held_(std::move(held)) {}
 
-    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+    INSONIFY_TAGGED void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
         if (held_ != nullptr) return held_->row(line, heights, types);
         std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
         std::fill(types.begin(), types.end(), type::sand);
     }
-    height_range range() const { return held_ != nullptr ? held_->range() : height_range{}; }
+    INSONIFY_MEMBER height_range range() const { return held_ != nullptr ? held_->range() : height_range{}; }
 
   private:
-    struct interface_type {
-        virtual ~interface_type() = default;
-        virtual void row(const scanline& line, std::span<float> heights, std::span<type> types) const = 0;
-        virtual height_range range() const = 0;
-    };
-    template <class M>
-    struct prepared final : interface_type {
-        using sampler_type = decltype(seabed::prepare(std::declval<const M&>()));
-        sampler_type sampler;
-        std::shared_ptr<const M> owner;
-
-        prepared(sampler_type s, std::shared_ptr<const M> m) : sampler(std::move(s)), owner(std::move(m)) {}
-        void row(const scanline& line, std::span<float> heights, std::span<type> types) const override {
-            sampler.row(line, heights, types);
-        }
-        height_range range() const override { return detail::range_of(sampler); }
-    };
-
-    std::shared_ptr<const interface_type> held_;
+    std::shared_ptr<const detail::sampler_interface> held_;
 };
+
+namespace detail {
+
+/// One address per type.
+template <class M>
+inline constexpr char tag_of = 0;
+
+struct model_interface {
+    virtual ~model_interface() = default;
+    virtual const void* get(const void* tag) const = 0;  ///< the model if the tag is its type's, else null
+    virtual any_sampler prepare(const std::shared_ptr<const model_interface>& self) const = 0;
+    virtual std::optional<type> only_type() const = 0;
+    virtual std::vector<type_properties> legend() const = 0;
+    virtual float sink_depth() const = 0;
+};
+
+}  // namespace detail
+
+namespace detail::inline INSONIFY_FLAGS {
+
+template <class M>
+struct held_sampler final : sampler_interface {
+    using sampler_type = decltype(seabed::prepare(std::declval<const M&>()));
+    sampler_type sampler;
+    std::shared_ptr<const void> owner;
+
+    held_sampler(sampler_type s, std::shared_ptr<const void> o) : sampler(std::move(s)), owner(std::move(o)) {}
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const override {
+        sampler.row(line, heights, types);
+    }
+    height_range range() const override { return range_of(sampler); }
+};
+
+template <class M>
+struct held_model final : model_interface {
+    M value;
+
+    explicit held_model(M m) : value(std::move(m)) {}
+    const void* get(const void* tag) const override { return tag == &tag_of<M> ? &value : nullptr; }
+    any_sampler prepare(const std::shared_ptr<const model_interface>& self) const override {
+        return any_sampler(std::make_shared<const held_sampler<M>>(seabed::prepare(value), self));
+    }
+    std::optional<type> only_type() const override { return seabed::only_type(value); }
+    std::vector<type_properties> legend() const override { return legend_of(value); }
+    float sink_depth() const override { return sink_depth_of(value); }
+};
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
+
+/// A model for `any` to share. In the compiled form the built-in models have overloads, compiled once.
+template <model M>
+std::shared_ptr<const detail::model_interface> hold(M m) {
+    return std::make_shared<const detail::held_model<M>>(std::move(m));
+}
+
+}  // namespace INSONIFY_FLAGS
 
 /// A seabed of any model, or none: `any bottom = ripples{.wavelength = 0.6f};`. It is a model itself.
 class any {
   public:
     /// No seabed: for scenes that bring theirs as a mesh.
     any() = default;
-    any(none) {}
+    INSONIFY_MEMBER any(none) {}
     /// @param m  copied once; copies of `any` share it
     template <model M>
         requires(!std::same_as<M, any> && !std::same_as<M, none>)
-    any(M m) : held_(std::make_shared<const holder<M>>(std::move(m))) {}
+    INSONIFY_MEMBER any(M m) : held_(hold(std::move(m))) {}
 
     /// Whether there is no seabed.
-    bool empty() const { return held_ == nullptr; }
+    INSONIFY_MEMBER bool empty() const { return held_ == nullptr; }
     /// The model, or null if it is of another type.
     template <class M>
-    const M* get_if() const {
-        return held_ != nullptr && held_->tag() == &tag_of<M> ? &static_cast<const holder<M>&>(*held_).value : nullptr;
+    INSONIFY_MEMBER const M* get_if() const {
+        return held_ != nullptr ? static_cast<const M*>(held_->get(&detail::tag_of<M>)) : nullptr;
     }
 
     /// The sampler shares the model, so that it may outlive this object.
     /// @throws invalid_input for parameters of the model out of their range
-    any_sampler prepare() const { return held_ != nullptr ? held_->prepare(held_) : any_sampler(); }
+    INSONIFY_MEMBER any_sampler prepare() const { return held_ != nullptr ? held_->prepare(held_) : any_sampler(); }
     /// See the functions of the same names in model.hpp.
-    std::optional<type> only_type() const { return held_ != nullptr ? held_->only_type() : std::nullopt; }
-    std::vector<type_properties> legend() const {
+    INSONIFY_MEMBER std::optional<type> only_type() const {
+        return held_ != nullptr ? held_->only_type() : std::nullopt;
+    }
+    INSONIFY_MEMBER std::vector<type_properties> legend() const {
         return held_ != nullptr ? held_->legend() : std::vector<type_properties>{};
     }
-    float sink_depth() const { return held_ != nullptr ? held_->sink_depth() : 0; }
+    INSONIFY_MEMBER float sink_depth() const { return held_ != nullptr ? held_->sink_depth() : 0; }
 
-    float operator()(double x, double y) const { return at(prepare(), x, y).height; }
-    type type_at(double x, double y) const { return at(prepare(), x, y).kind; }
+    INSONIFY_MEMBER float operator()(double x, double y) const { return at(prepare(), x, y).height; }
+    INSONIFY_MEMBER type type_at(double x, double y) const { return at(prepare(), x, y).kind; }
 
   private:
-    struct interface_type {
-        virtual ~interface_type() = default;
-        virtual const void* tag() const = 0;
-        virtual any_sampler prepare(const std::shared_ptr<const interface_type>& self) const = 0;
-        virtual std::optional<type> only_type() const = 0;
-        virtual std::vector<type_properties> legend() const = 0;
-        virtual float sink_depth() const = 0;
-    };
-    template <class M>
-    inline static constexpr char tag_of = 0;
-    template <class M>
-    struct holder final : interface_type {
-        M value;
-
-        explicit holder(M m) : value(std::move(m)) {}
-        const void* tag() const override { return &tag_of<M>; }
-        any_sampler prepare(const std::shared_ptr<const interface_type>& self) const override {
-            return any_sampler(std::shared_ptr<const M>(self, &value));
-        }
-        std::optional<type> only_type() const override { return seabed::only_type(value); }
-        std::vector<type_properties> legend() const override { return legend_of(value); }
-        float sink_depth() const override { return sink_depth_of(value); }
-    };
-
-    std::shared_ptr<const interface_type> held_;
+    std::shared_ptr<const detail::model_interface> held_;
 };
 
 }  // namespace seabed
@@ -7772,7 +8030,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace seabed::detail {
+namespace seabed::detail::inline INSONIFY_FLAGS {
 
 using insonify::detail::dispatch;
 using insonify::detail::lanes;
@@ -8017,7 +8275,7 @@ INSONIFY_INLINE void clamp_lanes(Lanes& t) {
     t = t < 1.0f ? t : one;
 }
 
-}  // namespace seabed::detail
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -8035,7 +8293,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace seabed {
+namespace seabed::inline INSONIFY_FLAGS {
 
 /// Gradient noise: mean 0, variance 1, twice differentiable, waves of about one to three cells.
 class gradient_noise {
@@ -8247,14 +8505,11 @@ class power_law_noise {
     double slope_ = 0;
 };
 
-#if INSONIFY_BODIES
-INSONIFY_FUNCTION void power_law_noise::add(const detail::stretch& part, detail::stretch_values& values,
-                                            isa level) const {
+inline void power_law_noise::add(const detail::stretch& part, detail::stretch_values& values, isa level) const {
     if (!octaves_.empty()) detail::dispatch(kernel{*this, part, values.data()}, level);
 }
-#endif
 
-}  // namespace seabed
+}  // namespace seabed::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -8269,7 +8524,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class flat_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// Level sand with power-law roughness; `{.surface = {.rms = 0}}` is a plane.
 struct flat {
@@ -8278,10 +8537,12 @@ struct flat {
     type kind = type::sand;
 
     /// @throws invalid_input for parameters out of the ranges of `roughness`
-    flat_sampler prepare() const;
-    float operator()(double x, double y) const;
-    float sink_depth() const { return 2 * surface.rms; }
+    INSONIFY_TAGGED flat_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_MEMBER float sink_depth() const { return 2 * surface.rms; }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `flat`.
 class flat_sampler {
@@ -8299,6 +8560,8 @@ class flat_sampler {
   private:
     power_law_noise surface_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 inline flat_sampler flat::prepare() const {
     return flat_sampler(*this);
@@ -8322,7 +8585,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A coordinate in cells, held inside a grid: which of its cells, and how far across, in [0, 1]. NaN counts as 0.
 struct grid_coordinate {
@@ -8354,9 +8617,13 @@ inline facet facet_at(image_view<const float> heights, double u, double v) {
     return {numeric::is_finite(height) ? height : (std::numeric_limits<double>::quiet_NaN)(), rise_x, rise_y};
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 class heightfield_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// Heights at the vertices of a square grid; vertex (i, j) stands at origin + spacing * (i, j), so that y, along track,
 /// grows with the row: the array looked at as a picture has forward at the bottom (`from_image` turns it).
@@ -8374,34 +8641,38 @@ struct heightfield {
     std::vector<type_properties> own_types{};
 
     /// Height of the drawn surface at a world position, metres; it and the next two expect a valid heightfield.
-    float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
+    INSONIFY_MEMBER float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
 
     /// Unit normal of the triangle at a world position; outside, that of the nearest one. NaN where there is no data.
-    glm::vec3 normal_at(double x, double y) const {
+    INSONIFY_TAGGED glm::vec3 normal_at(double x, double y) const {
         const detail::facet f = facet_at(x, y);
         const glm::dvec3 normal(-f.rise_x, -f.rise_y, spacing);
         return glm::vec3(normal / numeric::square_root(numeric::dot(normal, normal)));
     }
 
     /// Type at the nearest vertex.
-    type type_at(double x, double y) const {
+    INSONIFY_MEMBER type type_at(double x, double y) const {
         if (types.empty()) return fallback;
         return types(detail::grid_coordinate((x - origin.x) / spacing + 0.5, types.width()).cell,
                      detail::grid_coordinate((y - origin.y) / spacing + 0.5, types.height()).cell);
     }
 
-    float operator()(double x, double y) const { return height_at(x, y); }
+    INSONIFY_MEMBER float operator()(double x, double y) const { return height_at(x, y); }
 
     /// The sampler refers to the heightfield, which has to outlive it.
     /// @throws invalid_input as `validate`
-    heightfield_sampler prepare() const;
-    std::optional<type> only_type() const { return types.empty() ? std::optional(fallback) : std::nullopt; }
-    std::vector<type_properties> legend() const;
+    INSONIFY_TAGGED heightfield_sampler prepare() const;
+    INSONIFY_MEMBER std::optional<type> only_type() const {
+        return types.empty() ? std::optional(fallback) : std::nullopt;
+    }
+    INSONIFY_TAGGED std::vector<type_properties> legend() const;
 
-    detail::facet facet_at(double x, double y) const {
+    INSONIFY_MEMBER detail::facet facet_at(double x, double y) const {
         return detail::facet_at(heights, (x - origin.x) / spacing, (y - origin.y) / spacing);
     }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for fewer than 2 x 2 vertices, types of another size, an origin beyond 1e9 m or a spacing not
 /// above 0
@@ -8441,6 +8712,8 @@ class heightfield_sampler {
     const heightfield* field_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 inline heightfield_sampler heightfield::prepare() const {
     return heightfield_sampler(*this);
 }
@@ -8453,6 +8726,8 @@ inline std::vector<type_properties> heightfield::legend() const {
         if (occurs[i]) extend(all, {properties_of(static_cast<type>(i))});
     return all;
 }
+
+inline namespace INSONIFY_FLAGS {
 
 /// A heightfield from a picture of heights: one vertex per pixel, height = scale * pixel, the top row foremost (the
 /// largest y), vertex (0, 0) at the world's origin.
@@ -8476,6 +8751,8 @@ inline heightfield from_image(image_view<const float> picture, double spacing, f
     return result;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -8489,7 +8766,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace seabed::detail {
+namespace seabed::detail::inline INSONIFY_FLAGS {
 
 /// Calls `visit(first, count)` for runs of columns of a lattice, which together hold each column from which something
 /// reaches a sample of the stretch once, in rising order.
@@ -8583,7 +8860,7 @@ class round_marks {
     float filled_ = 0, high_ = 0, mound_ = 0, pock_ = 0;
 };
 
-}  // namespace seabed::detail
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -8621,11 +8898,11 @@ struct ripple_system {
     float bandwidth = 0.09f;  ///< in [0, 0.25]: relative standard deviation of the wave number
     float sharpness = 0.25f;  ///< in [0, 0.9]: 0 is sinusoidal, more is narrower crests and wider troughs: trochoidal
 
-    float height() const { return steepness * wavelength; }
+    INSONIFY_MEMBER float height() const { return steepness * wavelength; }
     friend bool operator==(const ripple_system&, const ripple_system&) = default;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Cosine and sine of 2 pi x for |x| <= 1/2, absolute error < 2e-6, without a branch.
 template <class Lanes>
@@ -8887,14 +9164,12 @@ class ripple_train {
     float half_height_, sharpness_;
 };
 
-#if INSONIFY_BODIES
-INSONIFY_FUNCTION void ripple_train::add(const stretch& part, stretch_values& values, isa level) const {
+inline void ripple_train::add(const stretch& part, stretch_values& values, isa level) const {
     if (half_height_ > 0 && carried(wavelength_, part.grid_spacing) > 0)
         dispatch(kernel{*this, part, values.data()}, level);
 }
-#endif
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -8924,7 +9199,7 @@ struct trawl_marks {
     friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Evaluates `trawl_marks`.
 class trawl_furrows {
@@ -9032,7 +9307,7 @@ class trawl_furrows {
     cell_hash hash_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -9048,7 +9323,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class mud_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// Fine sediment: low, smooth relief; scattered mounds and pock marks, each a round bump or dent; furrows, if any.
 struct mud {
@@ -9063,10 +9342,14 @@ struct mud {
     type kind = type::mud;
 
     /// @throws invalid_input for parameters out of their range
-    mud_sampler prepare() const;
-    float operator()(double x, double y) const;
-    float sink_depth() const { return (std::max)((std::max)(mound_height, pock_depth), 2 * surface.rms); }
+    INSONIFY_TAGGED mud_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_MEMBER float sink_depth() const {
+        return (std::max)((std::max)(mound_height, pock_depth), 2 * surface.rms);
+    }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `mud`.
 class mud_sampler {
@@ -9104,6 +9387,8 @@ class mud_sampler {
     detail::trawl_furrows trawls_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 inline mud_sampler mud::prepare() const {
     return mud_sampler(*this);
 }
@@ -9126,7 +9411,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class ripples_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// Rippled sand. The first six parameters are those of `ripple_system`.
 struct ripples {
@@ -9142,19 +9431,23 @@ struct ripples {
     type kind = type::ripples;
 
     /// @throws invalid_input for parameters out of their range
-    ripples_sampler prepare() const;
-    float operator()(double x, double y) const;
+    INSONIFY_TAGGED ripples_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
 
-    ripple_system first() const { return {wavelength, steepness, direction, spread, bandwidth, sharpness}; }
+    INSONIFY_MEMBER ripple_system first() const {
+        return {wavelength, steepness, direction, spread, bandwidth, sharpness};
+    }
     /// Metres from trough to crest, of the first system.
-    float height() const { return steepness * wavelength; }
-    float sink_depth() const { return 0.5f * (height() + second.height()) + 2 * surface.rms; }
+    INSONIFY_MEMBER float height() const { return steepness * wavelength; }
+    INSONIFY_MEMBER float sink_depth() const { return 0.5f * (height() + second.height()) + 2 * surface.rms; }
     /// Ends of crests per square metre to expect, of the first system.
-    double forks() const {
+    INSONIFY_MEMBER double forks() const {
         return 2 * numeric::pi * static_cast<double>(spread) * static_cast<double>(bandwidth) /
                (static_cast<double>(wavelength) * static_cast<double>(wavelength));
     }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `ripples`.
 class ripples_sampler {
@@ -9185,6 +9478,8 @@ class ripples_sampler {
     power_law_noise surface_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 inline ripples_sampler ripples::prepare() const {
     return ripples_sampler(*this);
 }
@@ -9211,7 +9506,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace seabed::detail {
+namespace seabed::detail::inline INSONIFY_FLAGS {
 
 /// One size class of blocks. Continuous; walls no steeper than `steepness`.
 class block_layer {
@@ -9377,7 +9672,7 @@ class block_layer {
     float height_, wall_;
 };
 
-}  // namespace seabed::detail
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -9392,7 +9687,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class rock_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// Outcrops with steep faces, blocks on and around them, and rough surfaces.
 ///
@@ -9411,10 +9710,12 @@ struct rock {
     type kind = type::rock;
 
     /// @throws invalid_input for parameters out of their range
-    rock_sampler prepare() const;
-    float operator()(double x, double y) const;
-    float sink_depth() const { return 0.5f * relief + 2 * surface.rms; }
+    INSONIFY_TAGGED rock_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_MEMBER float sink_depth() const { return 0.5f * relief + 2 * surface.rms; }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `rock`.
 class rock_sampler {
@@ -9522,6 +9823,8 @@ class rock_sampler {
     float relief_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 inline rock_sampler rock::prepare() const {
     return rock_sampler(*this);
 }
@@ -9529,14 +9832,16 @@ inline float rock::operator()(double x, double y) const {
     return height_at(prepare(), x, y);
 }
 
-#if INSONIFY_BODIES
-INSONIFY_FUNCTION void rock_sampler::row(const scanline& line, std::span<float> heights) const {
+inline namespace INSONIFY_FLAGS {
+
+inline void rock_sampler::row(const scanline& line, std::span<float> heights) const {
     detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
         if (relief_ > 0) detail::dispatch(kernel{*this, part, values.data()}, best_isa());
         surface_.add(part, values);
     });
 }
-#endif
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -9562,6 +9867,8 @@ struct grid {
     bool band_limited = false;  ///< relief that the spacing can't carry fades out instead of aliasing
     glm::ivec2 first{0, 0};
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
 /// vertices where they overlap: to the last bit if the spacing is a sum of few powers of two, as 1/64 m is.
@@ -9614,6 +9921,8 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     return result;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -9648,6 +9957,8 @@ enum class sediment : std::uint8_t {
     sandy_mud,
     silty_clay,
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The label of a sediment.
 constexpr type type_of(sediment s) {
@@ -9707,6 +10018,8 @@ inline ripples rippled(sediment s, ripples shape = {}) {
     return shape;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -9737,6 +10050,8 @@ struct directional_light {
 struct point_light {
     glm::dvec3 position{0, 0, 1};  ///< metres
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Frame of a directional light; coordinates are metres.
 class light_frame {
@@ -9770,6 +10085,8 @@ class light_frame {
     glm::dvec3 to_light_;
     double cot_;
 };
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace shadow
 }  // namespace INSONIFY_ABI
@@ -9820,8 +10137,8 @@ struct points {
     std::uint32_t casters = invalid_id;       ///< casters numbered below this matter; others need not be tested
     bool face_light = true;                   ///< their own facets do; else only the caster's name matters
 
-    std::size_t size() const { return x.size(); }
-    glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+    INSONIFY_MEMBER std::size_t size() const { return x.size(); }
+    INSONIFY_MEMBER glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
 /// What becomes of points, as arrays of the same length as theirs.
@@ -9829,7 +10146,7 @@ struct shares {
     std::span<float> lit;             ///< fraction of the light that arrives, 0 to 1
     std::span<std::uint32_t> caster;  ///< lowest number of a caster that blocks the light's centre, or invalid_id
 
-    std::size_t size() const { return lit.size(); }
+    INSONIFY_MEMBER std::size_t size() const { return lit.size(); }
 };
 
 /// Where points will be tested.
@@ -9837,6 +10154,8 @@ struct point_bounds {
     bounding_box box;    ///< around all of them
     double spacing = 0;  ///< metres from one to the next on level ground; 0 if unknown
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Normal of the facet that point i lies on, of any length, in the frame of the light; 0 if it lies on none. Its sign
 /// is that of the triangle's order, whichever side is seen.
@@ -9868,12 +10187,14 @@ concept casting_policy = requires(const P& policy, std::span<const caster> caste
 
 class exact_occlusion;
 
+}  // namespace INSONIFY_FLAGS
+
 /// Hard shadows, exact for every point: the default. See exact.hpp, which makes it a model of casting_policy.
 struct exact {
     /// See casting_policy.
     template <executor E>
-    exact_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
-                          E& ex) const;
+    INSONIFY_TAGGED exact_occlusion build(std::span<const caster> casters, const any_light& light,
+                                          const point_bounds& bounds, E& ex) const;
 };
 
 /// No shadows: nothing is built, tested or compiled.
@@ -9881,6 +10202,8 @@ struct none {};
 
 template <class P>
 concept policy = std::same_as<P, none> || casting_policy<P>;
+
+inline namespace INSONIFY_FLAGS {
 
 /// Radius of the light over its distance: 0, unless a policy has a `light_radius()`.
 template <policy P>
@@ -9890,6 +10213,8 @@ double radius_of(const P& p) {
     else
         return 0;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 /// Occlusion that gains from seeing all points of a picture at once. `structure.screen(points, shares)` answers what
 /// can be told of points one by one and leaves `unknown` where it cannot; `structure.test(batches, shares, executor)`
@@ -9943,9 +10268,9 @@ concept backscatter_law = requires(const L& law, float s) {
 
 /// Optical Lambert, s: what the paper's game engine draws.
 struct lambert {
-    float operator()(float s) const { return s; }
+    INSONIFY_MEMBER float operator()(float s) const { return s; }
     template <class Lanes>
-    INSONIFY_INLINE void in_lanes(Lanes& into, const Lanes& s) const {
+    INSONIFY_MEMBER void in_lanes(Lanes& into, const Lanes& s) const {
         into = s;
     }
 };
@@ -9953,9 +10278,9 @@ struct lambert {
 /// Lambert's law for backscattered intensity, s^2 (K. V. Mackenzie. Bottom Reverberation for 530- and 1030-cps Sound in
 /// Deep Water. JASA 33, 1961, without its level): both the sound that arrives and the sound that returns spread by s.
 struct lambert_backscatter {
-    float operator()(float s) const { return s * s; }
+    INSONIFY_MEMBER float operator()(float s) const { return s * s; }
     template <class Lanes>
-    INSONIFY_INLINE void in_lanes(Lanes& into, const Lanes& s) const {
+    INSONIFY_MEMBER void in_lanes(Lanes& into, const Lanes& s) const {
         into = s * s;
     }
 };
@@ -9968,7 +10293,7 @@ struct facet_backscatter {
     float facets = 4;     ///< echo at normal incidence over that of Lambert's law, >= 0
     float slope = 0.15f;  ///< rms slope of the facets, above 0: smooth mud 0.05, sand 0.1 to 0.2, gravel 0.3
 
-    float operator()(float s) const {
+    INSONIFY_TAGGED float operator()(float s) const {
         const double square = static_cast<double>(s) * static_cast<double>(s);
         if (!(square > 1e-6)) return 0;
         const double tangent_square = 1 / square - 1, spread = static_cast<double>(slope);
@@ -9978,12 +10303,16 @@ struct facet_backscatter {
     }
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value out of its range
 inline void validate(const facet_backscatter& f) {
     using detail::require;
     require(f.facets >= 0 && numeric::is_finite(f.facets), "facet_backscatter.facets", f.facets, "0 or more");
     require(f.slope > 0 && numeric::is_finite(f.slope), "facet_backscatter.slope", f.slope, "above 0");
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -10011,7 +10340,7 @@ struct display {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a `white` that isn't positive, or an exponent outside its range
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::require(white > 0 && numeric::is_finite(white), "display.white", white, "above 0");
         detail::require(exponent > 0 && exponent <= 4, "display.exponent", exponent, "above 0, at most 4");
         return [scale = 1 / white, to = exponent]<std::same_as<float> Pixel>(Pixel intensity, int, int) -> Pixel {
@@ -10034,7 +10363,7 @@ struct decibel_display {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::require(white > 0 && numeric::is_finite(white), "decibel_display.white", white, "above 0");
         detail::require(range > 0 && range <= 400, "decibel_display.range", range, "above 0, at most 400 dB");
         // 10 log10(e) / range for each natural logarithm
@@ -10049,8 +10378,12 @@ struct decibel_display {
     }
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// What automatic_display measures in.
 enum class display_scale { power, amplitude, decibels };
+
+}  // namespace INSONIFY_FLAGS
 
 /// Black and white by the picture's own percentiles, as the "auto" of survey software stretches a picture: the share
 /// `black` of the pixels is black, the share `white` of them white.
@@ -10062,7 +10395,7 @@ struct automatic_display {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    auto pass(image_view<const float> picture) const {
+    INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
         detail::require(
             scale == display_scale::power || scale == display_scale::amplitude || scale == display_scale::decibels,
             "automatic_display.scale", static_cast<int>(scale), "power, amplitude or decibels");
@@ -10091,7 +10424,7 @@ struct automatic_display {
 
   private:
     /// -300 dB stands for no sound at all, 1e30 for an endless one.
-    static double measure(double intensity, display_scale as) {
+    INSONIFY_TAGGED static double measure(double intensity, display_scale as) {
         if (!(intensity > 1e-30)) intensity = as == display_scale::decibels ? 1e-30 : 0.0;
         if (intensity > 1e30) intensity = 1e30;
         if (as == display_scale::power) return intensity;
@@ -10111,7 +10444,7 @@ INSONIFY_ARITHMETIC_END
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class T, executor E>
 image<T> filled(int width, int height, T value, E& ex) {
@@ -10131,7 +10464,7 @@ image<T> filled(int width, int height, T value, E& ex) {
     return result;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -10144,6 +10477,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 using seabed::sediment;
+
+inline namespace INSONIFY_FLAGS {
 
 /// The backscattering strength of a sediment at normal incidence by Lambert's law, as a factor; for those who compute
 /// levels. Use with `lambert_backscatter`.
@@ -10165,6 +10500,8 @@ constexpr bottom_materials default_bottom() {
         bottom[seabed::index_of(t.label)] = {t.reflectivity};
     return bottom;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -10201,19 +10538,22 @@ struct scene {
     /// Several targets of one shape share it: make a `shared_mesh` once and add it as often as needed.
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
-    target& add(Shape&& shape, const pose& placement, std::string class_name, const material& surface = {0.9f}) {
+    INSONIFY_MEMBER target& add(Shape&& shape, const pose& placement, std::string class_name,
+                                const material& surface = {0.9f}) {
         targets.push_back({mesh_of(std::forward<Shape>(shape)), placement, std::move(class_name), surface});
         return targets.back();
     }
 
     template <class Shape>
-    static shared_mesh mesh_of(Shape&& shape) {
+    INSONIFY_MEMBER static shared_mesh mesh_of(Shape&& shape) {
         if constexpr (std::is_convertible_v<Shape&&, shared_mesh>)
             return std::forward<Shape>(shape);
         else
             return to_mesh(shape);
     }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a material whose reflectivity is negative or not finite. Poses, meshes and seabeds are
 ///         checked by what draws them
@@ -10269,6 +10609,8 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
     return placement;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -10314,7 +10656,7 @@ struct labels {
 
     labels() = default;
     template <executor_argument Executor = serial_executor>
-    labels(int width, int height, Executor&& ex = serial_executor{})
+    INSONIFY_MEMBER labels(int width, int height, Executor&& ex = serial_executor{})
         : instance(detail::filled(width, height, no_instance, ex)),
           shadow(detail::filled(width, height, is_lit, ex)),
           seabed(detail::filled(width, height, no_seabed, ex)) {}
@@ -10322,6 +10664,8 @@ struct labels {
 
 /// Asks for no labels: none are stored or computed.
 struct no_labels {};
+
+inline namespace INSONIFY_FLAGS {
 
 /// 255 where a target is visible, 0 elsewhere.
 inline image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance) {
@@ -10336,11 +10680,16 @@ inline image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) 
     return mask;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// The class of every pixel.
 struct class_map {
     std::vector<std::string> names;  ///< each once, in the order in which the targets bring them
     image<std::uint16_t> classes;    ///< 0 for no target, 1 for names[0], ...
 };
+
+inline namespace INSONIFY_FLAGS {
+
 inline class_map classes_of(const labels& l) {
     class_map map;
     std::vector<std::uint16_t> class_of{0};  // by instance
@@ -10352,6 +10701,10 @@ inline class_map classes_of(const labels& l) {
     map.classes = map_pixels(l.instance, [&](std::uint16_t instance) { return class_of[instance]; });
     return map;
 }
+
+}  // namespace INSONIFY_FLAGS
+
+inline namespace INSONIFY_ONCE {
 
 /// Fills in labels::targets from the images.
 INSONIFY_FUNCTION void describe_targets(labels& l, const std::vector<target>& targets);
@@ -10390,6 +10743,7 @@ INSONIFY_FUNCTION void describe_targets(labels& l, const std::vector<target>& ta
 }
 #endif
 
+}  // namespace INSONIFY_ONCE
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -10420,6 +10774,8 @@ struct ping {
     double roll = 0;               ///< radians, positive with starboard down: turns the beams within the fan
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value that can't be right
 inline void validate(const ping& p) {
     detail::require_finite("ping.position.x", p.position.x);
@@ -10430,6 +10786,8 @@ inline void validate(const ping& p) {
                     "at most 80 degrees, in radians");
     detail::require_finite("ping.roll", p.roll);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 /// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
 /// all else stays the same.
@@ -10452,10 +10810,14 @@ struct side_scan_rig {
     insonify::side side = insonify::side::starboard;
 
     /// Metres per bin.
-    double bin() const { return (static_cast<double>(range) - static_cast<double>(first_range)) / bins; }
+    INSONIFY_MEMBER double bin() const {
+        return (static_cast<double>(range) - static_cast<double>(first_range)) / bins;
+    }
 };
 using side_scan = side_scan_rig<across_track::slant_range>;
 using ground_range = side_scan_rig<across_track::ground_range>;
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value that can't be right
 template <across_track Axis>
@@ -10541,6 +10903,8 @@ class ping_frame {
     double sine_pitch_, cosine_pitch_, sine_roll_, cosine_roll_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -10616,6 +10980,8 @@ struct overhead {
     float sky = 0.05f;    ///< light from everywhere, which no shadow stops; 0 for none
     float ambient = 0;    ///< light that reaches every surface alike, whatever its slope; 0 for none
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value that can't be right
 inline void validate(const overhead& rig) {
@@ -10727,6 +11093,8 @@ class overhead_geometry {
     affine rig_from_world_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -10760,14 +11128,14 @@ struct render_options {
 
     /// The same options with another shadow policy, another law, or without labels.
     template <shadow::policy Other>
-    render_options<Other, Labels, Law> with(const Other& other) const {
+    INSONIFY_MEMBER render_options<Other, Labels, Law> with(const Other& other) const {
         return {other, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
     }
     template <backscatter_law Other>
-    render_options<Shadow, Labels, Other> with(const Other& other) const {
+    INSONIFY_MEMBER render_options<Shadow, Labels, Other> with(const Other& other) const {
         return {shadow, other, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
     }
-    render_options<Shadow, no_labels, Law> without_labels() const {
+    INSONIFY_MEMBER render_options<Shadow, no_labels, Law> without_labels() const {
         return {shadow, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
     }
 };
@@ -10780,7 +11148,7 @@ struct visibility {
     image<std::uint32_t> triangle;  ///< of the target's mesh, or of the bottom's; no_triangle where nothing is shown
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class Shadow, class Labels, class Law>
 frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options,
@@ -10789,7 +11157,25 @@ template <class Law>
 visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law>& options,
                executor_ref ex);
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+#if defined(INSONIFY_COMPILED)
+namespace detail::inline INSONIFY_ONCE {
+
+template <class Shadow, class Labels>
+using built_in = const render_options<Shadow, Labels>&;
+
+frame<labels> paint(const scene& s, const overhead& rig, built_in<shadow::exact, labels> options, executor_ref ex);
+frame<labels> paint(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex);
+frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::exact, no_labels> options,
+                       executor_ref ex);
+frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::none, no_labels> options, executor_ref ex);
+visibility see(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex);
+
+}  // namespace detail::inline INSONIFY_ONCE
+#endif
+
+inline namespace INSONIFY_FLAGS {
 
 /// Draws a scene as the paper's rig sees it.
 ///
@@ -10823,6 +11209,8 @@ visibility visible_triangles(const scene& s, const overhead& rig,
     return detail::see(s, rig, seen, executor_ref(ex));
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -10849,16 +11237,16 @@ struct mask_difference {
     std::size_t missed_pixels = 0;    ///< in the truth, not in the result: for shadows, light leaks
     std::size_t boundary_pixels = 0;  ///< of the truth: in the mask, with a 4-neighbour in the image that is not
 
-    std::size_t wrong_pixels() const { return false_pixels + missed_pixels; }
+    INSONIFY_MEMBER std::size_t wrong_pixels() const { return false_pixels + missed_pixels; }
 
     /// Intersection over union (Jaccard index), 1 when both masks are empty.
-    double intersection_over_union() const {
+    INSONIFY_MEMBER double intersection_over_union() const {
         const std::size_t joined = common + wrong_pixels();
         return joined == 0 ? 1.0 : static_cast<double>(common) / static_cast<double>(joined);
     }
     /// How many pixels the border has moved, on average along it: wrong pixels over boundary pixels. Infinite if there
     /// are wrong pixels but no border.
-    double mean_boundary_displacement() const {
+    INSONIFY_TAGGED double mean_boundary_displacement() const {
         if (wrong_pixels() == 0) return 0;
         if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();
         return static_cast<double>(wrong_pixels()) / static_cast<double>(boundary_pixels);
@@ -10873,12 +11261,12 @@ struct pixel_difference {
     double largest = 0;  ///< of the absolute differences
 
     /// Root of the mean square difference.
-    double rmse() const { return numeric::square_root(mean_square); }
+    INSONIFY_MEMBER double rmse() const { return numeric::square_root(mean_square); }
 
     /// Peak signal-to-noise ratio, 10 log10(peak^2 / mean square), in decibels; infinite without a difference.
     /// @param peak  the largest value a pixel can take, finite and positive: 1 for the library's floats, 255 for bytes
     /// @throws invalid_input for another peak
-    double psnr(double peak) const {
+    INSONIFY_TAGGED double psnr(double peak) const {
         detail::require(numeric::is_finite(peak) && peak > 0, "peak", peak, "finite and positive");
         if (mean_square == 0) return std::numeric_limits<double>::infinity();
         constexpr double decibels = 20 / 2.302585092994045684;  // 20 / ln 10
@@ -10892,7 +11280,7 @@ struct pixel_difference {
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class T>
 void require_same_size(image_view<const T> result, image_view<const T> truth) {
@@ -10921,13 +11309,15 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
     return out;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace accuracy {
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input if the sizes differ
 inline mask_difference compare_masks(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
@@ -10959,6 +11349,8 @@ inline pixel_difference compare_images(image_view<const std::uint8_t> result, im
     return detail::compare_pixels(result, truth);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace accuracy
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -10972,7 +11364,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The largest of some indices.
 struct largest_index_kernel {
@@ -11016,7 +11408,7 @@ void require_indices(const mesh_view& m, E& ex) {
         if (index) refuse("mesh.triangles", *index, "an index of a position");
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -11028,7 +11420,7 @@ INSONIFY_ARITHMETIC_END
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 struct int128 {
     std::int64_t high = 0;
@@ -11078,7 +11470,7 @@ struct int128 {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -11100,11 +11492,15 @@ enum class depth_load {
     clear,  ///< nothing: the target's depth is overwritten, without being read; see framebuffer for its color
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// The depth of an empty pixel.
 constexpr float empty_depth(keep_depth keep) {
     return keep == keep_depth::smaller ? std::numeric_limits<float>::infinity()
                                        : -std::numeric_limits<float>::infinity();
 }
+
+}  // namespace INSONIFY_FLAGS
 
 /// Depth alone, correctly rounded: takes no fragment callable and compiles no shading.
 struct depth_target {
@@ -11151,7 +11547,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A vertex on the screen: position in fixed point, z / w and 1 / w.
 struct screen_vertex {
@@ -11293,7 +11689,7 @@ struct edge_function {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -11311,7 +11707,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The image cut into square tiles of 2^log2_size pixels.
 struct tile_grid {
@@ -11480,7 +11876,7 @@ class tile_bins {
     uninitialized_vector<triangle_run> runs_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -11498,7 +11894,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 struct double_double {
     double high = 0, low = 0;
@@ -11564,7 +11960,7 @@ struct double_double {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -11585,7 +11981,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// z(x, y) at pixel centres of a triangle's own box.
 struct depth_plane {
@@ -11646,7 +12042,7 @@ inline float nearest_depth(const screen_vertex& a, const screen_vertex& b, const
     return (sum / wide(share.a + share.b + share.c)).to_float();
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -11663,7 +12059,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A corner of a clipped piece: where it is, and what share each vertex of the whole triangle has in it.
 struct clip_corner {
@@ -11850,7 +12246,7 @@ class projection {
     bool exact_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -11865,7 +12261,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 class screen_polygon {
   public:
@@ -11946,7 +12342,7 @@ class screen_polygon {
     int area_sign_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -11963,7 +12359,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// N boxes of pixels.
 template <int N>
@@ -12085,7 +12481,7 @@ struct small_setup {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -12109,7 +12505,7 @@ inline constexpr bool is_vector_of_floats = requires {
 template <>
 inline constexpr bool is_vector_of_floats<float> = true;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <class V>
 constexpr bool consists_of_floats();
@@ -12158,7 +12554,7 @@ constexpr bool consists_of_floats() {
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// Made of floats alone: float, glm::vec2..4, arrays and aggregates of those.
 template <class V>
@@ -12209,7 +12605,7 @@ concept vertex_shader = position_shader<S> || varying_shader<S>;
 /// Stands for the varyings of a shader that has none.
 struct no_varyings {};
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 template <vertex_shader S>
 struct shader_varyings {
@@ -12267,7 +12663,7 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 template <vertex_shader S>
 using varyings_of = typename detail::shader_varyings<S>::type;
@@ -12303,7 +12699,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A vertex on the screen, as millions of them are kept: sixteen bytes, which a lane takes in one load.
 template <class Real>
@@ -12482,7 +12878,7 @@ struct placement_kernel {
 #endif
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -12512,7 +12908,7 @@ struct draw_options {
     isa level = best_isa();  ///< the widest instruction set to use
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A triangle with a vertex that isn't compact, or a piece of one that was clipped.
 struct wide_triangle {
@@ -12809,7 +13205,7 @@ struct assembly_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -12826,7 +13222,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Planes through the corners of N small triangles, in memory.
 template <int N, class Real>
@@ -12876,7 +13272,7 @@ struct small_planes {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -12892,7 +13288,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Depth of a tile's pixels and, where Winners, the name of the triangle that each shows.
 template <bool Winners>
@@ -12968,7 +13364,7 @@ INSONIFY_INLINE void keep_nearer(float* depth, std::uint32_t* winner, const lane
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -12985,7 +13381,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Draws up to N small triangles into a tile, in order.
 template <int N, class Real, bool Winners>
@@ -13203,7 +13599,7 @@ struct small_fill {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -13216,7 +13612,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A triangle of any size, ready for the pixels of a box: its corners run clockwise on the screen, edges are named by
 /// their ends.
@@ -13448,7 +13844,7 @@ struct tile_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -13465,7 +13861,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Where the centres of a row's pixels lie on the grid. Unsigned: what is off the grid has no place, and from there it
 /// may be farther than an integer holds.
@@ -13654,7 +14050,7 @@ struct shading_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -13668,7 +14064,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void check(const draw_options& options, image_view<const float> depth) {
     require(options.subpixel_bits >= 4 && options.subpixel_bits <= 16, "subpixel_bits", options.subpixel_bits,
@@ -13834,7 +14230,9 @@ draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneS
     return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept, shade_tile);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Draws depth alone; no shading is compiled.
 ///
@@ -13887,6 +14285,8 @@ draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentSha
                                             shade);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -13905,7 +14305,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// How much a surface rises at the vertices of a row, by central differences: twice the rise of a cell. A neighbour
 /// that is missing or beyond the edge leaves the side that is there to count twice; at a vertex without data nothing
@@ -14008,7 +14408,9 @@ class row_normals {
     glm::vec3* out_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Unit normals at the vertices of a heightfield, by central differences, one-sided at edges and beside missing
 /// vertices; straight up at these.
@@ -14023,6 +14425,8 @@ image<glm::vec3> normals(const heightfield& field, Executor&& ex = serial_execut
     });
     return result;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -14039,7 +14443,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Which triangles of a cell have data at all their corners.
 struct cell_facets {
@@ -14103,7 +14507,9 @@ void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 f
     });
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The surface of a heightfield as a mesh: two triangles per cell, counter-clockwise from above, cut from vertex (i, j)
 /// to (i + 1, j + 1); 2 (width - 1) (height - 1) triangles if no height is missing.
@@ -14120,6 +14526,8 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm
     detail::tessellate_into(result, field, ex, first);
     return result;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -14156,7 +14564,7 @@ struct leeway {
     glm::dvec2 nadir{0.0, 0.0};  ///< below the camera, metres from the heightfield's vertex (0, 0)
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Which vertices of a heightfield a mesh needs. Vertices of the hierarchy are the middles of longest sides: those of a
 /// step s have their lowest set bit at s in one coordinate ("edges", the side lies along an axis) or in both
@@ -14377,8 +14785,9 @@ class needed_vertices {
                 floats value;
                 load(value, row + x);
                 const floats off = value - (start + dx_ * (across + static_cast<float>(x - from_.x)));
-                const ints fit = ints(off <= most_) & ints(-off <= most_);
-                if (insonify::detail::any(ints(fit == 0))) return false;
+                const ints fit = (off <= most_) & (-off <= most_);
+                const ints missed = fit == 0;
+                if (insonify::detail::any(missed)) return false;
             }
             for (; x <= last; ++x) {
                 const float off = row[x] - (start + dx_ * static_cast<float>(x - from_.x));
@@ -14426,7 +14835,7 @@ class needed_vertices {
     image<float> slope_x_, slope_y_;  // rises per cell, or empty where slopes may be anything
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -14449,7 +14858,7 @@ struct adaptive_mesh {
     std::vector<std::uint32_t> vertices;  ///< which vertex of the heightfield each is: j width + i
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Calls `emit(corner, corner, corner)`, counter-clockwise and each a glm::ivec2, for every triangle that a vertex
 /// brings: those whose right angle it is.
@@ -14484,7 +14893,9 @@ void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit)
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The surface of a heightfield as a mesh of the triangles that it takes, given what it may be off by: at no point of a
 /// triangle is the drawn surface (`height_at`) farther above or below it than `allowed` at the triangle's corners; nor
@@ -14570,6 +14981,8 @@ adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Execut
     return result;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -14592,7 +15005,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// A light's rays: parallel, or to a point.
 class light_rays {
@@ -14657,7 +15070,7 @@ class light_rays {
     bool is_near_ = false;
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -14681,7 +15094,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// A grid as the light crosses it: X counts its vertices along the axis that the light follows most, Y those across,
 /// both turned so that the light goes towards larger ones, by `slope` of Y for each of X.
@@ -14927,7 +15340,7 @@ class horizon_bounds {
     insonify::detail::uninitialized_vector<horizon_bound> bounds_;
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -14944,7 +15357,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// One plane of a light.
 class light_plane {
@@ -14990,7 +15403,7 @@ class light_plane {
     bool is_near_ = false;
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -15008,7 +15421,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// Where the ray at a point of a light's plane meets the plane z = 0 of a mesh, in the steps of its grid.
 class ray_feet {
@@ -15158,7 +15571,7 @@ class horizon_triangles {
     bool lower_is_first_ = true;
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -15172,7 +15585,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// A rectangle of a light's plane, cut into tiles.
 struct plane_tiles {
@@ -15390,7 +15803,7 @@ class plane_caster {
     insonify::detail::tile_bins bins_;
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -15403,7 +15816,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// A point on the plane, from the lower corner of the tiles, on its way into a tile.
 struct receiver {
@@ -15509,7 +15922,7 @@ class receiver_cells {
     std::vector<std::uint16_t> keys_;
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -15531,7 +15944,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow::detail {
+namespace shadow::detail::inline INSONIFY_FLAGS {
 
 /// Marks the receivers of a tile that a caster blocks and that no caster before it does.
 /// @param Decide  decide(triangle, i): whether the triangle blocks receiver i, in doubles
@@ -15702,7 +16115,7 @@ struct occlusion_kernel {
     }
 };
 
-}  // namespace shadow::detail
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -15724,6 +16137,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow {
+
+inline namespace INSONIFY_FLAGS {
 
 /// Casters that block one light, as `exact` builds them.
 class exact_occlusion {
@@ -16078,6 +16493,8 @@ class exact_occlusion {
     std::vector<horizon_state> horizons_;  ///< of the casters, under parallel light
 };
 
+}  // namespace INSONIFY_FLAGS
+
 template <executor E>
 exact_occlusion exact::build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
                              E& ex) const {
@@ -16097,7 +16514,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A rectangle along the world's axes around the rig's position, metres.
 struct ground_box {
@@ -16156,7 +16573,7 @@ inline ground_box casting_ground(const overhead_geometry& view, const seabed::he
     return all;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -16169,7 +16586,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// An object in the rig's frame.
 struct placed_mesh {
@@ -16219,7 +16636,7 @@ inline pixel_box shown_pixels(const overhead_geometry& view, const placed_mesh& 
     return shadowed_pixels(view, object, std::numeric_limits<double>::infinity());  // no shadow falls so high
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -16235,7 +16652,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// What pixels between the vertices are shaded from, in the rig's frame. The pixel's place gives the rest.
 struct surface_varyings {
@@ -16455,7 +16872,7 @@ class surface_shader {
     spread<float> to_light_[3];                           ///< where it stands, if it is near
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -16475,7 +16892,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Room for the points of all pixels of a picture.
 struct point_arrays {
@@ -16702,7 +17119,7 @@ struct point_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -16718,7 +17135,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The light as a policy takes it.
 inline shadow::any_light light_of(const overhead_geometry& view) {
@@ -16784,7 +17201,7 @@ struct point_batches {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -16799,7 +17216,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The object that a visibility buffer's id belongs to.
 inline const surface& surface_of(const std::vector<surface>& surfaces, std::uint32_t id) {
@@ -17007,7 +17424,7 @@ class shadow_pass {
     isa level_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -17021,7 +17438,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A picture under construction, in the rig's frame.
 template <class Shadow, class Labels, class Law>
@@ -17322,7 +17739,7 @@ visibility see(const scene& s, const overhead& rig, const render_options<shadow:
     return overhead_painter<shadow::none, labels, Law>(s, rig, options, ex).see(ex);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -17348,6 +17765,8 @@ struct errors {
     double intensity = 0.05;  ///< root mean square error of the linear picture
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// How `settings_for` looks at a seabed.
 struct probe {
     int chips = 4;       ///< small pictures, spread over the large one
@@ -17356,13 +17775,15 @@ struct probe {
     double spare = 0.7;  ///< share of a budget that may be used where others have not been looked at
 };
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace accuracy
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Small pictures of a seabed, as fine as makes sense, to compare coarser ones with.
 class seabed_probe {
@@ -17525,7 +17946,7 @@ class seabed_probe {
     std::vector<picture> truths_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -17548,11 +17969,15 @@ namespace accuracy {
 /// Errors that are tolerated, each above 0.
 using budget = errors;
 
+inline namespace INSONIFY_FLAGS {
+
 /// Whether each error is within its budget.
 inline bool keeps_to(const errors& found, const budget& tolerated) {
     return found.shadow_edge <= tolerated.shadow_edge && found.silhouette <= tolerated.silhouette &&
            found.height <= tolerated.height && found.intensity <= tolerated.intensity;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 /// What a picture is made of: plain values, to read and to change.
 template <shadow::policy Shadow = shadow::exact>
@@ -17568,7 +17993,7 @@ struct settings {
 
     /// The same for `render`; `settings.options<no_labels>()` leaves the labels out.
     template <class Labels = labels, backscatter_law Law = lambert>
-    render_options<Shadow, Labels, Law> options() const {
+    INSONIFY_MEMBER render_options<Shadow, Labels, Law> options() const {
         return {.shadow = shadow, .cells = cells, .edge_error = edge_error, .subpixel_bits = subpixel_bits};
     }
 
@@ -17580,7 +18005,7 @@ struct settings {
     /// (Thatcher Ulrich. Rendering Massive Terrains using Chunked Level of Detail Control. SIGGRAPH course, 2002, has
     /// the first; the second is the same for the light's parallel rays.)
     /// @param placement  of the target; what counts is the top of a ball of `radius` metres around its position
-    double deviation(const pose& placement, double radius) const {
+    INSONIFY_TAGGED double deviation(const pose& placement, double radius) const {
         const overhead_geometry view(rig);
         const glm::dvec3 at = view.rig_from(to_world(placement)).offset;
         const double size = radius * static_cast<double>(placement.scale);
@@ -17595,21 +18020,21 @@ struct settings {
     }
 
     /// The shape with as few segments as `deviation` allows.
-    cylinder modelled(cylinder shape, const pose& placement) const {
+    INSONIFY_MEMBER cylinder modelled(cylinder shape, const pose& placement) const {
         const double half = 0.5 * static_cast<double>(shape.length), radius = static_cast<double>(shape.radius);
         return with_segments(shape, deviation(placement, numeric::square_root(half * half + radius * radius)));
     }
-    capsule modelled(capsule shape, const pose& placement) const {
+    INSONIFY_MEMBER capsule modelled(capsule shape, const pose& placement) const {
         return with_segments(shape, deviation(placement, 0.5 * static_cast<double>(shape.length)));
     }
-    cone modelled(cone shape, const pose& placement) const {
+    INSONIFY_TAGGED cone modelled(cone shape, const pose& placement) const {
         const double half = 0.5 * static_cast<double>(shape.height);
         const auto radius = static_cast<double>((std::max)(shape.radius, shape.top_radius));
         return with_segments(shape, deviation(placement, numeric::square_root(half * half + radius * radius)));
     }
     template <class Round>
         requires(std::same_as<Round, sphere> || std::same_as<Round, hemisphere>)
-    Round modelled(Round shape, const pose& placement)
+    INSONIFY_MEMBER Round modelled(Round shape, const pose& placement)
     const {
         const float longest = (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
         return with_segments(shape, deviation(placement, static_cast<double>(shape.radius * longest)));
@@ -17617,11 +18042,13 @@ struct settings {
 
   private:
     template <class Shape>
-    static Shape with_segments(Shape shape, double deviation) {
+    INSONIFY_MEMBER static Shape with_segments(Shape shape, double deviation) {
         shape.segments = segments_for(shape, static_cast<float>(deviation));
         return shape;
     }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The cheapest settings with which pictures of a seabed keep to a budget, as far as a probe can tell; where none does,
 /// those that are the least beyond it, and `expected` says how far off they are.
@@ -17722,6 +18149,8 @@ inline settings<> exact(const overhead& rig) {
             .rig = rig};
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace accuracy
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -17742,7 +18171,7 @@ inline namespace INSONIFY_ABI {
 /// Concave polygons with more corners are cut into a fan, which covers too much: the work stays linear for any input.
 inline constexpr std::size_t ear_clipping_limit = 512;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A polygon seen along its normal: counter-clockwise in the plane of the two axes it is widest in.
 class flat_polygon {
@@ -17816,7 +18245,9 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
     triangles.emplace_back(ring[tip].previous, tip, ring[tip].next);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Appends `corners.size() - 2` triangles that cover the polygon and face as it does, as numbers of its corners.
 /// Exact for simple polygons, also slightly bent ones; one that crosses itself is covered somehow. Nothing is appended
@@ -17834,6 +18265,8 @@ inline void triangulate(std::span<const glm::vec3> corners, std::vector<glm::uve
     for (std::uint32_t i = 2; i < count; ++i) triangles.emplace_back(0u, i - 1, i);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -17849,7 +18282,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// One pass over the text. Words are parted by blanks; a backslash at the end of a line continues it.
 class obj_reader {
@@ -18050,7 +18483,9 @@ class obj_reader {
     std::vector<glm::uvec3> cuts_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The polygons of a Wavefront OBJ text as one mesh, in time linear in its length.
 ///
@@ -18088,6 +18523,8 @@ inline mesh load_obj(const std::string& path) {
     }
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -18103,7 +18540,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A closed polygon in space, without coincident corners.
 using section = std::vector<glm::dvec3>;
@@ -18228,7 +18665,7 @@ inline void append(mesh& into, mesh part, const affine& map = {}) {
     for (const glm::uvec3& t : part.triangles) into.triangles.push_back(t + first);
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -18255,7 +18692,7 @@ struct compound {
 
     /// Adds a mesh, or anything that has a `to_mesh`.
     template <class Shape>
-    compound& add(const Shape& shape, const pose& placement = {}, float reflectivity = 1) {
+    INSONIFY_TAGGED compound& add(const Shape& shape, const pose& placement = {}, float reflectivity = 1) {
         if constexpr (requires { shape.triangles; })
             parts.push_back({shape, placement, reflectivity});
         else
@@ -18270,6 +18707,8 @@ struct merged_compound {
     std::vector<std::uint16_t> part_ids;  ///< by triangle: an index of `reflectivities`
     std::vector<float> reflectivities;    ///< by part
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a part without matching indices or normals, a reflectivity that is negative or not finite,
 ///         or more than 65535 parts
@@ -18303,6 +18742,8 @@ inline mesh to_mesh(const compound& c) {
     return merge(c).shape;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -18318,6 +18759,8 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
+
+inline namespace INSONIFY_FLAGS {
 
 /// The same triangles with unit normals. A corner's normal is the mean of the facets around its position that bend away
 /// from its own facet by less than `angle`, so a position has as many vertices as sides of it look different.
@@ -18378,6 +18821,8 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
     return out;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -18390,7 +18835,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Value noise on the integer lattice, in [-1, 1], continuous with its slope.
 inline double lattice_noise(const glm::dvec3& p, const philox_key& key) {
@@ -18415,7 +18860,7 @@ inline double lattice_noise(const glm::dvec3& p, const philox_key& key) {
     return sum;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -18463,6 +18908,8 @@ struct aeroplane {
     std::uint64_t seed = 1;    ///< of torn edges
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value outside its range
 inline void validate(const aeroplane& a) {
     using detail::require;
@@ -18492,7 +18939,9 @@ inline void validate(const aeroplane& a) {
     detail::require_segments("aeroplane.segments", a.segments, 8, 512);
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A wing, tailplane or fin: straight edges from root to tip, the tip rounded. `out` is a unit vector along its span,
 /// `up` across its chord; the chord runs towards -x.
@@ -18602,7 +19051,7 @@ inline void append_propeller(mesh& into, const propeller& p, int corners) {
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -18616,7 +19065,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 class aeroplane_builder {
   public:
@@ -18788,7 +19237,9 @@ class aeroplane_builder {
     philox_key key_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The parts: fuselage with tail, wings with engine nacelles, propellers. Reflectivities are illustrative: aluminium
 /// sheet 0.9, steel 1. Each part is solid, and so is the merged mesh.
@@ -18819,6 +19270,8 @@ inline mesh to_mesh(const aeroplane& a) {
     return to_mesh(to_compound(a));
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -18844,6 +19297,8 @@ struct boulder {
     std::uint64_t seed = 1;
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value outside its range
 inline void validate(const boulder& b) {
     const float largest = (std::max)((std::max)(b.size.x, b.size.y), b.size.z);
@@ -18856,7 +19311,9 @@ inline void validate(const boulder& b) {
     detail::require_segments("boulder.segments", b.segments, 2, 256);
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A unit octahedron with every face cut into n * n triangles, projected onto the sphere; 4 n^2 + 2 vertices.
 inline mesh geodesic_sphere(int n) {
@@ -18902,7 +19359,9 @@ inline mesh geodesic_sphere(int n) {
     return out;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// 8 segments^2 triangles. Deterministic in the seed.
 /// @throws invalid_input as `validate` does
@@ -18948,6 +19407,8 @@ inline mesh to_mesh(const boulder& b) {
     return with_creases(body, 0.5f);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -18973,6 +19434,8 @@ struct crate {
     float damage = 0;                  ///< share of side and lid boards that are missing, 0 to 1
     std::uint64_t seed = 1;            ///< which ones
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value outside its range
 inline void validate(const crate& c) {
@@ -19036,6 +19499,8 @@ inline mesh to_mesh(const crate& c) {
     return with_creases(body, 0);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -19051,6 +19516,8 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
+
+inline namespace INSONIFY_FLAGS {
 
 /// The convex hull, counter-clockwise and without corners on straight edges, of the positions that are less than
 /// `height` above the lowest one, seen from above. Fewer than three corners if those lie on a line.
@@ -19086,6 +19553,8 @@ inline std::vector<glm::dvec2> footprint(const mesh_view& m, const pose& placeme
     if (outline.size() > 1) outline.pop_back();  // the first again
     return outline;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -19137,6 +19606,8 @@ struct hull {
     std::uint64_t seed = 1;       ///< of edges and losses
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value outside its range
 inline void validate(const hull& h) {
     using detail::require;
@@ -19165,7 +19636,9 @@ inline void validate(const hull& h) {
     detail::require_segments("hull.segments", h.segments, 16, 1024);
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Positions on a hull: u runs from the stern (0) to the bow (1), w from the keel (0) to the bulwark's top (1), side is
 /// +1 (port) or -1 (starboard).
@@ -19254,7 +19727,7 @@ class hull_lines {
     philox_key key_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -19267,7 +19740,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A stretch of a hull's length.
 struct stretch_of_hull {
@@ -19374,7 +19847,7 @@ inline void append_coaming(mesh& into, const hull_lines& lines, const deck_plate
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -19387,7 +19860,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Where the deckhouse stands.
 inline stretch_of_hull house_of(const hull& h) {
@@ -19532,7 +20005,7 @@ inline void append_debris(mesh& into, const hull_lines& lines, const stretch_of_
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -19546,7 +20019,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 enum class hull_part : std::size_t { plating, decks, house, rigging, machinery, debris, count };
 using hull_parts = std::array<mesh, static_cast<std::size_t>(hull_part::count)>;
@@ -19653,7 +20126,9 @@ inline hull_parts build_hull(const hull& h, const stretch_of_hull& part) {
     return out;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The parts of the ship in the order plating, decks, deckhouse, rigging, machinery, debris; empty parts are left out.
 /// Reflectivities are illustrative: steel 1, decks covered by silt and planks less. Each part is solid, and so is the
@@ -19702,6 +20177,8 @@ inline mesh to_mesh(const hull& h) {
     return to_mesh(to_compound(h));
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -19731,6 +20208,8 @@ struct lobster_pot {
     int segments = 12;        ///< straight pieces of a hoop, 6 to 256
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// @throws invalid_input for a value outside its range
 inline void validate(const lobster_pot& p) {
     detail::require_size("lobster_pot.length", p.length);
@@ -19749,7 +20228,9 @@ inline void validate(const lobster_pot& p) {
     detail::require_segments("lobster_pot.segments", p.segments, 6, 256);
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A point of the arch, from one foot (0) over the top (1/2) to the other (1): upright sides, then half an ellipse.
 inline glm::dvec3 arch_point(const lobster_pot& p, double x, double t, double inset) {
@@ -19770,7 +20251,9 @@ inline glm::dvec3 arch_point(const lobster_pot& p, double x, double t, double in
     return {x, y + 0.8 * crushed * (z - base), base + (z - base) * (1 - 0.8 * crushed)};
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input as `validate` does
 inline mesh to_mesh(const lobster_pot& p) {
@@ -19830,6 +20313,8 @@ inline mesh to_mesh(const lobster_pot& p) {
     return with_creases(body, 1.2f);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -19857,6 +20342,8 @@ struct open_pipe {
     int segments = 48;       ///< around the axis, 6 to 8192; see `segments_for`
     std::uint64_t seed = 1;  ///< of the ragged end
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value outside its range
 inline void validate(const open_pipe& p) {
@@ -19919,6 +20406,8 @@ inline int segments_for(const open_pipe& p, float deviation) {
     return (std::max)(segments_for(0.5f * p.diameter + p.flange, deviation), 6);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -19947,6 +20436,8 @@ struct truncated_cone {
     int lugs = 2;                 ///< 0 to 8
     int segments = 64;            ///< around the axis, 6 to 8192; see `segments_for`
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value outside its range
 inline void validate(const truncated_cone& c) {
@@ -20014,6 +20505,8 @@ inline int segments_for(const truncated_cone& c, float deviation) {
     return (std::max)(segments_for(0.5f * c.diameter, deviation), 6);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -20039,6 +20532,8 @@ struct tyre {
     float fill = 0;               ///< share of the inner height that sediment fills the hole to: 0, or 0.001 to 1
     int segments = 64;            ///< around the axis, 6 to 8192; a quarter as many across the tread
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value outside its range
 inline void validate(const tyre& t) {
@@ -20095,6 +20590,8 @@ inline int segments_for(const tyre& t, float deviation) {
     return (std::max)(segments_for(0.5f * t.diameter, deviation), 6);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -20124,7 +20621,7 @@ struct wedge {
     float side_slope = 0.35f;   ///< inward per upward metre of the sides, >= 0; the ridge keeps a tenth of the width
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Length position, half width and height of the wedge's four cross sections.
 struct wedge_station {
@@ -20143,7 +20640,9 @@ inline std::array<wedge_station, 4> stations_of(const wedge& w) {
              {0.5 * length, nose, low}}};
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value outside its range
 inline void validate(const wedge& w) {
@@ -20178,6 +20677,8 @@ inline mesh to_mesh(const wedge& w) {
     return with_creases(body, 0);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -20191,16 +20692,18 @@ INSONIFY_ARITHMETIC_END
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 template <class T>
 concept csv_text = std::convertible_to<const T&, std::string_view>;
 template <class T>
 concept csv_number = std::is_arithmetic_v<T> && !std::same_as<T, char>;
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// What a cell may hold: text, true or false, or a number, which is written so that it reads back as the same one.
 template <class T>
 concept csv_cell = detail::csv_text<T> || detail::csv_number<T>;
+
+inline namespace INSONIFY_FLAGS {
 
 /// A table with named columns, kept as text. Cells with commas, quotes or line breaks are quoted; lines end with CR LF.
 class csv_table {
@@ -20260,6 +20763,8 @@ class csv_table {
     std::string text_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -20272,11 +20777,15 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 /// Patches strewn by a noise that exceeds a threshold.
 struct patches {
     float coverage = 0.5f;  ///< in [0, 1]: their share of the area, over many patches
     float size = 12.0f;     ///< metres, > 0: scale of the patches
 };
+
+}  // namespace INSONIFY_FLAGS
 
 /// What is nearer to a point than a radius.
 struct disc {
@@ -20295,6 +20804,8 @@ struct polygon {
     std::vector<glm::dvec2> corners;  ///< at least three
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// Where a picture, laid over the world like a heightfield, is above 1/2; interpolated between its pixels, outside as
 /// at its nearest edge. A step from 0 to 1 between two pixels is taken for a border across the spacing.
 struct stencil {
@@ -20303,9 +20814,11 @@ struct stencil {
     double spacing = 1;           ///< metres, > 0
 };
 
+}  // namespace INSONIFY_FLAGS
+
 using area = std::variant<patches, disc, band, polygon, stencil>;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The value that a standard normal variable exceeds with probability p, absolute error < 4.5e-4.
 /// Milton Abramowitz, Irene A. Stegun. Handbook of Mathematical Functions. 1964 (eq. 26.2.23, by C. Hastings).
@@ -20454,7 +20967,7 @@ class outline {
     float scale_ = 1, offset_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -20476,7 +20989,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Splits a text into words and numbers; errors name the line.
 class survey_reader {
@@ -20561,7 +21074,9 @@ inline bool same_word(std::string_view a, std::string_view b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return low(x) == low(y); });
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Reads an Esri ASCII grid: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter, cellsize, maybe
 /// nodata_value, then the heights row by row from the north. Vertices stand at the centres of its cells.
@@ -20713,6 +21228,8 @@ inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
     return field;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -20731,7 +21248,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The transition across a layer's border.
 class border {
@@ -20820,7 +21337,7 @@ void by_parts(const scanline& line, std::span<float> heights, std::span<type> ty
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -20836,7 +21353,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class blend_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// Patches of `first` in `second`: where a noise exceeds a threshold there is one, else the other. Across the border
 /// one relief sinks beneath the other, so ripples end in tips within about a border's width.
@@ -20849,15 +21370,17 @@ struct blend {
     std::uint64_t seed = 1;
 
     /// @throws invalid_input for parameters out of their range
-    blend_sampler prepare() const;
-    std::vector<type_properties> legend() const {
+    INSONIFY_TAGGED blend_sampler prepare() const;
+    INSONIFY_TAGGED std::vector<type_properties> legend() const {
         std::vector<type_properties> all = first.legend();
         extend(all, second.legend());
         return all;
     }
-    float operator()(double x, double y) const;
-    type type_at(double x, double y) const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED type type_at(double x, double y) const;
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `blend`.
 class blend_sampler {
@@ -20891,6 +21414,8 @@ class blend_sampler {
     detail::border edge_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 inline blend_sampler blend::prepare() const {
     return blend_sampler(*this);
 }
@@ -20917,7 +21442,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class detailed_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// A heightfield, smooth between its vertices instead of in facets, and roughness on top.
 ///
@@ -20930,12 +21459,14 @@ struct detailed {
 
     /// By reference: the heightfield has to outlive the sampler.
     /// @throws invalid_input as `validate` of heightfields, and for parameters of the roughness out of their range
-    detailed_sampler prepare() const;
-    float operator()(double x, double y) const;
-    type type_at(double x, double y) const { return field.type_at(x, y); }
-    std::optional<type> only_type() const { return field.only_type(); }
-    std::vector<type_properties> legend() const { return field.legend(); }
+    INSONIFY_TAGGED detailed_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_MEMBER type type_at(double x, double y) const { return field.type_at(x, y); }
+    INSONIFY_MEMBER std::optional<type> only_type() const { return field.only_type(); }
+    INSONIFY_MEMBER std::vector<type_properties> legend() const { return field.legend(); }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `detailed`.
 class detailed_sampler {
@@ -20988,6 +21519,8 @@ class detailed_sampler {
     power_law_noise surface_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 inline detailed_sampler detailed::prepare() const {
     return detailed_sampler(*this);
 }
@@ -21028,7 +21561,7 @@ struct moat {
     float tail = 6;                           ///< its length, metres, >= 0; 0: none
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void validate(const moat& m) {
     validate_points(m.outline, "moat.outline", 3);
@@ -21097,7 +21630,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
     return change;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -21169,7 +21702,7 @@ struct heap {
 
 using edit = std::variant<raise, flatten, smooth, ramp, stamp, scour, heap, moat>;
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// 1 in the middle, 0 with its slope from a distance of 1.
 constexpr float brush(float r) {
@@ -21407,7 +21940,7 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
     }
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -21424,7 +21957,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class mixed_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// One bottom of a `mixed` seabed.
 struct layer {
@@ -21444,15 +21981,17 @@ struct mixed {
 
     /// The sampler owns what it needs.
     /// @throws invalid_input for parameters out of their range
-    mixed_sampler prepare() const;
-    std::vector<type_properties> legend() const {
+    INSONIFY_TAGGED mixed_sampler prepare() const;
+    INSONIFY_TAGGED std::vector<type_properties> legend() const {
         std::vector<type_properties> all = base.legend();
         for (const layer& l : layers) extend(all, l.bottom.legend());
         return all;
     }
-    float operator()(double x, double y) const;
-    type type_at(double x, double y) const;
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED type type_at(double x, double y) const;
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `mixed`.
 class mixed_sampler {
@@ -21496,6 +22035,8 @@ class mixed_sampler {
     std::vector<prepared_layer> layers_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 inline mixed_sampler mixed::prepare() const {
     return mixed_sampler(*this);
 }
@@ -21524,7 +22065,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
+inline namespace INSONIFY_FLAGS {
+
 class sculpt_sampler;
+
+}  // namespace INSONIFY_FLAGS
 
 /// A seabed and a list of edits. Labels are those of the seabed.
 struct sculpted {
@@ -21532,12 +22077,14 @@ struct sculpted {
     std::vector<edit> edits;  ///< the first is done first
 
     /// @throws invalid_input for parameters out of their range
-    sculpt_sampler prepare() const;
-    std::optional<type> only_type() const { return ground.only_type(); }
-    std::vector<type_properties> legend() const { return ground.legend(); }
-    float operator()(double x, double y) const;
-    type type_at(double x, double y) const;
+    INSONIFY_TAGGED sculpt_sampler prepare() const;
+    INSONIFY_MEMBER std::optional<type> only_type() const { return ground.only_type(); }
+    INSONIFY_MEMBER std::vector<type_properties> legend() const { return ground.legend(); }
+    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED type type_at(double x, double y) const;
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// Evaluates `sculpted`.
 class sculpt_sampler {
@@ -21603,6 +22150,8 @@ class sculpt_sampler {
     std::vector<bounded_edit> edits_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 inline sculpt_sampler sculpted::prepare() const {
     return sculpt_sampler(*this);
 }
@@ -21633,7 +22182,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace shadow {
+namespace shadow::inline INSONIFY_FLAGS {
 
 /// A rectangle of the light's frame and the heights that count within it.
 struct map_extent {
@@ -21812,7 +22361,7 @@ class height_map {
     image<float> heights_;
 };
 
-}  // namespace shadow
+}  // namespace shadow::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -21834,6 +22383,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow {
+inline namespace INSONIFY_FLAGS {
 
 /// A surface point in the light's frame, and how the plane of its facet rises there.
 struct receiver_plane {
@@ -21863,7 +22413,9 @@ struct receiver_plane {
     }
 };
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A receiver in the units of one map.
 class map_receiver {
@@ -21902,7 +22454,9 @@ class map_receiver {
     float slope_u_, slope_v_, bias_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Share of the light that reaches a point, averaged over (2 radius + 1)^2 texels; surfaces that face away count as
 /// level.
@@ -21913,6 +22467,8 @@ inline float lit(const height_map& map, const receiver_plane& r, int radius) {
     const int rays = (2 * radius + 1) * (2 * radius + 1);
     return static_cast<float>(at.open_rays(radius)) / static_cast<float>(rays);
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace shadow
 }  // namespace INSONIFY_ABI
@@ -21939,6 +22495,8 @@ struct map_layout {
     int largest = 8192;
     int radius = 0;  ///< of the filter, texels
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// @throws invalid_input for a value out of its range
 inline void validate(const map_layout& m) {
@@ -22014,6 +22572,8 @@ class map_occlusion {
     std::vector<height_map> maps_;
 };
 
+}  // namespace INSONIFY_FLAGS
+
 /// A map of the casters' heights along the light, looked up at the nearest texel: hard edges.
 struct map {
     float texels_per_pixel = 1.5f;  ///< of the points' spacing; a shadow edge is off by half a texel at most
@@ -22022,8 +22582,8 @@ struct map {
     /// See casting_policy.
     /// @throws invalid_input as map_occlusion does
     template <executor E>
-    map_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
-                        E& ex) const {
+    INSONIFY_MEMBER map_occlusion build(std::span<const caster> casters, const any_light& light,
+                                        const point_bounds& bounds, E& ex) const {
         return {{texels_per_pixel, largest, 0}, casters, light, bounds, ex};
     }
 };
@@ -22037,8 +22597,8 @@ struct pcf {
     /// See casting_policy.
     /// @throws invalid_input as map_occlusion does
     template <executor E>
-    map_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
-                        E& ex) const {
+    INSONIFY_MEMBER map_occlusion build(std::span<const caster> casters, const any_light& light,
+                                        const point_bounds& bounds, E& ex) const {
         return {{texels_per_pixel, largest, radius}, casters, light, bounds, ex};
     }
 };
@@ -22061,6 +22621,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow {
+
+inline namespace INSONIFY_FLAGS {
 
 /// Casters under several points of one light.
 class penumbra_occlusion {
@@ -22176,6 +22738,8 @@ class penumbra_occlusion {
     std::vector<sample> lights_;  ///< the middle first
 };
 
+}  // namespace INSONIFY_FLAGS
+
 /// Soft edges: exact shadows of several points of a round light. Each point costs as much as `exact`. The caster is
 /// that of the light's middle. The disc of light from nearby faces the origin of the frame in which it is described.
 struct penumbra {
@@ -22184,7 +22748,7 @@ struct penumbra {
 
     /// Radius of the light over its distance.
     /// @throws invalid_input for a diameter out of range
-    double light_radius() const {
+    INSONIFY_MEMBER double light_radius() const {
         insonify::detail::require(diameter >= 0 && diameter <= 1, "diameter", diameter, "0 to 1 radian");
         return numeric::tan(0.5 * static_cast<double>(diameter));
     }
@@ -22192,8 +22756,8 @@ struct penumbra {
     /// See casting_policy.
     /// @throws invalid_input for a diameter or samples out of range, else as exact_occlusion does
     template <executor E>
-    penumbra_occlusion build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
-                             E& ex) const {
+    INSONIFY_MEMBER penumbra_occlusion build(std::span<const caster> casters, const any_light& light,
+                                             const point_bounds& bounds, E& ex) const {
         insonify::detail::require(samples >= 1 && samples <= 1024, "samples", samples, "1 to 1024");
         return {light_radius(), samples, casters, light, bounds, ex};
     }
@@ -22215,7 +22779,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// What a smooth field is drawn for; part of what a seed means.
 enum class drift_stream : std::uint32_t {
@@ -22261,7 +22825,7 @@ inline double smooth_noise(double x, double y, std::uint32_t layer, const philox
     return q.low * (p.low * at(0, 0) + p.high * at(1, 0)) + q.high * (p.low * at(0, 1) + p.high * at(1, 1));
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -22274,7 +22838,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Draws of unit power for bins in a row, real and imaginary parts in turn: those of normal_pair, to the same bits. One
 /// block of Philox serves two bins.
@@ -22313,7 +22877,7 @@ struct speckle_draw_kernel {
     }
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -22329,7 +22893,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The bottom at a vertex, and between vertices.
 struct bottom_vertex {
@@ -22516,7 +23080,7 @@ class bottom_tiles {
     std::uint64_t sampled_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -22529,7 +23093,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 class name_tally {
   public:
@@ -22574,7 +23138,7 @@ class name_tally {
     std::vector<entry> entries_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -22590,7 +23154,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Parameters of a fan. Heights are rounded so that few different fans serve a whole track.
 struct fan_shape {
@@ -22702,7 +23266,7 @@ class ping_fan {
     double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond it: the first number, radians
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -22718,7 +23282,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 class plane_tree {
   public:
@@ -22789,7 +23353,7 @@ class plane_tree {
     std::vector<std::vector<box>> levels_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -22804,7 +23368,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A piece of outline in the plane of a ping.
 struct outline_piece {
@@ -22905,7 +23469,7 @@ inline std::vector<sliced_target> sliced_targets(const scene& s) {
     return all;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -22922,7 +23486,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The part of a ray that a target stops.
 struct target_hit {
@@ -23139,7 +23703,7 @@ class target_hits {
     std::vector<double> ends_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -23157,7 +23721,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Power and contents of a range bin; lengths are in bins.
 struct echo_bin {
@@ -23512,7 +24076,7 @@ class ping_listener {
     name_tally echoing_, casting_, types_;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -23534,20 +24098,24 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// 10^(decibels / 10): for powers.
 inline double from_decibels(double decibels) {
     return numeric::exp(decibels * 0.23025850929940458);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// The level of the source.
 struct source_level {
     float decibels = 0;
-    double over_range(double) const { return from_decibels(static_cast<double>(decibels)); }
+    INSONIFY_MEMBER double over_range(double) const { return from_decibels(static_cast<double>(decibels)); }
 };
 
 /// Spherical spreading, there and back: 40 log10 R, R in metres.
 struct transmission_loss {
-    double over_range(double range) const { return 1 / (range * range * range * range); }
+    INSONIFY_MEMBER double over_range(double range) const { return 1 / (range * range * range * range); }
 };
 
 /// What sea water takes, there and back: 2 alpha R. About 76, 116, 169, 322 dB/km at 300, 450, 600, 900 kHz in salt
@@ -23555,7 +24123,7 @@ struct transmission_loss {
 /// Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m).
 struct absorption {
     float decibels_per_km = 169;
-    double over_range(double range) const {
+    INSONIFY_MEMBER double over_range(double range) const {
         return from_decibels(-0.002 * static_cast<double>(decibels_per_km) * range);
     }
 };
@@ -23567,7 +24135,7 @@ struct vertical_beam {
     float tilt = static_cast<float>(numeric::to_radians(20));   ///< of the axis below the horizon, radians
     float side_lobes = 1e-3f;                                   ///< power, both ways, over that on the axis
     /// @param across, down  of the unit vector along the ray
-    double over_direction(double across, double down) const {
+    INSONIFY_MEMBER double over_direction(double across, double down) const {
         const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(width);
         return static_cast<double>(side_lobes) + numeric::exp(-5.545177444479562 * off * off);  // 8 ln 2
     }
@@ -23578,10 +24146,10 @@ struct vertical_beam {
 struct horizontal_beam {
     float width = static_cast<float>(numeric::to_radians(0.3));  ///< between the -3 dB points of one way, radians
     /// Metres of track that are heard fully, as it were: the integral of the pattern.
-    double footprint(double range) const { return 0.7526967 * range * static_cast<double>(width); }
+    INSONIFY_MEMBER double footprint(double range) const { return 0.7526967 * range * static_cast<double>(width); }
     /// Metres to either side beyond which nothing is heard.
-    double reach(double range) const { return range * static_cast<double>(width); }
-    double pattern(double along, double range) const {
+    INSONIFY_MEMBER double reach(double range) const { return range * static_cast<double>(width); }
+    INSONIFY_MEMBER double pattern(double along, double range) const {
         const double off = along / (range * static_cast<double>(width));
         return numeric::exp(-5.545177444479562 * off * off);
     }
@@ -23590,7 +24158,7 @@ struct horizontal_beam {
     /// moves by less than a part of the footprint. Gaussian patterns make both Gaussian: of 0.6006 range x width, and
     /// of 0.2650 wavelength / width.
     /// @param wavelength  of the sound, metres: 0.0033 at 450 kHz
-    double speckle_length(double range, double wavelength) const {
+    INSONIFY_TAGGED double speckle_length(double range, double wavelength) const {
         const double by_footprint = 0.6005612 * range * static_cast<double>(width);
         const double by_phase = 0.2650104 * wavelength / static_cast<double>(width);
         return by_footprint * by_phase / numeric::square_root(by_footprint * by_footprint + by_phase * by_phase);
@@ -23600,13 +24168,13 @@ struct horizontal_beam {
 /// The pulse: every echo lasts as long, centred where its range is.
 struct pulse {
     float length = 0.03f;  ///< metres of range: half of the speed of sound times the duration, or over twice the band
-    double duration() const { return static_cast<double>(length); }
+    INSONIFY_MEMBER double duration() const { return static_cast<double>(length); }
 };
 
 /// What the receiver hears where nothing is: a mean intensity. Under `speckle` it fluctuates as noise does.
 struct noise_floor {
     float intensity = 1e-3f;
-    double noise() const { return static_cast<double>(intensity); }
+    INSONIFY_MEMBER double noise() const { return static_cast<double>(intensity); }
 };
 
 /// The flat bottom that a receiver may expect at a range, before its own gain.
@@ -23623,7 +24191,7 @@ struct time_varied_gain {
     float absorption_per_km = 0;  ///< decibels, one way, as in `absorption`
     float decibels = 0;           ///< at 1 m
     template <class LevelAt>
-    double gain(const flat_echo& e, const LevelAt&) const {
+    INSONIFY_MEMBER double gain(const flat_echo& e, const LevelAt&) const {
         return numeric::pow(e.range, 0.1 * static_cast<double>(spreading)) *
                from_decibels(static_cast<double>(decibels) + 0.002 * static_cast<double>(absorption_per_km) * e.range);
     }
@@ -23635,13 +24203,15 @@ struct time_varied_gain {
 struct level_gain {
     float steepest = static_cast<float>(numeric::pi / 4);  ///< radians, below pi / 2
     template <class LevelAt>
-    double gain(const flat_echo& e, const LevelAt& level_at) const {
+    INSONIFY_TAGGED double gain(const flat_echo& e, const LevelAt& level_at) const {
         const double limit = numeric::sin_cos(static_cast<double>(steepest)).sine;
         const double sine = e.altitude / e.range;
         const double level = level_at(sine > 0 && sine < limit ? sine : limit);
         return level > 0 ? 1 / level : 0;
     }
 };
+
+inline namespace INSONIFY_FLAGS {
 
 // Before anything is recorded, each part is checked by the `validate` that its type brings along; a user's own too.
 // They throw invalid_input for a value out of its range.
@@ -23680,7 +24250,9 @@ inline void validate(const level_gain& g) {
                     g.steepest, "above 0 and below pi / 2");
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 template <class P>
 concept direction_part = requires(const P& p) {
     { p.over_direction(1.0, 0.0) } -> std::convertible_to<double>;
@@ -23705,7 +24277,7 @@ template <class P>
 concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(double)) {
     { p.gain(e, level) } -> std::convertible_to<double>;
 };
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// A part of the sonar equation: one of the above, or a user's own type with one of their functions.
 template <class P>
@@ -23726,10 +24298,11 @@ class sonar_equation {
     static_assert((int{detail::pulse_part<Parts>} + ... + 0) <= 1, "a sonar has one pulse");
 
     sonar_equation() = default;
-    explicit(sizeof...(Parts) == 1) sonar_equation(Parts... parts) requires(sizeof...(Parts) > 0) : parts_(parts...) {}
+    INSONIFY_MEMBER explicit(sizeof...(Parts) == 1) sonar_equation(Parts... parts) requires(sizeof...(Parts) > 0)
+        : parts_(parts...) {}
 
     /// Power along a ray, given by its unit vector.
-    double over_direction(double across, double down) const {
+    INSONIFY_TAGGED double over_direction(double across, double down) const {
         return product([&](const auto& p) {
             if constexpr (detail::direction_part<decltype(p)>)
                 return static_cast<double>(p.over_direction(across, down));
@@ -23738,7 +24311,7 @@ class sonar_equation {
         });
     }
     /// Power from a range, for a ping that stands for `spacing` metres of track.
-    double over_range(double range, double spacing) const {
+    INSONIFY_TAGGED double over_range(double range, double spacing) const {
         return product([&](const auto& p) {
             if constexpr (detail::range_part<decltype(p)>)
                 return static_cast<double>(p.over_range(range));
@@ -23750,7 +24323,7 @@ class sonar_equation {
     }
     /// What a receiver multiplies by. `law` is that of the bottom.
     template <class Law>
-    double gain(const flat_echo& e, const Law& law) const {
+    INSONIFY_TAGGED double gain(const flat_echo& e, const Law& law) const {
         const auto level_at = [&](double sine) {
             const double cosine = numeric::square_root(1 - sine * sine);
             const double length = e.counts_time ? e.bin / cosine : e.bin;
@@ -23765,7 +24338,7 @@ class sonar_equation {
         });
     }
     /// Mean intensity of what is heard where nothing is.
-    double noise() const {
+    INSONIFY_TAGGED double noise() const {
         double sum = 0;
         for_each([&](const auto& p) {
             if constexpr (detail::noise_part<decltype(p)>) sum += p.noise();
@@ -23774,13 +24347,13 @@ class sonar_equation {
     }
     /// Calls `fn` with each part.
     template <class Fn>
-    void for_each(const Fn& fn) const {
+    INSONIFY_MEMBER void for_each(const Fn& fn) const {
         std::apply([&](const auto&... p) { (fn(p), ...); }, parts_);
     }
 
   private:
     template <class Fn>
-    double product(const Fn& factor) const {
+    INSONIFY_MEMBER double product(const Fn& factor) const {
         return std::apply([&](const auto&... p) { return (factor(p) * ... * 1.0); }, parts_);
     }
 
@@ -23815,17 +24388,18 @@ struct record_options {
     /// The same options with another sonar equation, another law, or without labels:
     /// `record_options<>{}.with(sonar_equation{pulse{}, level_gain{}})`.
     template <class... Parts>
-    record_options<Labels, Law, sonar_equation<Parts...>> with(const sonar_equation<Parts...>& other) const {
+    INSONIFY_MEMBER record_options<Labels, Law, sonar_equation<Parts...>> with(
+        const sonar_equation<Parts...>& other) const {
         return {law, other, cell};
     }
     template <backscatter_law Other>
-    record_options<Labels, Other, Equation> with(const Other& other) const {
+    INSONIFY_MEMBER record_options<Labels, Other, Equation> with(const Other& other) const {
         return {other, equation, cell};
     }
-    record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
+    INSONIFY_MEMBER record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// As fine as the picture: a bin or a ping's spacing, whichever is longer. Where pictures are coarse, a fiftieth of the
 /// altitude, so that relief and targets aren't missed; but never finer than 1/2048 of the range.
@@ -24054,7 +24628,9 @@ image<T> rows_of(const image<T>& source, int first, int count) {
     return image<T>(source.view().part(0, first, source.width(), count));
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Records a track of any shape: pings may turn, rise and sink.
 ///
@@ -24119,6 +24695,8 @@ frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
     return out;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -24131,6 +24709,8 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
+
+inline namespace INSONIFY_FLAGS {
 
 /// The picture with left and right exchanged: what grew to the right grows to the left.
 template <class T>
@@ -24216,6 +24796,8 @@ frame<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
     return both_sides(port, render(s, rig, options, ex));
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -24236,6 +24818,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// The fluctuation of a sediment, as the table has it.
 constexpr speckle_law speckle_of(seabed::sediment s) {
     return seabed::properties_of(seabed::type_of(s)).speckle;
@@ -24255,6 +24839,8 @@ constexpr speckle_laws default_speckle() {
     return laws;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// Speckle by type of seabed. The defaults are illustrative: relief that is drawn makes its own fluctuations, so
 /// ripples take plain Rayleigh, and a texture stands for structure finer than the seabed is sampled.
 struct seabed_speckle {
@@ -24267,7 +24853,7 @@ struct seabed_speckle {
     std::uint64_t seed = 1;
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Random streams; changing one changes the noise of every seed.
 enum class speckle_stream : std::uint32_t { field = 0x73706B00, texture = 0x73706B02, choice = 0x73706B04 };
@@ -24371,7 +24957,9 @@ inline void validate(const speckle_law& law) {
     require(law.steady >= 0 && numeric::is_finite(law.steady), "speckle_law.steady", law.steady, "0 or more");
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Makes an image of intensities fluctuate.
 ///
@@ -24469,6 +25057,8 @@ frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex
     return r;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -24488,6 +25078,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// Levels in decibels that are added to a bottom's; all of them 0 is none.
 struct bottom_tone {
     float drift = 0;            ///< rms of what drifts, 0 to 30
@@ -24505,7 +25097,9 @@ struct bottom_tone {
     bool is_none() const { return drift == 0 && streaks == 0 && patches == 0; }
 };
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void validate(const bottom_tone& t) {
     const auto level = [](const char* name, float v) { require(v >= 0 && v <= 30, name, v, "0 to 30 dB"); };
@@ -24581,7 +25175,9 @@ class tone_sampler {
     double scale_ = 0, threshold_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// The level that a tone adds at a position, decibels.
 /// @throws invalid_input for a parameter out of its range, or a position that is not finite
@@ -24623,6 +25219,8 @@ frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const b
     return r;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -24657,19 +25255,19 @@ struct instrument {
     float vertical_beam;           ///< width, radians
     float tilt;                    ///< of the vertical beam's axis below the horizon, radians
 
-    float wavelength() const { return 1500 / frequency; }
-    horizontal_beam horizontal() const { return {beam}; }
-    bool is_synthetic_aperture() const { return along_track_resolution > 0; }
+    INSONIFY_MEMBER float wavelength() const { return 1500 / frequency; }
+    INSONIFY_MEMBER horizontal_beam horizontal() const { return {beam}; }
+    INSONIFY_MEMBER bool is_synthetic_aperture() const { return along_track_resolution > 0; }
     /// Metres along the track that one pixel mixes at a slant range.
-    double along_track(double slant_range) const {
+    INSONIFY_MEMBER double along_track(double slant_range) const {
         return is_synthetic_aperture() ? static_cast<double>(along_track_resolution)
                                        : slant_range * static_cast<double>(beam);
     }
     /// Metres over which the correlation of speckle intensities falls to 1 / e, across the track: 0.516 of the
     /// resolution for a pulse with a flat band, whose correlation is the square of sin(u) / u.
-    double grain_across() const { return 0.516 * static_cast<double>(range_resolution); }
+    INSONIFY_MEMBER double grain_across() const { return 0.516 * static_cast<double>(range_resolution); }
     /// The same along the track: see horizontal_beam::speckle_length.
-    double grain_along(double slant_range) const {
+    INSONIFY_MEMBER double grain_along(double slant_range) const {
         return is_synthetic_aperture() ? 0.516 * static_cast<double>(along_track_resolution)
                                        : horizontal().speckle_length(slant_range, static_cast<double>(wavelength()));
     }
@@ -24696,6 +25294,8 @@ inline constexpr std::array<instrument, 5> all{side_scan_450, side_scan_600, sid
 
 }  // namespace instruments
 
+inline namespace INSONIFY_FLAGS {
+
 /// An instrument by its name.
 /// @throws invalid_input for a name that none has
 inline const instrument& instrument_named(std::string_view name) {
@@ -24705,6 +25305,8 @@ inline const instrument& instrument_named(std::string_view name) {
                                 "', expected side_scan_450, side_scan_600, side_scan_900, side_scan_1800 or "
                                 "synthetic_aperture"));
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -24728,6 +25330,8 @@ struct occlusion_bounds {
     double reach = 8;  ///< how far towards the light the seabed is sampled, at most, in lengths of the longer side
 };
 
+inline namespace INSONIFY_FLAGS {
+
 /// The light of a rig, in the world.
 inline shadow::any_light light_of(const overhead& rig) {
     const overhead_geometry view(rig);
@@ -24738,11 +25342,15 @@ inline shadow::any_light light_of(const overhead& rig) {
     return shadow::point_light{numeric::product(to_world, view.light_position()) + glm::dvec3(rig.position, 0)};
 }
 
+}  // namespace INSONIFY_FLAGS
+
 /// How much light points get, and from what they are shaded.
 struct point_light_shares {
     std::vector<float> lit;             ///< 0 to 1
     std::vector<std::uint16_t> shadow;  ///< as in labels::shadow: 0, an instance, or labels::by_seabed
 };
+
+inline namespace INSONIFY_FLAGS {
 
 /// The casters of a scene under one light. It holds the targets' meshes; the scene may go.
 /// @param Occlusion  what a shadow policy builds
@@ -24902,6 +25510,8 @@ auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusio
     return scene_occlusion<built>(s, light, within, policy, ex);
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -24921,7 +25531,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void check_decibels(const char* name, float value) {
     require(value >= 0 && value <= 60, name, value, "0 to 60 dB");
@@ -24974,7 +25584,7 @@ class banding_law {
     float factor_ = 1;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// The error that time-varied gain leaves across range, in decibels: a slope, and a smooth random curve. Factors of a
 /// column are the same in all rows.
@@ -24987,7 +25597,7 @@ struct range_gain_error {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    auto pass(image_view<const float> picture) const {
+    INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
         detail::check_decibels("range_gain_error.rms", rms);
         detail::check_length("range_gain_error.length", length);
         detail::require(slope >= -60 && slope <= 60, "range_gain_error.slope", slope, "-60 to 60 dB");
@@ -25013,7 +25623,7 @@ struct ping_banding {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::check_decibels("ping_banding.drift", drift);
         detail::check_length("ping_banding.length", length);
         detail::check_decibels("ping_banding.jitter", jitter);
@@ -25041,6 +25651,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace range_geometry {
+
+inline namespace INSONIFY_FLAGS {
 
 /// Distance from the sonar to a point.
 inline double slant_range(double ground, double altitude, double height = 0) {
@@ -25100,6 +25712,8 @@ inline double along_track_footprint(double slant, double beam_width) {
     return slant * beam_width;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace range_geometry
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -25113,6 +25727,8 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
+
+inline namespace INSONIFY_FLAGS {
 
 /// Lays a recording out on a level bottom at the datum: the water column goes, what is raised stays shifted towards the
 /// sonar by its layover. Intensities are interpolated linearly between the centres of bins and labels are those of the
@@ -25168,6 +25784,8 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
     return out;
 }
 
+}  // namespace INSONIFY_FLAGS
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -25186,7 +25804,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// Of a water_column.
 template <class Water>
@@ -25232,7 +25850,7 @@ class water_law {
     double begins_ = 0;
 };
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
 
 /// A filter that adds mean intensities by slant range; speckle on top makes them fluctuate. Rows are pings and columns
 /// bins of equal slant range.
@@ -25256,7 +25874,7 @@ struct water_column {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for a parameter out of its range
-    auto pass(image_view<const float> picture) const {
+    INSONIFY_TAGGED auto pass(image_view<const float> picture) const {
         using detail::require;
         const auto at_least_0 = [](const char* name, float v) {
             require(v >= 0 && numeric::is_finite(v), name, v, "0 or more");
@@ -25303,42 +25921,64 @@ INSONIFY_ARITHMETIC_END
 #if defined(INSONIFY_COMPILED)
 
 #if defined(INSONIFY_IMPLEMENTATION)
-#define INSONIFY_ONCE template
-#else
-#define INSONIFY_ONCE extern template
 #endif
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace seabed::inline INSONIFY_ONCE {
 
-#define INSONIFY_PAINT(Shadow, Labels)                                                                      \
-    INSONIFY_ONCE frame<Labels> paint(const scene&, const overhead&, const render_options<Shadow, Labels>&, \
-                                      executor_ref);
-INSONIFY_PAINT(shadow::none, labels)
-INSONIFY_PAINT(shadow::none, no_labels)
-INSONIFY_PAINT(shadow::exact, labels)
-INSONIFY_PAINT(shadow::exact, no_labels)
-#undef INSONIFY_PAINT
-INSONIFY_ONCE visibility see(const scene&, const overhead&, const render_options<shadow::none, labels>&, executor_ref);
+std::shared_ptr<const detail::model_interface> hold(flat m);
+std::shared_ptr<const detail::model_interface> hold(mud m);
+std::shared_ptr<const detail::model_interface> hold(ripples m);
+std::shared_ptr<const detail::model_interface> hold(rock m);
 
-}  // namespace detail
+}  // namespace seabed::inline INSONIFY_ONCE
 
-namespace seabed {
+#if defined(INSONIFY_IMPLEMENTATION)
 
-#define INSONIFY_SEABED(Model)               \
-    INSONIFY_ONCE struct any::holder<Model>; \
-    INSONIFY_ONCE struct any_sampler::prepared<Model>;
-INSONIFY_SEABED(flat)
-INSONIFY_SEABED(mud)
-INSONIFY_SEABED(ripples)
-INSONIFY_SEABED(rock)
-#undef INSONIFY_SEABED
+namespace seabed::inline INSONIFY_ONCE {
 
-}  // namespace seabed
+std::shared_ptr<const detail::model_interface> hold(flat m) {
+    return seabed::hold<flat>(m);
+}
+std::shared_ptr<const detail::model_interface> hold(mud m) {
+    return seabed::hold<mud>(m);
+}
+std::shared_ptr<const detail::model_interface> hold(ripples m) {
+    return seabed::hold<ripples>(m);
+}
+std::shared_ptr<const detail::model_interface> hold(rock m) {
+    return seabed::hold<rock>(m);
+}
+
+}  // namespace seabed::inline INSONIFY_ONCE
+
+namespace detail::inline INSONIFY_ONCE {
+
+frame<labels> paint(const scene& s, const overhead& rig, built_in<shadow::exact, labels> options, executor_ref ex) {
+    return detail::paint<>(s, rig, options, ex);
+}
+frame<labels> paint(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex) {
+    return detail::paint<>(s, rig, options, ex);
+}
+frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::exact, no_labels> options,
+                       executor_ref ex) {
+    return detail::paint<>(s, rig, options, ex);
+}
+frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::none, no_labels> options,
+                       executor_ref ex) {
+    return detail::paint<>(s, rig, options, ex);
+}
+visibility see(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex) {
+    return detail::see<>(s, rig, options, ex);
+}
+
+}  // namespace detail::inline INSONIFY_ONCE
+
+#endif
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
-#undef INSONIFY_ONCE
 #endif

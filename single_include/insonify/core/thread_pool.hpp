@@ -23,7 +23,7 @@ class thread_pool {
     /// `threads()` says how many.
     /// @param threads  how many threads share the work, the caller included; 0 means one per hardware thread
     /// @throws invalid_input above 4096
-    explicit thread_pool(int threads = 0) {
+    INSONIFY_TAGGED explicit thread_pool(int threads = 0) {
         detail::require(threads >= 0 && threads <= 4096, "threads", threads, "0 to 4096");
         const unsigned hardware = std::thread::hardware_concurrency();
         const int total = threads > 0 ? threads : hardware > 0 ? static_cast<int>(hardware) : 1;
@@ -31,7 +31,7 @@ class thread_pool {
         start(total - 1);
     }
 
-    ~thread_pool() {
+    INSONIFY_TAGGED ~thread_pool() {
         {
             const std::lock_guard lock(mutex_);
             stopping_ = true;
@@ -43,10 +43,10 @@ class thread_pool {
     thread_pool(const thread_pool&) = delete;
     thread_pool& operator=(const thread_pool&) = delete;
 
-    int threads() const { return static_cast<int>(workers_.size()) + 1; }
+    INSONIFY_MEMBER int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
     template <std::invocable<std::size_t> Fn>
-    void bulk(std::size_t count, Fn&& fn) {
+    INSONIFY_TAGGED void bulk(std::size_t count, Fn&& fn) {
         if (count == 0) return;
         if (workers_.empty() || count == 1 || busy_.exchange(true)) return serial_executor{}.bulk(count, fn);
 
@@ -83,7 +83,7 @@ class thread_pool {
         std::exception_ptr error{};
     };
 
-    static void run(job& work) {
+    INSONIFY_TAGGED static void run(job& work) {
         for (std::size_t i; (i = work.next.fetch_add(1, std::memory_order_relaxed)) < work.count;) {
 #if defined(__cpp_exceptions)
             try {
@@ -101,7 +101,7 @@ class thread_pool {
     /// Stays awake for a few tens of microseconds, or until it is worth going to look. A picture is made in some twenty
     /// steps, and to fall asleep and be woken between two of them takes longer than most of the gaps.
     template <class Awaited>
-    static void watch(const Awaited& has_come) {
+    INSONIFY_TAGGED static void watch(const Awaited& has_come) {
 #if defined(__SSE2__)
         for (int i = 0; i < 2000 && !has_come(); ++i) __builtin_ia32_pause();
 #else
@@ -110,7 +110,7 @@ class thread_pool {
     }
 
     /// An exception past this point would destroy members that running workers use.
-    void start(int workers) {
+    INSONIFY_TAGGED void start(int workers) {
 #if defined(__cpp_exceptions)
         try {
             for (int i = 0; i < workers; ++i) workers_.emplace_back([this] { serve(); });
@@ -121,7 +121,7 @@ class thread_pool {
 #endif
     }
 
-    void serve() {
+    INSONIFY_TAGGED void serve() {
         std::size_t seen = 0;
         for (;;) {
             watch([&] { return generation_.load(std::memory_order_relaxed) != seen; });

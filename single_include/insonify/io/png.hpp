@@ -17,7 +17,7 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void write_png_bytes(const std::string& path, const void* pixels, int width, int height, int channels,
                             std::ptrdiff_t row_bytes) {
@@ -39,7 +39,9 @@ inline void write_png_bytes(const std::string& path, const void* pixels, int wid
     file.commit();
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Writes an 8-bit gray or colour PNG, all or nothing. Floats are quantized: 1 is white, to the nearest of 256 levels.
 /// stb's own switches (`stbi_write_png_compression_level` and others) apply.
@@ -54,6 +56,8 @@ inline void write_png(const std::string& path, image_view<const rgb8> source) {
 inline void write_png(const std::string& path, image_view<const float> source) {
     write_png(path, map_pixels(source, quantize<std::uint8_t>));
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

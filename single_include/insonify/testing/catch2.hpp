@@ -19,6 +19,8 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// Catch2's form of a picture matcher.
 template <class Matcher>
 class catch_picture_matcher : public INSONIFY_CATCH_MATCHER {
@@ -42,6 +44,8 @@ template <class Compare>
 auto matches(picture_matcher<Compare> matcher) {
     return catch_picture_matcher<picture_matcher<Compare>>(std::move(matcher));
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

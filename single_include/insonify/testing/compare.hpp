@@ -31,7 +31,7 @@ struct picture_comparison {
     explicit operator bool() const { return message.empty(); }
 };
 
-namespace detail {
+namespace detail::inline INSONIFY_FLAGS {
 
 /// A pixel's channels as doubles.
 template <class Pixel>
@@ -72,7 +72,9 @@ inline std::string size_text(int width, int height) {
     return to_text(width) + " x " + to_text(height) + " pixels";
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// Compares a picture with the expected one, pixel by pixel.
 /// @throws invalid_input for a tolerance below 0 or NaN, or a share above 1
@@ -143,6 +145,8 @@ image<rgb8> difference_picture(const image<Pixel>& found, const image<Pixel>& ex
         }
     return picture;
 }
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -19,13 +19,17 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+inline namespace INSONIFY_FLAGS {
+
 /// Whether the environment variable INSONIFY_UPDATE_GOLDEN is set to anything but nothing or 0.
 inline bool golden_update_requested() {
     const char* const value = std::getenv("INSONIFY_UPDATE_GOLDEN");
     return value != nullptr && value[0] != '\0' && std::string(value) != "0";
 }
 
-namespace detail {
+}  // namespace INSONIFY_FLAGS
+
+namespace detail::inline INSONIFY_FLAGS {
 
 /// The ending that a netpbm file of such pixels has.
 template <class Pixel>
@@ -47,7 +51,9 @@ std::string with_files(std::string message, const std::string& stem, const image
     return message + " and " + difference;
 }
 
-}  // namespace detail
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
 
 /// A matcher of GoogleTest and GoogleMock (1.11 and later), which needs none of their headers: EXPECT_THAT(picture, m).
 template <class Compare>
@@ -127,6 +133,8 @@ struct golden_pictures {
             "the golden picture \"" + name + "\""};
     }
 };
+
+}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
