@@ -3,8 +3,6 @@
 //
 //   Yours to set
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
-//     INSONIFY_KEEP_MEMORY    1 (default) or 0, the default under sanitizers: no thread keeps memory for its next
-//                             picture, all of it comes from operator new
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
 //     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return
 //     INSONIFY_COMPILED       the compiled form: this unit calls the code that one unit of the program compiles,
@@ -117,15 +115,6 @@
 #endif
 #endif
 
-// See core/detail/spare_memory.hpp. The sanitizers watch memory that comes and goes, so for them it does.
-#if !defined(INSONIFY_KEEP_MEMORY)
-#if defined(INSONIFY_SANITIZED)
-#define INSONIFY_KEEP_MEMORY 0
-#else
-#define INSONIFY_KEEP_MEMORY 1
-#endif
-#endif
-
 #if INSONIFY_WHOLE_KERNELS
 #define INSONIFY_TARGET(isa) __attribute__((target(isa), flatten, noinline))
 #define INSONIFY_INLINE inline __attribute__((always_inline))
@@ -196,17 +185,9 @@
 #define INSONIFY_TAG_EXCEPTIONS _noexcept
 #endif
 
-#if INSONIFY_KEEP_MEMORY
-#define INSONIFY_TAG_MEMORY
-#else
-#define INSONIFY_TAG_MEMORY _new
-#endif
-
 #define INSONIFY_ABI_OF(major, minor, patch) v##major##_##minor##_##patch
 #define INSONIFY_ABI_NAME(major, minor, patch) INSONIFY_ABI_OF(major, minor, patch)
-#define INSONIFY_ABI                                                                                         \
-    INSONIFY_JOIN(INSONIFY_ABI_NAME(INSONIFY_VERSION_MAJOR, INSONIFY_VERSION_MINOR, INSONIFY_VERSION_PATCH), \
-                  INSONIFY_TAG_MEMORY)
+#define INSONIFY_ABI INSONIFY_ABI_NAME(INSONIFY_VERSION_MAJOR, INSONIFY_VERSION_MINOR, INSONIFY_VERSION_PATCH)
 #define INSONIFY_FLAGS                                                                                      \
     INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SIMD, INSONIFY_TAG_TARGET), INSONIFY_TAG_SPEED), \
                   INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SANITIZED, INSONIFY_TAG_ASSERT), INSONIFY_TAG_EXCEPTIONS))

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <insonify/config.hpp>
+#include <insonify/core/context.hpp>
 #include <insonify/core/error.hpp>
 #include <insonify/core/executor.hpp>
 #include <insonify/core/image.hpp>

@@ -1,7 +1,7 @@
 // How long a frame takes: frame [threads] [cells] [pixels] prints the median of nine, in milliseconds, part by part.
 //
 // The scene is the reference workload's: a rippled seabed of cells x cells and a cylinder, seen from 10 m by a camera
-// of 120 degrees, lit at 6 degrees; everything is made anew in every frame.
+// of 120 degrees, lit at 6 degrees; everything but memory is made anew in every frame.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 
@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
     const int cells = argc > 2 ? std::atoi(argv[2]) : 1024;
     const int pixels = argc > 3 ? std::atoi(argv[3]) : 2048;
     in::thread_pool pool(threads);
+    in::context context(pool);
 
     in::scene scene;
     scene.seabed = in::seabed::ripples{};
@@ -59,13 +60,15 @@ int main(int argc, char** argv) {
                 }));
     const auto frame_ms = [&]<class Shadow, class Labels>(in::render_options<Shadow, Labels> options) {
         options.cells = cells;
-        return median_ms([&] { in::render(scene, rig, options, pool); });
+        return median_ms([&] { in::render(scene, rig, options, context); });
     };
     using in::render_options, in::no_labels;
     namespace shadow = in::shadow;
     std::printf("  frame, no shadows       %7.1f ms\n", frame_ms(render_options<shadow::none, no_labels>{}));
     std::printf("  frame, shadows          %7.1f ms\n", frame_ms(render_options<shadow::exact, no_labels>{}));
     std::printf("  frame, shadows, labels  %7.1f ms\n", frame_ms(render_options<>{}));
+    std::printf("    without a context     %7.1f ms\n",
+                median_ms([&] { in::render(scene, rig, render_options<>{.cells = cells}, pool); }));
     std::printf("  frame with labels, shadows by a map / exact\n");
     const auto by_policy = [&](const char* bottom_name) {
         std::printf("    %-8s %7.1f / %.1f ms\n", bottom_name, frame_ms(render_options<shadow::map>{}),

@@ -1,6 +1,7 @@
 // How long a swath takes: swath [threads] [pings] [bins] prints the median of nine, in milliseconds, part by part.
 //
-// The scene is 40 m x 40 m of ripples with the four targets, heard from 5 m; everything is made anew in every picture.
+// The scene is 40 m x 40 m of ripples with the four targets, heard from 5 m; everything but memory is made anew in
+// every picture.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 
@@ -29,7 +30,8 @@ void print_median(const char* what, const Fn& work) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    in::thread_pool pool(argc > 1 ? std::atoi(argv[1]) : 2);
+    in::thread_pool threads(argc > 1 ? std::atoi(argv[1]) : 2);
+    in::context context(threads);
     in::side_scan rig{.pings = argc > 2 ? std::atoi(argv[2]) : 1024, .bins = argc > 3 ? std::atoi(argv[3]) : 2048};
     rig.ping_spacing = 40.96f / static_cast<float>(rig.pings);
 
@@ -44,17 +46,18 @@ int main(int argc, char** argv) {
                                    in::horizontal_beam{},   in::pulse{},      in::level_gain{}};
     using equation = std::remove_const_t<decltype(whole)>;
     using bare = in::record_options<in::no_labels>;
-    const in::frame<> labelled = in::render(scene, rig, {}, pool);
+    const in::frame<> labelled = in::render(scene, rig, {}, context);
     std::printf("%d pings x %d bins, %llu vertices of seabed, %d threads\n", rig.pings, rig.bins,
-                static_cast<unsigned long long>(labelled.stats.seabed_samples), pool.threads());
-    print_median("picture", [&] { in::render(scene, rig, bare{}, pool); });
-    print_median("picture, labels", [&] { in::render(scene, rig, {}, pool); });
+                static_cast<unsigned long long>(labelled.stats.seabed_samples), threads.threads());
+    print_median("picture", [&] { in::render(scene, rig, bare{}, context); });
+    print_median("picture, labels", [&] { in::render(scene, rig, {}, context); });
+    print_median("picture, labels, without a context", [&] { in::render(scene, rig, {}, threads); });
     print_median("picture, labels, sonar equation", [&] {
         in::render(scene, rig, in::record_options<in::labels, in::lambert_backscatter, equation>{.equation = whole},
-                   pool);
+                   context);
     });
-    print_median("speckle on top", [&] { in::with_speckle(labelled, {}, pool); });
+    print_median("speckle on top", [&] { in::with_speckle(labelled, {}, context); });
     in::side_scan slanting = rig;
     slanting.yaw = 0.7f;
-    print_median("picture, across the lattice", [&] { in::render(scene, slanting, bare{}, pool); });
+    print_median("picture, across the lattice", [&] { in::render(scene, slanting, bare{}, context); });
 }

@@ -1,6 +1,7 @@
 // Who runs the loops. An executor is an argument, serial by default; the library starts no thread of its own.
 #pragma once
 
+#include <insonify/core/detail/block_pool.hpp>
 #include <insonify/core/error.hpp>
 
 #include <concepts>
@@ -30,6 +31,17 @@ struct serial_executor {
 template <class E>
 concept executor_argument = executor<std::remove_reference_t<E>>;
 
+namespace detail::inline INSONIFY_FLAGS {
+
+/// The scratch memory that comes with an executor: a context's, or null.
+template <class E>
+shared_pool memory_of(const E& ex) {
+    if constexpr (requires { ex.memory(); }) return ex.memory();
+    return {};
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
 /// Any executor by reference, an executor itself: what takes one is compiled once for all of them, at the price of one
 /// indirect call per run. The executor has to outlive it.
 class executor_ref {
@@ -37,9 +49,11 @@ class executor_ref {
     template <executor E>
         requires(!std::same_as<std::remove_const_t<E>, executor_ref>)
     INSONIFY_TAGGED executor_ref(E& ex)
-        : executor_(&ex), bulk_([](const void* to, std::size_t count, call_type call, const void* fn) {
+        : executor_(&ex),
+          bulk_([](const void* to, std::size_t count, call_type call, const void* fn) {
               const_cast<E*>(static_cast<const E*>(to))->bulk(count, [=](std::size_t i) { call(fn, i); });
-          }) {}
+          }),
+          memory_(detail::memory_of(ex)) {}
 
     template <std::invocable<std::size_t> Fn>
     INSONIFY_TAGGED void bulk(std::size_t count, Fn&& fn) const {
@@ -49,11 +63,14 @@ class executor_ref {
             [](const void* to, std::size_t i) { (*const_cast<function*>(static_cast<const function*>(to)))(i); }, &fn);
     }
 
+    const detail::shared_pool& memory() const { return memory_; }
+
   private:
     using call_type = void (*)(const void* fn, std::size_t i);
 
     const void* executor_;
     void (*bulk_)(const void* to, std::size_t count, call_type call, const void* fn);
+    detail::shared_pool memory_;
 };
 
 inline namespace INSONIFY_FLAGS {

@@ -34,8 +34,9 @@ class image {
     INSONIFY_MEMBER image(int width, int height, T fill = T{})
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), fill) {}
 
-    INSONIFY_MEMBER image(int width, int height, detail::uninitialized)
-        : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area()) {}
+    /// @param memory  of a context, see detail::memory_of
+    INSONIFY_MEMBER image(int width, int height, detail::uninitialized, const detail::shared_pool& memory = {})
+        : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), memory) {}
 
     /// Rows written out, for tests and small tables: `image<float>{{0, 1}, {2, 3}}`.
     /// @throws invalid_input for rows of different lengths

@@ -161,7 +161,7 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
         sweep(look_at(source), source.view(), pass, ex, origin);
         return std::move(source);
     } else {
-        image<to> out(source.width(), source.height(), uninitialized{});
+        image<to> out(source.width(), source.height(), uninitialized{}, memory_of(ex));
         sweep(look_at(source), out.view(), pass, ex, origin);
         return out;
     }
@@ -208,7 +208,7 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     } else if constexpr (measured_filter<F, pixel>) {
         if constexpr (std::same_as<pixel, float> && level_filter<F>) {
             // Levels are a quarter of what the pixels are.
-            image<std::uint8_t> levels(source.width(), source.height(), uninitialized{});
+            image<std::uint8_t> levels(source.width(), source.height(), uninitialized{}, memory_of(run.ex));
             if (const auto counted = sweep_levels(look_at(source), levels.view(), pass, run.ex, run.origin))
                 return run_stages(std::move(levels), stage.pass(*counted), run, rest...);
         }

@@ -40,6 +40,8 @@ struct uninitialized_mesh {
     uninitialized_vector<glm::vec3> positions, normals;
     uninitialized_vector<glm::uvec3> triangles;
 
+    explicit uninitialized_mesh(const shared_pool& memory) : positions(memory), normals(memory), triangles(memory) {}
+
     operator mesh_view() const { return {positions, normals, triangles}; }
 };
 

@@ -162,7 +162,7 @@ template <varying_shader VertexShader, class LaneShader, executor E>
 draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
                       std::span<const pixel_box> later, const draw_options& options, E& ex) {
     using varyings = varyings_of<VertexShader>;
-    uninitialized_vector<vertex_record<varyings>> records(m.positions.size());
+    uninitialized_vector<vertex_record<varyings>> records(m.positions.size(), memory_of(ex));
     const auto is_kept = [&](const pixel_box& tile) {
         return std::any_of(later.begin(), later.end(), [&](const pixel_box& b) { return !intersect(tile, b).empty(); });
     };

@@ -49,7 +49,8 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::uninitialized uninitialized;
-    heightfield result{.heights = image<float>(where.width, where.height, uninitialized),
+    const auto memory = insonify::detail::memory_of(ex);
+    heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
                        .origin = where.origin + where.spacing * glm::dvec2(where.first),
                        .spacing = where.spacing};
     for (const type_properties& t : legend_of(source))
@@ -57,7 +58,7 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     if (const std::optional<type> only = only_type(source))
         result.fallback = *only;
     else
-        result.types = image<type>(where.width, where.height, uninitialized);
+        result.types = image<type>(where.width, where.height, uninitialized, memory);
     validate(result);
 
     const auto prepared = prepare(source);

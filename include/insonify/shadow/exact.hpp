@@ -106,7 +106,8 @@ class exact_occlusion {
         const horizon_state& state = horizons_[caster];
         const detail::horizon_triangles triangles(c.mesh, *c.grid, *state.bounds, state.travel,
                                                   transform_point(state.to_mesh, eye));
-        answers.resize(c.mesh.triangles.size());
+        answers =
+            insonify::detail::uninitialized_vector<known>(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(state.bounds->grid().columns - 1), 32,
                     [&](std::size_t first, std::size_t last) {
                         triangles.find(static_cast<int>(first), static_cast<int>(last), answers.data());
@@ -150,9 +151,9 @@ class exact_occlusion {
             if (i % grain == 0) runs[i / grain].first = count;
             count += at[i].size();
         }
-        receivers_of all(count);
+        receivers_of all(count, insonify::detail::memory_of(ex));
         bulk_ranges(ex, at.size(), grain, [&](std::size_t first, std::size_t last) {
-            sort(at, into, first, last, all, runs[first / grain]);
+            sort(at, into, first, last, all, runs[first / grain], insonify::detail::memory_of(ex));
         });
         bulk_ranges(ex, tile_count(), 4, [&](std::size_t first, std::size_t last) {
             detail::receiver_cells cells;
@@ -277,7 +278,7 @@ class exact_occlusion {
 
     /// Puts the points of some batches where they belong among all, by tile; those that nothing lies above are lit.
     void sort(std::span<const points> at, std::span<const shares> into, std::size_t first, std::size_t last,
-              receivers_of& all, sorted_points& out) const {
+              receivers_of& all, sorted_points& out, const insonify::detail::shared_pool& memory) const {
         std::array<std::size_t, 6> plane_start{};
         std::size_t tiles = 0;
         for (std::size_t i = 0; i < planes_.size(); ++i) {
@@ -291,8 +292,8 @@ class exact_occlusion {
             most += at[part].size();
         }
         if (tiles == 0) return;
-        receivers_of found(most);
-        insonify::detail::uninitialized_vector<std::uint32_t> keys(most);
+        receivers_of found(most, memory);
+        insonify::detail::uninitialized_vector<std::uint32_t> keys(most, memory);
         out.starts.assign(tiles + 1, 0);
         for (std::size_t part = first; part < last; ++part) {
             const points& some = at[part];

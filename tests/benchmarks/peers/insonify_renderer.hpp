@@ -1,6 +1,7 @@
 // A scene by the library: its seabed and its target are two meshes of a scene, and `render` does the rest.
 #pragma once
 
+#include <insonify/core/context.hpp>
 #include <insonify/core/quantize.hpp>
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/sonar/overhead/render.hpp>
@@ -33,7 +34,7 @@ class insonify_renderer {
     }
 
     void render(std::span<std::uint8_t> out) {
-        const auto frame = in::render(scene_, rig_, options{}, pool_);
+        const auto frame = in::render(scene_, rig_, options{}, context_);
         pool_.bulk(static_cast<std::size_t>(rig_.size.y), [&](std::size_t row) {
             const auto width = static_cast<std::size_t>(rig_.size.x);
             in::quantize_row(frame.image.row(static_cast<int>(row)), out.subspan(row * width, width));
@@ -44,6 +45,7 @@ class insonify_renderer {
     using options = in::render_options<Shadow, in::no_labels>;
 
     in::thread_pool pool_;
+    in::context context_{pool_};
     in::scene scene_;
     in::overhead rig_;
 };

@@ -16,7 +16,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 template <class T, executor E>
 image<T> filled(int width, int height, T value, E& ex) {
-    image<T> result(width, height, uninitialized{});
+    image<T> result(width, height, uninitialized{}, memory_of(ex));
     if (result.empty()) return result;
     const std::size_t rows = (std::size_t{1} << 18) / (static_cast<std::size_t>(width) * sizeof(T)) + 1;
     bulk_ranges(ex, static_cast<std::size_t>(height), rows, [&](std::size_t first, std::size_t last) {

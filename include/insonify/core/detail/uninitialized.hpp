@@ -1,14 +1,13 @@
-// Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
-// many will.
-//
-// From 64 KB on it stays with the thread for the next that is as large, unless INSONIFY_KEEP_MEMORY is 0.
+// Vectors whose elements start uninitialized, for storage that is overwritten at once. Large ones may draw on a
+// context's memory.
 #pragma once
 
-#include <insonify/core/detail/spare_memory.hpp>
+#include <insonify/core/detail/block_pool.hpp>
 
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,31 +15,29 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail {
 
-/// For constructors: leave the elements unset.
+/// Constructor tag: elements are left uninitialized.
 struct uninitialized {};
 
-/// Makes values that nobody gave as `T value;` does, not as `T value{};`.
+/// Allocates blocks of 64 KB and more from a pool, all others from the heap; `construct` without arguments leaves
+/// scalars uninitialized.
 template <class T>
 class uninitialized_allocator {
   public:
     using value_type = T;
+    using propagate_on_container_move_assignment = std::true_type;
+    using propagate_on_container_swap = std::true_type;
 
     uninitialized_allocator() = default;
+    uninitialized_allocator(const shared_pool& pool) : pool_(pool) {}
     template <class U>
-    INSONIFY_MEMBER uninitialized_allocator(const uninitialized_allocator<U>&) {}
+    INSONIFY_MEMBER uninitialized_allocator(const uninitialized_allocator<U>& other) : pool_(other.pool()) {}
 
     INSONIFY_TAGGED T* allocate(std::size_t count) {
-        if (!is_block(count)) return std::allocator<T>().allocate(count);
-        spare_memory* const spare = spare_memory::mine();
-        const std::size_t bytes = count * sizeof(T);
-        return static_cast<T*>(spare != nullptr ? spare->take(bytes) : memory_block::allocate(bytes));
+        return pooled(count) ? static_cast<T*>(pool_->allocate(count * sizeof(T)))
+                             : std::allocator<T>().allocate(count);
     }
-    INSONIFY_TAGGED void deallocate(T* memory, std::size_t count) {
-        if (!is_block(count)) return std::allocator<T>().deallocate(memory, count);
-        if (spare_memory* const spare = spare_memory::mine())
-            spare->give(memory);
-        else
-            memory_block::free(memory);
+    INSONIFY_TAGGED void deallocate(T* memory, std::size_t count) noexcept {
+        pooled(count) ? pool_->deallocate(memory, count * sizeof(T)) : std::allocator<T>().deallocate(memory, count);
     }
 
     template <class U>
@@ -52,17 +49,22 @@ class uninitialized_allocator {
         std::construct_at(at, std::forward<From>(from)...);
     }
 
-    friend bool operator==(const uninitialized_allocator&, const uninitialized_allocator&) { return true; }
+    /// Copies of a vector allocate from the heap.
+    uninitialized_allocator select_on_container_copy_construction() const { return {}; }
+
+    const shared_pool& pool() const { return pool_; }
+    friend bool operator==(const uninitialized_allocator& a, const uninitialized_allocator& b) {
+        return a.pool_ == b.pool_;
+    }
 
   private:
-    static_assert(alignof(T) <= memory_block::alignment);
+    static_assert(alignof(T) <= block_pool::alignment);
 
-    INSONIFY_MEMBER static bool is_block(std::size_t count) {
-        return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T);
-    }
+    INSONIFY_MEMBER bool pooled(std::size_t count) const { return pool_ && count >= block_pool::min_bytes / sizeof(T); }
+
+    shared_pool pool_;
 };
 
-/// Elements stay unset until somebody sets them.
 template <class T>
 using uninitialized_vector = std::vector<T, uninitialized_allocator<T>>;
 

@@ -101,7 +101,7 @@ class screen_mesh {
           grid_(grid),
           projection_(grid, options.keep, std::is_same_v<Real, double>),
           cull_(options.cull),
-          vertices_(m.positions.size(), weighed) {
+          vertices_(m.positions.size(), weighed, memory_of(ex)) {
         bulk_ranges(ex, m.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
             dispatch(placement_kernel<Shader, Record, Real>{m, shader, records, projection_, vertices_, first, last},
                      options.level);

@@ -172,7 +172,7 @@ class tile_bins {
         }
         first_[tiles] = place;
 
-        runs_.resize(place);
+        runs_ = uninitialized_vector<triangle_run>(place, memory_of(ex));
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(
                 grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });

@@ -37,7 +37,8 @@ struct screen_vertices {
     uninitialized_vector<kept_vertex<Real>> kept;
     uninitialized_vector<double> inverse_w;  ///< where weights_at will be asked for
 
-    screen_vertices(std::size_t count, bool weighed) : kept(count), inverse_w(weighed ? count : 0) {}
+    screen_vertices(std::size_t count, bool weighed, const shared_pool& memory)
+        : kept(count, memory), inverse_w(weighed ? count : 0, memory) {}
 
     screen_vertex operator[](std::size_t i) const {
         const kept_vertex<Real>& v = kept[i];

@@ -87,7 +87,8 @@ struct grid_heights {
 
     template <executor E>
     grid_heights(const mesh_view& m, const lit_grid& grid, E& ex)
-        : pitch(grid.rows + 2 * around), u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch)) {
+        : pitch(grid.rows + 2 * around),
+          u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)) {
         // In squares, so that both the mesh and what is made of it are read and written in runs.
         constexpr int square = 32;
         const auto drop = static_cast<float>(grid.drop);
@@ -230,7 +231,9 @@ class horizon_bounds {
         margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
-        bounds_.resize(static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_));
+        bounds_ = insonify::detail::uninitialized_vector<horizon_bound>(
+            static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_),
+            insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(strips_), 128, [&](std::size_t from, std::size_t to) {
             insonify::detail::dispatch(
                 horizon_kernel{grid_, heights_, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,

@@ -198,8 +198,7 @@ class plane_caster {
     /// @param least_depth  nearer to a point light than this, directions are not told apart
     template <executor E>
     plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double least_depth, E& ex)
-        : triangles_(c.mesh.triangles) {
-        vertices_.resize(c.mesh.positions.size());
+        : triangles_(c.mesh.triangles), vertices_(c.mesh.positions.size(), insonify::detail::memory_of(ex)) {
         affine to_plane{{}, plane(c.placement.offset)};
         for (int i = 0; i < 3; ++i) to_plane.linear[i] = plane.direction(c.placement.linear[i]);
         bulk_ranges(ex, vertices_.size(), 16384, [&](std::size_t first, std::size_t last) {

@@ -26,12 +26,13 @@ class overhead_painter {
   public:
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
-        : scene_(s), view_(rig), options_(options) {
+        : scene_(s), view_(rig), options_(options), whole_bottom_(memory_of(ex)) {
         validate(s);
         out_.rows.step = 0;
         materials_ = resolved_bottom(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
-        out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{});  // the first draw fills it, and the depths
+        // The first draw fills it, and the depths.
+        out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
         validate_if_possible(options.law);
         require(options.cells >= 0 && options.cells <= 32768, "cells", options.cells, "0 to 32768");
         require(options.reach >= 0 && numeric::is_finite(options.reach), "reach", options.reach, "0 or more");
@@ -239,14 +240,14 @@ class overhead_painter {
     template <executor E>
     void draw_all(E& ex) {
         const overhead& rig = view_.rig();
-        image<float> depth(rig.size.x, rig.size.y, uninitialized{});
+        image<float> depth(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
         shaded_images into{out_.image};
         if constexpr (casts) {
-            rest_ = image<float>(rig.size.x, rig.size.y, uninitialized{});
+            rest_ = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
             into.rest = &rest_;
         }
         if constexpr (casts || labelled) {
-            ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, uninitialized{});
+            ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
             into.ids = &ids_;
         }
         if constexpr (labelled) into.types = &out_.labels.seabed;

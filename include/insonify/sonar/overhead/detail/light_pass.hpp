@@ -50,7 +50,8 @@ struct light_arrays {
     uninitialized_vector<float> lit;
     uninitialized_vector<std::uint32_t> caster;
 
-    explicit light_arrays(std::size_t points) : lit(points), caster(points) {}
+    explicit light_arrays(std::size_t points, const shared_pool& memory = {})
+        : lit(points, memory), caster(points, memory) {}
     shadow::shares part(std::size_t first, std::size_t count) {
         return {std::span(lit).subspan(first, count), std::span(caster).subspan(first, count)};
     }

@@ -25,8 +25,13 @@ struct point_arrays {
     uninitialized_vector<std::uint32_t> mesh, triangle;
     uninitialized_vector<std::uint32_t> pixel;  ///< the caller's number of it
 
-    explicit point_arrays(std::size_t count)
-        : x(count), y(count), z(count), mesh(count), triangle(count), pixel(count) {}
+    explicit point_arrays(std::size_t count, const shared_pool& memory = {})
+        : x(count, memory),
+          y(count, memory),
+          z(count, memory),
+          mesh(count, memory),
+          triangle(count, memory),
+          pixel(count, memory) {}
 };
 
 /// Points that are tested for shadows: those that face the light from the front of their room, those that face away

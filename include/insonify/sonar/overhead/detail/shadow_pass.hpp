@@ -63,8 +63,8 @@ class shadow_pass {
         const std::size_t count = tiles().count(), room = run * pixels;
         // What screening leaves, run by run.
         const std::size_t runs = is_collective ? (count + run - 1) / run : 0;
-        point_arrays rest_of_points(runs * room);
-        uninitialized_vector<float> direct(runs * room);
+        point_arrays rest_of_points(runs * room, memory_of(ex));
+        uninitialized_vector<float> direct(runs * room, memory_of(ex));
         std::vector<point_list> pending(runs);
         bulk_ranges(ex, count, run, [&](std::size_t first, std::size_t last) {
             point_arrays arrays(pixels);
@@ -99,7 +99,7 @@ class shadow_pass {
             }
         });
         if constexpr (is_collective) {
-            light_arrays light(runs * room);
+            light_arrays light(runs * room, memory_of(ex));
             std::vector<shadow::points> at;
             std::vector<shadow::shares> into;
             for (std::size_t i = 0; i < runs; ++i)

@@ -1,0 +1,123 @@
+// Pool of large memory blocks: what one frame frees serves the next, without the cost of fresh pages.
+//
+// The operating system maps and clears every page that it hands out, which takes up to half the time of a frame of
+// 2048 x 2048 pixels. A pool keeps freed blocks instead. It belongs to a `context`; the vectors that allocate from it
+// share it, so that images outlive their context.
+#pragma once
+
+#include <insonify/config.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <memory>
+#include <new>
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// Thread-safe: frames are often destroyed on another thread than the one that rendered them.
+class block_pool {
+  public:
+    static constexpr std::size_t min_bytes = std::size_t{1} << 16;  ///< smaller blocks are left to the allocator
+    static constexpr std::size_t alignment = 64;
+
+    block_pool() = default;
+    block_pool(const block_pool&) = delete;
+    block_pool& operator=(const block_pool&) = delete;
+    ~block_pool() { release(); }
+
+    /// A block of at least `bytes` bytes: the latest kept one of the same size class, or a new one.
+    /// @throws std::bad_alloc
+    INSONIFY_TAGGED void* allocate(std::size_t bytes) {
+        const std::size_t size = size_class(bytes);
+        void* memory = take_kept(size);
+        if (memory == nullptr) memory = ::operator new (size, std::align_val_t{alignment});
+        const guard lock(busy_);
+        in_use_ += size;
+        peak_ = (std::max)(peak_, in_use_);
+        return memory;
+    }
+
+    /// Keeps a block for later. The oldest ones are freed so that kept blocks and those in use together take at most
+    /// half as much again as was ever in use at once.
+    INSONIFY_TAGGED void deallocate(void* memory, std::size_t bytes) noexcept {
+        const std::size_t size = size_class(bytes);
+        const guard lock(busy_);
+        in_use_ -= size;
+        while (count_ > 0 && (count_ == max_blocks || kept_ + in_use_ + size > peak_ + peak_ / 2)) free_oldest();
+        if (kept_ + in_use_ + size > peak_ + peak_ / 2) return free_block(memory);
+        blocks_[count_++] = {memory, size};
+        kept_ += size;
+    }
+
+    /// Frees the kept blocks. Those in use are freed when they are deallocated.
+    INSONIFY_TAGGED void release() noexcept {
+        const guard lock(busy_);
+        while (count_ > 0) free_oldest();
+        peak_ = 0;
+    }
+
+    INSONIFY_TAGGED std::size_t kept_bytes() const noexcept {
+        const guard lock(busy_);
+        return kept_;
+    }
+
+    /// Two classes an octave: images of nearly the same size, as in a data set, share their blocks.
+    INSONIFY_TAGGED static std::size_t size_class(std::size_t bytes) {
+        const std::size_t step = std::bit_floor(bytes) / 2;
+        return (bytes + step - 1) / step * step;
+    }
+
+  private:
+    struct block {
+        void* memory;
+        std::size_t size;
+    };
+    struct guard {
+        std::atomic_flag& busy;
+
+        explicit guard(std::atomic_flag& flag) : busy(flag) {
+            while (busy.test_and_set(std::memory_order_acquire)) {
+            }
+        }
+        guard(const guard&) = delete;
+        ~guard() { busy.clear(std::memory_order_release); }
+    };
+
+    INSONIFY_TAGGED void* take_kept(std::size_t size) noexcept {
+        const guard lock(busy_);
+        for (int i = count_ - 1; i >= 0; --i)
+            if (blocks_[i].size == size) return take(i);
+        return nullptr;
+    }
+    INSONIFY_TAGGED static void free_block(void* memory) noexcept {
+        ::operator delete (memory, std::align_val_t{alignment});
+    }
+
+    INSONIFY_TAGGED void* take(int i) noexcept {
+        const block taken = blocks_[i];
+        std::copy(blocks_ + i + 1, blocks_ + count_, blocks_ + i);
+        --count_;
+        kept_ -= taken.size;
+        return taken.memory;
+    }
+    INSONIFY_TAGGED void free_oldest() noexcept { free_block(take(0)); }
+
+    static constexpr int max_blocks = 64;
+
+    mutable std::atomic_flag busy_{};
+    block blocks_[max_blocks];  ///< oldest first
+    int count_ = 0;
+    std::size_t kept_ = 0;    ///< bytes of all blocks_
+    std::size_t in_use_ = 0;  ///< bytes allocated and not yet deallocated
+    std::size_t peak_ = 0;    ///< largest in_use_ since the last release
+};
+
+using shared_pool = std::shared_ptr<block_pool>;
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
