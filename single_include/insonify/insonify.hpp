@@ -37,8 +37,6 @@
 //
 //   Yours to set
 //     INSONIFY_SIMD           1 (default where the compiler has vector extensions) or 0: everything scalar, same bytes
-//     INSONIFY_KEEP_MEMORY    1 (default) or 0, the default under sanitizers: no thread keeps memory for its next
-//                             picture, all of it comes from operator new
 //     INSONIFY_ASSERT(x)      internal invariants; default: assert(x)
 //     INSONIFY_THROW(e)       how an error leaves the library when exceptions are off; must not return
 //     INSONIFY_COMPILED       the compiled form: this unit calls the code that one unit of the program compiles,
@@ -148,15 +146,6 @@
 #endif
 #endif
 
-// See core/detail/spare_memory.hpp. The sanitizers watch memory that comes and goes, so for them it does.
-#if !defined(INSONIFY_KEEP_MEMORY)
-#if defined(INSONIFY_SANITIZED)
-#define INSONIFY_KEEP_MEMORY 0
-#else
-#define INSONIFY_KEEP_MEMORY 1
-#endif
-#endif
-
 #if INSONIFY_WHOLE_KERNELS
 #define INSONIFY_TARGET(isa) __attribute__((target(isa), flatten, noinline))
 #define INSONIFY_INLINE inline __attribute__((always_inline))
@@ -227,17 +216,9 @@
 #define INSONIFY_TAG_EXCEPTIONS _noexcept
 #endif
 
-#if INSONIFY_KEEP_MEMORY
-#define INSONIFY_TAG_MEMORY
-#else
-#define INSONIFY_TAG_MEMORY _new
-#endif
-
 #define INSONIFY_ABI_OF(major, minor, patch) v##major##_##minor##_##patch
 #define INSONIFY_ABI_NAME(major, minor, patch) INSONIFY_ABI_OF(major, minor, patch)
-#define INSONIFY_ABI                                                                                         \
-    INSONIFY_JOIN(INSONIFY_ABI_NAME(INSONIFY_VERSION_MAJOR, INSONIFY_VERSION_MINOR, INSONIFY_VERSION_PATCH), \
-                  INSONIFY_TAG_MEMORY)
+#define INSONIFY_ABI INSONIFY_ABI_NAME(INSONIFY_VERSION_MAJOR, INSONIFY_VERSION_MINOR, INSONIFY_VERSION_PATCH)
 #define INSONIFY_FLAGS                                                                                      \
     INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SIMD, INSONIFY_TAG_TARGET), INSONIFY_TAG_SPEED), \
                   INSONIFY_JOIN(INSONIFY_JOIN(INSONIFY_TAG_SANITIZED, INSONIFY_TAG_ASSERT), INSONIFY_TAG_EXCEPTIONS))
@@ -263,14 +244,134 @@ namespace insonify {
 inline namespace INSONIFY_ABI {}
 }  // namespace insonify
 
+// ------------ insonify/core/detail/block_pool.hpp -------------------------------------------------------
+// Pool of large memory blocks: what one frame frees serves the next, without the cost of fresh pages.
+//
+// The operating system maps and clears every page that it hands out, which takes up to half the time of a frame of
+// 2048 x 2048 pixels. A pool keeps freed blocks instead. It belongs to a `context`; the vectors that allocate from it
+// share it, so that images outlive their context.
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <memory>
+#include <new>
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// Thread-safe: frames are often destroyed on another thread than the one that rendered them.
+class block_pool {
+  public:
+    static constexpr std::size_t min_bytes = std::size_t{1} << 16;  ///< smaller blocks are left to the allocator
+    static constexpr std::size_t alignment = 64;
+
+    block_pool() = default;
+    block_pool(const block_pool&) = delete;
+    block_pool& operator=(const block_pool&) = delete;
+    ~block_pool() { release(); }
+
+    /// A block of at least `bytes` bytes: the latest kept one of the same size class, or a new one.
+    /// @throws std::bad_alloc
+    INSONIFY_TAGGED void* allocate(std::size_t bytes) {
+        const std::size_t size = size_class(bytes);
+        void* memory = take_kept(size);
+        if (memory == nullptr) memory = ::operator new (size, std::align_val_t{alignment});
+        const guard lock(busy_);
+        in_use_ += size;
+        peak_ = (std::max)(peak_, in_use_);
+        return memory;
+    }
+
+    /// Keeps a block for later. The oldest ones are freed so that kept blocks and those in use together take at most
+    /// half as much again as was ever in use at once.
+    INSONIFY_TAGGED void deallocate(void* memory, std::size_t bytes) noexcept {
+        const std::size_t size = size_class(bytes);
+        const guard lock(busy_);
+        in_use_ -= size;
+        while (count_ > 0 && (count_ == max_blocks || kept_ + in_use_ + size > peak_ + peak_ / 2)) free_oldest();
+        if (kept_ + in_use_ + size > peak_ + peak_ / 2) return free_block(memory);
+        blocks_[count_++] = {memory, size};
+        kept_ += size;
+    }
+
+    /// Frees the kept blocks. Those in use are freed when they are deallocated.
+    INSONIFY_TAGGED void release() noexcept {
+        const guard lock(busy_);
+        while (count_ > 0) free_oldest();
+        peak_ = 0;
+    }
+
+    INSONIFY_TAGGED std::size_t kept_bytes() const noexcept {
+        const guard lock(busy_);
+        return kept_;
+    }
+
+    /// Two classes an octave: images of nearly the same size, as in a data set, share their blocks.
+    INSONIFY_TAGGED static std::size_t size_class(std::size_t bytes) {
+        const std::size_t step = std::bit_floor(bytes) / 2;
+        return (bytes + step - 1) / step * step;
+    }
+
+  private:
+    struct block {
+        void* memory;
+        std::size_t size;
+    };
+    struct guard {
+        std::atomic_flag& busy;
+
+        explicit guard(std::atomic_flag& flag) : busy(flag) {
+            while (busy.test_and_set(std::memory_order_acquire)) {
+            }
+        }
+        guard(const guard&) = delete;
+        ~guard() { busy.clear(std::memory_order_release); }
+    };
+
+    INSONIFY_TAGGED void* take_kept(std::size_t size) noexcept {
+        const guard lock(busy_);
+        for (int i = count_ - 1; i >= 0; --i)
+            if (blocks_[i].size == size) return take(i);
+        return nullptr;
+    }
+    INSONIFY_TAGGED static void free_block(void* memory) noexcept {
+        ::operator delete (memory, std::align_val_t{alignment});
+    }
+
+    INSONIFY_TAGGED void* take(int i) noexcept {
+        const block taken = blocks_[i];
+        std::copy(blocks_ + i + 1, blocks_ + count_, blocks_ + i);
+        --count_;
+        kept_ -= taken.size;
+        return taken.memory;
+    }
+    INSONIFY_TAGGED void free_oldest() noexcept { free_block(take(0)); }
+
+    static constexpr int max_blocks = 64;
+
+    mutable std::atomic_flag busy_{};
+    block blocks_[max_blocks];  ///< oldest first
+    int count_ = 0;
+    std::size_t kept_ = 0;    ///< bytes of all blocks_
+    std::size_t in_use_ = 0;  ///< bytes allocated and not yet deallocated
+    std::size_t peak_ = 0;    ///< largest in_use_ since the last release
+};
+
+using shared_pool = std::shared_ptr<block_pool>;
+
+}  // namespace detail
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
 // ------------ insonify/core/detail/portable.hpp ---------------------------------------------------------
 // Parts of the C++20 library that some standard libraries lack: libc++ has std::bit_cast from version 14 on, floats in
 // std::from_chars from 20 on and in std::to_chars from 14 on.
 
-#include <bit>
 #include <charconv>
 #include <clocale>
-#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -456,6 +557,17 @@ struct serial_executor {
 template <class E>
 concept executor_argument = executor<std::remove_reference_t<E>>;
 
+namespace detail::inline INSONIFY_FLAGS {
+
+/// The scratch memory that comes with an executor: a context's, or null.
+template <class E>
+shared_pool memory_of(const E& ex) {
+    if constexpr (requires { ex.memory(); }) return ex.memory();
+    return {};
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
 /// Any executor by reference, an executor itself: what takes one is compiled once for all of them, at the price of one
 /// indirect call per run. The executor has to outlive it.
 class executor_ref {
@@ -463,9 +575,11 @@ class executor_ref {
     template <executor E>
         requires(!std::same_as<std::remove_const_t<E>, executor_ref>)
     INSONIFY_TAGGED executor_ref(E& ex)
-        : executor_(&ex), bulk_([](const void* to, std::size_t count, call_type call, const void* fn) {
+        : executor_(&ex),
+          bulk_([](const void* to, std::size_t count, call_type call, const void* fn) {
               const_cast<E*>(static_cast<const E*>(to))->bulk(count, [=](std::size_t i) { call(fn, i); });
-          }) {}
+          }),
+          memory_(detail::memory_of(ex)) {}
 
     template <std::invocable<std::size_t> Fn>
     INSONIFY_TAGGED void bulk(std::size_t count, Fn&& fn) const {
@@ -475,11 +589,14 @@ class executor_ref {
             [](const void* to, std::size_t i) { (*const_cast<function*>(static_cast<const function*>(to)))(i); }, &fn);
     }
 
+    const detail::shared_pool& memory() const { return memory_; }
+
   private:
     using call_type = void (*)(const void* fn, std::size_t i);
 
     const void* executor_;
     void (*bulk_)(const void* to, std::size_t count, call_type call, const void* fn);
+    detail::shared_pool memory_;
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -500,214 +617,63 @@ void bulk_ranges(E& ex, std::size_t count, std::size_t grain, Fn&& fn) {
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
-// ------------ insonify/core/detail/spare_memory.hpp -----------------------------------------------------
-// Memory that was given back, for who asks for as much next.
-//
-// The system clears every page before it hands it out, and what is freed in large pieces goes back to it. Where
-// pictures are made one after another, in new memory each time, that is up to a third of the time. So a thread holds on
-// to the blocks that it gives back; together with what it has in use, never to more than half as much again as it has
-// had in use at once. The half is for what comes and goes within a picture: without it, that would drive out what the
-// picture's peak needs.
-
-#include <algorithm>
-#include <cstdint>
-#include <cstring>
-#include <new>
-
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
+// ------------ insonify/core/context.hpp -----------------------------------------------------------------
+// Executor with scratch memory, for callers who render frame after frame.
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-namespace detail::inline INSONIFY_FLAGS {
-
-/// Blocks as they come from the system and go back to it. Before its first byte each knows how much it holds.
-struct memory_block {
-    static constexpr std::size_t least = std::size_t{1} << 16;  ///< bytes that are worth a block
-    static constexpr std::size_t page = std::size_t{1} << 21;   ///< a large one, which the system clears in one go
-    static constexpr std::size_t alignment = 64;                ///< at least
-
-    /// How much a block for so many bytes, `least` of them, holds. Sizes that differ by less than a third mostly get
-    /// the same, as those of a data set's pictures do; what nobody touches of it costs nothing.
-    static std::size_t rounded(std::size_t bytes) {
-        const std::size_t step = std::bit_floor(bytes) / 2;
-        return (bytes + step - 1) / step * step;
-    }
-    /// How much a block holds.
-    static std::size_t size_of(const void* memory) {
-        std::size_t size;
-        std::memcpy(&size, static_cast<const char*>(memory) - sizeof size, sizeof size);
-        return size;
-    }
-
-    // Not inlined: compilers that see through both doubt that what is freed is what was allocated.
-
-    /// @throws std::bad_alloc
-    INSONIFY_RARE static void* allocate(std::size_t bytes) {
-        const std::size_t size = rounded(bytes);
-        char* const memory = is_paged(size) ? map(size, bytes) : new_bytes(alignment, size, alignment);
-        std::memcpy(memory - sizeof size, &size, sizeof size);
-        return memory;
-    }
-
-    INSONIFY_RARE static void free(void* memory) noexcept {
-        const std::size_t size = size_of(memory);
-        char* const first = static_cast<char*>(memory);
-        if (!is_paged(size)) return ::operator delete (first - alignment, std::align_val_t{alignment});
-#if defined(__linux__)
-        ::munmap(first - margin, margin + size);
-#else
-        ::operator delete (first - page, std::align_val_t{page});
-#endif
-    }
-
-  private:
-    static constexpr std::size_t margin = std::size_t{1} << 16;  ///< before mapped blocks; no system's pages are larger
-
-    /// At least two large pages, of which the first and the last waste one at most.
-    static bool is_paged(std::size_t bytes) {
-        return bytes >= 2 * page;
-    }
-
-    static char* new_bytes(std::size_t before, std::size_t size, std::size_t aligned_to) {
-        return static_cast<char*>(::operator new (before + size, std::align_val_t{aligned_to})) + before;
-    }
-    /// @param used  of its bytes, from the first on
-    static char* map(std::size_t size, std::size_t used) {
-#if defined(__linux__)
-        const std::size_t all = margin + size + page;
-        void* const mapped = ::mmap(nullptr, all, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-        if (mapped == MAP_FAILED) raise(std::bad_alloc());
-        char* const start = static_cast<char*>(mapped);
-        const std::size_t past = numeric::bit_cast<std::uintptr_t>(start + margin) % page;
-        const std::size_t before = past == 0 ? 0 : page - past, after = page - before;
-        if (before > 0) ::munmap(start, before);
-        if (after > 0) ::munmap(start + all - after, after);
-        char* const memory = start + before + margin;
-#if defined(MADV_HUGEPAGE)
-        ::madvise(memory, used / page * page, MADV_HUGEPAGE);  // refused, it is memory all the same
-#endif
-        return memory;
-#else
-        static_cast<void>(used);
-        return new_bytes(page, size, page);
-#endif
-    }
-};
-
-/// The blocks that one thread keeps.
-class spare_memory {
+/// Pass one in place of the executor: large temporaries and the images of results take their memory from it and return
+/// it when they are destroyed, so that the next frame finds it mapped. Without one, every frame allocates afresh.
+///
+///     in::thread_pool pool;
+///     in::context context(pool);
+///     for (const in::scene& scene : scenes) save(in::render(scene, rig, {}, context));
+///
+/// Results are ordinary values: they may outlive the context, be destroyed on another thread, and their copies
+/// allocate afresh. The context holds at most half as much again as was in use at once.
+class context {
   public:
-    /// The calling thread's, or null at its end.
-    static spare_memory* mine() {
-        static thread_local bool is_over = false;
-        struct keeper {
-            spare_memory memory;
-            bool& over;
-            ~keeper() {
-                over = true;
-                memory.release();
-            }
-        };
-        if (is_over) return nullptr;
-        static thread_local keeper kept{{}, is_over};
-        return &kept.memory;
+    /// Runs everything on the calling thread.
+    INSONIFY_TAGGED context() : context(serial()) {}
+    /// @param ex  runs the loops; has to outlive the context
+    template <executor E>
+        requires(!std::same_as<std::remove_const_t<E>, context>)
+    INSONIFY_TAGGED explicit context(E& ex) : executor_(ex), memory_(std::make_shared<detail::block_pool>()) {}
+
+    ~context() { release(); }
+    context(const context&) = delete;
+    context& operator=(const context&) = delete;
+
+    template <std::invocable<std::size_t> Fn>
+    INSONIFY_TAGGED void bulk(std::size_t count, Fn&& fn) const {
+        executor_.bulk(count, fn);
     }
 
-    /// Memory for so many bytes: of 4 MB and more, at the beginning of a large page. It may hold twice as many.
-    /// @throws std::bad_alloc
-    void* take(std::size_t bytes) {
-        const std::size_t least = memory_block::rounded(bytes);
-        const int spare = closest(least);
-        void* memory = nullptr;
-        if (spare < count_) {
-            memory = drop(spare);
-        } else {
-            const std::size_t most = (std::max)(most_, in_use_ + least);
-            while (count_ > 0 && kept_ + in_use_ + least > limit(most)) free(0);
-            memory = memory_block::allocate(bytes);
-        }
-        in_use_ += memory_block::size_of(memory);
-        most_ = (std::max)(most_, in_use_);
-        return memory;
-    }
+    /// Frees the memory that no image uses.
+    INSONIFY_TAGGED void release() noexcept { memory_->release(); }
+    /// Bytes that wait for the next frame.
+    INSONIFY_TAGGED std::size_t kept_bytes() const noexcept { return memory_->kept_bytes(); }
 
-    /// Takes back what `take`, of any thread, gave.
-    void give(void* memory) noexcept {
-        const std::size_t size = memory_block::size_of(memory);
-        in_use_ -= (std::min)(in_use_, size);
-        if (count_ == most_blocks || kept_ + in_use_ + size > limit(most_)) return memory_block::free(memory);
-        blocks_[count_++] = {memory, size};
-        kept_ += size;
-    }
-
-    /// Bytes that are waiting.
-    std::size_t kept() const { return kept_; }
-
-    void release() noexcept {
-        while (count_ > 0) free(0);
-        most_ = in_use_;
-    }
+    const detail::shared_pool& memory() const { return memory_; }
 
   private:
-    struct block {
-        void* memory;
-        std::size_t size;
-    };
-
-    static std::size_t limit(std::size_t most) { return most + most / 2; }
-
-    /// The smallest block of so many bytes to twice as many; `count_` if there is none.
-    int closest(std::size_t least) const {
-        int best = count_;
-        for (int i = 0; i < count_; ++i) {
-            const std::size_t size = blocks_[i].size;
-            if (size >= least && size <= 2 * least && (best == count_ || size < blocks_[best].size)) best = i;
-        }
-        return best;
-    }
-    void free(int i) noexcept { memory_block::free(drop(i)); }
-    void* drop(int i) noexcept {
-        const block dropped = blocks_[i];
-        std::copy(blocks_ + i + 1, blocks_ + count_, blocks_ + i);
-        --count_;
-        kept_ -= dropped.size;
-        return dropped.memory;
+    INSONIFY_TAGGED static const serial_executor& serial() {
+        static constexpr serial_executor instance;
+        return instance;
     }
 
-    static constexpr int most_blocks = 64;
-    block blocks_[most_blocks]{};  ///< who waits longest first
-    int count_ = 0;
-    std::size_t kept_ = 0;    ///< bytes of all blocks
-    std::size_t in_use_ = 0;  ///< taken by this thread and not given back to it
-    std::size_t most_ = 0;    ///< that was in use at once
+    executor_ref executor_;
+    detail::shared_pool memory_;
 };
-
-}  // namespace detail::inline INSONIFY_FLAGS
-
-inline namespace INSONIFY_FLAGS {
-
-/// Gives back to the system what the calling thread has kept of memory for its next picture. A thread keeps blocks of
-/// 64 KB and more, together with what it has in use never more than half as much again as it has had in use at once;
-/// its end releases them, too.
-inline void release_memory() noexcept {
-    if (detail::spare_memory* const spare = detail::spare_memory::mine()) spare->release();
-}
-
-}  // namespace INSONIFY_FLAGS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
 // ------------ insonify/core/detail/uninitialized.hpp ----------------------------------------------------
-// Memory that is left as it comes, for what is all about to be written: not to be written twice, nor by one thread what
-// many will.
-//
-// From 64 KB on it stays with the thread for the next that is as large, unless INSONIFY_KEEP_MEMORY is 0.
+// Vectors whose elements start uninitialized, for storage that is overwritten at once. Large ones may draw on a
+// context's memory.
 
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -715,31 +681,29 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail {
 
-/// For constructors: leave the elements unset.
+/// Constructor tag: elements are left uninitialized.
 struct uninitialized {};
 
-/// Makes values that nobody gave as `T value;` does, not as `T value{};`.
+/// Allocates blocks of 64 KB and more from a pool, all others from the heap; `construct` without arguments leaves
+/// scalars uninitialized.
 template <class T>
 class uninitialized_allocator {
   public:
     using value_type = T;
+    using propagate_on_container_move_assignment = std::true_type;
+    using propagate_on_container_swap = std::true_type;
 
     uninitialized_allocator() = default;
+    uninitialized_allocator(const shared_pool& pool) : pool_(pool) {}
     template <class U>
-    INSONIFY_MEMBER uninitialized_allocator(const uninitialized_allocator<U>&) {}
+    INSONIFY_MEMBER uninitialized_allocator(const uninitialized_allocator<U>& other) : pool_(other.pool()) {}
 
     INSONIFY_TAGGED T* allocate(std::size_t count) {
-        if (!is_block(count)) return std::allocator<T>().allocate(count);
-        spare_memory* const spare = spare_memory::mine();
-        const std::size_t bytes = count * sizeof(T);
-        return static_cast<T*>(spare != nullptr ? spare->take(bytes) : memory_block::allocate(bytes));
+        return pooled(count) ? static_cast<T*>(pool_->allocate(count * sizeof(T)))
+                             : std::allocator<T>().allocate(count);
     }
-    INSONIFY_TAGGED void deallocate(T* memory, std::size_t count) {
-        if (!is_block(count)) return std::allocator<T>().deallocate(memory, count);
-        if (spare_memory* const spare = spare_memory::mine())
-            spare->give(memory);
-        else
-            memory_block::free(memory);
+    INSONIFY_TAGGED void deallocate(T* memory, std::size_t count) noexcept {
+        pooled(count) ? pool_->deallocate(memory, count * sizeof(T)) : std::allocator<T>().deallocate(memory, count);
     }
 
     template <class U>
@@ -751,17 +715,22 @@ class uninitialized_allocator {
         std::construct_at(at, std::forward<From>(from)...);
     }
 
-    friend bool operator==(const uninitialized_allocator&, const uninitialized_allocator&) { return true; }
+    /// Copies of a vector allocate from the heap.
+    uninitialized_allocator select_on_container_copy_construction() const { return {}; }
+
+    const shared_pool& pool() const { return pool_; }
+    friend bool operator==(const uninitialized_allocator& a, const uninitialized_allocator& b) {
+        return a.pool_ == b.pool_;
+    }
 
   private:
-    static_assert(alignof(T) <= memory_block::alignment);
+    static_assert(alignof(T) <= block_pool::alignment);
 
-    INSONIFY_MEMBER static bool is_block(std::size_t count) {
-        return INSONIFY_KEEP_MEMORY && count >= memory_block::least / sizeof(T);
-    }
+    INSONIFY_MEMBER bool pooled(std::size_t count) const { return pool_ && count >= block_pool::min_bytes / sizeof(T); }
+
+    shared_pool pool_;
 };
 
-/// Elements stay unset until somebody sets them.
 template <class T>
 using uninitialized_vector = std::vector<T, uninitialized_allocator<T>>;
 
@@ -845,6 +814,7 @@ class image_view {
 // ------------ insonify/core/image.hpp -------------------------------------------------------------------
 // Pixels that own their memory.
 
+#include <cstdint>
 #include <initializer_list>
 
 namespace insonify {
@@ -871,8 +841,9 @@ class image {
     INSONIFY_MEMBER image(int width, int height, T fill = T{})
         : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), fill) {}
 
-    INSONIFY_MEMBER image(int width, int height, detail::uninitialized)
-        : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area()) {}
+    /// @param memory  of a context, see detail::memory_of
+    INSONIFY_MEMBER image(int width, int height, detail::uninitialized, const detail::shared_pool& memory = {})
+        : width_(checked(width, "width")), height_(checked(height, "height")), pixels_(area(), memory) {}
 
     /// Rows written out, for tests and small tables: `image<float>{{0, 1}, {2, 3}}`.
     /// @throws invalid_input for rows of different lengths
@@ -1336,6 +1307,8 @@ INSONIFY_ARITHMETIC_END
 // Kernels write `mask ? a : b` and + - * < & on these and read the same for one lane and for eight. Lanes stay local:
 // they cross function boundaries by reference or inside always-inlined code only, because a 32-byte vector by value
 // means something else to a caller compiled without AVX.
+
+#include <cstring>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -4340,8 +4313,6 @@ INSONIFY_ARITHMETIC_END
 // The levels of what a pass makes, and how often each comes: for a filter that looks at no more than that, one sweep
 // instead of two, and a quarter of the memory.
 
-#include <atomic>
-
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
@@ -4553,7 +4524,7 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
         sweep(look_at(source), source.view(), pass, ex, origin);
         return std::move(source);
     } else {
-        image<to> out(source.width(), source.height(), uninitialized{});
+        image<to> out(source.width(), source.height(), uninitialized{}, memory_of(ex));
         sweep(look_at(source), out.view(), pass, ex, origin);
         return out;
     }
@@ -4600,7 +4571,7 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     } else if constexpr (measured_filter<F, pixel>) {
         if constexpr (std::same_as<pixel, float> && level_filter<F>) {
             // Levels are a quarter of what the pixels are.
-            image<std::uint8_t> levels(source.width(), source.height(), uninitialized{});
+            image<std::uint8_t> levels(source.width(), source.height(), uninitialized{}, memory_of(run.ex));
             if (const auto counted = sweep_levels(look_at(source), levels.view(), pass, run.ex, run.origin))
                 return run_stages(std::move(levels), stage.pass(*counted), run, rest...);
         }
@@ -5339,6 +5310,8 @@ namespace detail::inline INSONIFY_FLAGS {
 struct uninitialized_mesh {
     uninitialized_vector<glm::vec3> positions, normals;
     uninitialized_vector<glm::uvec3> triangles;
+
+    explicit uninitialized_mesh(const shared_pool& memory) : positions(memory), normals(memory), triangles(memory) {}
 
     operator mesh_view() const { return {positions, normals, triangles}; }
 };
@@ -9897,7 +9870,8 @@ inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
 template <model Model, executor_argument Executor = serial_executor>
 heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
     constexpr insonify::detail::uninitialized uninitialized;
-    heightfield result{.heights = image<float>(where.width, where.height, uninitialized),
+    const auto memory = insonify::detail::memory_of(ex);
+    heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
                        .origin = where.origin + where.spacing * glm::dvec2(where.first),
                        .spacing = where.spacing};
     for (const type_properties& t : legend_of(source))
@@ -9905,7 +9879,7 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
     if (const std::optional<type> only = only_type(source))
         result.fallback = *only;
     else
-        result.types = image<type>(where.width, where.height, uninitialized);
+        result.types = image<type>(where.width, where.height, uninitialized, memory);
     validate(result);
 
     const auto prepared = prepare(source);
@@ -10448,7 +10422,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 template <class T, executor E>
 image<T> filled(int width, int height, T value, E& ex) {
-    image<T> result(width, height, uninitialized{});
+    image<T> result(width, height, uninitialized{}, memory_of(ex));
     if (result.empty()) return result;
     const std::size_t rows = (std::size_t{1} << 18) / (static_cast<std::size_t>(width) * sizeof(T)) + 1;
     bulk_ranges(ex, static_cast<std::size_t>(height), rows, [&](std::size_t first, std::size_t last) {
@@ -11860,7 +11834,7 @@ class tile_bins {
         }
         first_[tiles] = place;
 
-        runs_.resize(place);
+        runs_ = uninitialized_vector<triangle_run>(place, memory_of(ex));
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(
                 grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });
@@ -12723,7 +12697,8 @@ struct screen_vertices {
     uninitialized_vector<kept_vertex<Real>> kept;
     uninitialized_vector<double> inverse_w;  ///< where weights_at will be asked for
 
-    screen_vertices(std::size_t count, bool weighed) : kept(count), inverse_w(weighed ? count : 0) {}
+    screen_vertices(std::size_t count, bool weighed, const shared_pool& memory)
+        : kept(count, memory), inverse_w(weighed ? count : 0, memory) {}
 
     screen_vertex operator[](std::size_t i) const {
         const kept_vertex<Real>& v = kept[i];
@@ -12975,7 +12950,7 @@ class screen_mesh {
           grid_(grid),
           projection_(grid, options.keep, std::is_same_v<Real, double>),
           cull_(options.cull),
-          vertices_(m.positions.size(), weighed) {
+          vertices_(m.positions.size(), weighed, memory_of(ex)) {
         bulk_ranges(ex, m.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
             dispatch(placement_kernel<Shader, Record, Real>{m, shader, records, projection_, vertices_, first, last},
                      options.level);
@@ -14213,7 +14188,7 @@ template <varying_shader VertexShader, class LaneShader, executor E>
 draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
                       std::span<const pixel_box> later, const draw_options& options, E& ex) {
     using varyings = varyings_of<VertexShader>;
-    uninitialized_vector<vertex_record<varyings>> records(m.positions.size());
+    uninitialized_vector<vertex_record<varyings>> records(m.positions.size(), memory_of(ex));
     const auto is_kept = [&](const pixel_box& tile) {
         return std::any_of(later.begin(), later.end(), [&](const pixel_box& b) { return !intersect(tile, b).empty(); });
     };
@@ -15155,7 +15130,8 @@ struct grid_heights {
 
     template <executor E>
     grid_heights(const mesh_view& m, const lit_grid& grid, E& ex)
-        : pitch(grid.rows + 2 * around), u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch)) {
+        : pitch(grid.rows + 2 * around),
+          u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)) {
         // In squares, so that both the mesh and what is made of it are read and written in runs.
         constexpr int square = 32;
         const auto drop = static_cast<float>(grid.drop);
@@ -15298,7 +15274,9 @@ class horizon_bounds {
         margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
-        bounds_.resize(static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_));
+        bounds_ = insonify::detail::uninitialized_vector<horizon_bound>(
+            static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_),
+            insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(strips_), 128, [&](std::size_t from, std::size_t to) {
             insonify::detail::dispatch(
                 horizon_kernel{grid_, heights_, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
@@ -15770,8 +15748,7 @@ class plane_caster {
     /// @param least_depth  nearer to a point light than this, directions are not told apart
     template <executor E>
     plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double least_depth, E& ex)
-        : triangles_(c.mesh.triangles) {
-        vertices_.resize(c.mesh.positions.size());
+        : triangles_(c.mesh.triangles), vertices_(c.mesh.positions.size(), insonify::detail::memory_of(ex)) {
         affine to_plane{{}, plane(c.placement.offset)};
         for (int i = 0; i < 3; ++i) to_plane.linear[i] = plane.direction(c.placement.linear[i]);
         bulk_ranges(ex, vertices_.size(), 16384, [&](std::size_t first, std::size_t last) {
@@ -16222,7 +16199,8 @@ class exact_occlusion {
         const horizon_state& state = horizons_[caster];
         const detail::horizon_triangles triangles(c.mesh, *c.grid, *state.bounds, state.travel,
                                                   transform_point(state.to_mesh, eye));
-        answers.resize(c.mesh.triangles.size());
+        answers =
+            insonify::detail::uninitialized_vector<known>(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(state.bounds->grid().columns - 1), 32,
                     [&](std::size_t first, std::size_t last) {
                         triangles.find(static_cast<int>(first), static_cast<int>(last), answers.data());
@@ -16266,9 +16244,9 @@ class exact_occlusion {
             if (i % grain == 0) runs[i / grain].first = count;
             count += at[i].size();
         }
-        receivers_of all(count);
+        receivers_of all(count, insonify::detail::memory_of(ex));
         bulk_ranges(ex, at.size(), grain, [&](std::size_t first, std::size_t last) {
-            sort(at, into, first, last, all, runs[first / grain]);
+            sort(at, into, first, last, all, runs[first / grain], insonify::detail::memory_of(ex));
         });
         bulk_ranges(ex, tile_count(), 4, [&](std::size_t first, std::size_t last) {
             detail::receiver_cells cells;
@@ -16393,7 +16371,7 @@ class exact_occlusion {
 
     /// Puts the points of some batches where they belong among all, by tile; those that nothing lies above are lit.
     void sort(std::span<const points> at, std::span<const shares> into, std::size_t first, std::size_t last,
-              receivers_of& all, sorted_points& out) const {
+              receivers_of& all, sorted_points& out, const insonify::detail::shared_pool& memory) const {
         std::array<std::size_t, 6> plane_start{};
         std::size_t tiles = 0;
         for (std::size_t i = 0; i < planes_.size(); ++i) {
@@ -16407,8 +16385,8 @@ class exact_occlusion {
             most += at[part].size();
         }
         if (tiles == 0) return;
-        receivers_of found(most);
-        insonify::detail::uninitialized_vector<std::uint32_t> keys(most);
+        receivers_of found(most, memory);
+        insonify::detail::uninitialized_vector<std::uint32_t> keys(most, memory);
         out.starts.assign(tiles + 1, 0);
         for (std::size_t part = first; part < last; ++part) {
             const points& some = at[part];
@@ -16900,8 +16878,13 @@ struct point_arrays {
     uninitialized_vector<std::uint32_t> mesh, triangle;
     uninitialized_vector<std::uint32_t> pixel;  ///< the caller's number of it
 
-    explicit point_arrays(std::size_t count)
-        : x(count), y(count), z(count), mesh(count), triangle(count), pixel(count) {}
+    explicit point_arrays(std::size_t count, const shared_pool& memory = {})
+        : x(count, memory),
+          y(count, memory),
+          z(count, memory),
+          mesh(count, memory),
+          triangle(count, memory),
+          pixel(count, memory) {}
 };
 
 /// Points that are tested for shadows: those that face the light from the front of their room, those that face away
@@ -17174,7 +17157,8 @@ struct light_arrays {
     uninitialized_vector<float> lit;
     uninitialized_vector<std::uint32_t> caster;
 
-    explicit light_arrays(std::size_t points) : lit(points), caster(points) {}
+    explicit light_arrays(std::size_t points, const shared_pool& memory = {})
+        : lit(points, memory), caster(points, memory) {}
     shadow::shares part(std::size_t first, std::size_t count) {
         return {std::span(lit).subspan(first, count), std::span(caster).subspan(first, count)};
     }
@@ -17265,8 +17249,8 @@ class shadow_pass {
         const std::size_t count = tiles().count(), room = run * pixels;
         // What screening leaves, run by run.
         const std::size_t runs = is_collective ? (count + run - 1) / run : 0;
-        point_arrays rest_of_points(runs * room);
-        uninitialized_vector<float> direct(runs * room);
+        point_arrays rest_of_points(runs * room, memory_of(ex));
+        uninitialized_vector<float> direct(runs * room, memory_of(ex));
         std::vector<point_list> pending(runs);
         bulk_ranges(ex, count, run, [&](std::size_t first, std::size_t last) {
             point_arrays arrays(pixels);
@@ -17301,7 +17285,7 @@ class shadow_pass {
             }
         });
         if constexpr (is_collective) {
-            light_arrays light(runs * room);
+            light_arrays light(runs * room, memory_of(ex));
             std::vector<shadow::points> at;
             std::vector<shadow::shares> into;
             for (std::size_t i = 0; i < runs; ++i)
@@ -17446,12 +17430,13 @@ class overhead_painter {
   public:
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
-        : scene_(s), view_(rig), options_(options) {
+        : scene_(s), view_(rig), options_(options), whole_bottom_(memory_of(ex)) {
         validate(s);
         out_.rows.step = 0;
         materials_ = resolved_bottom(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
-        out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{});  // the first draw fills it, and the depths
+        // The first draw fills it, and the depths.
+        out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
         validate_if_possible(options.law);
         require(options.cells >= 0 && options.cells <= 32768, "cells", options.cells, "0 to 32768");
         require(options.reach >= 0 && numeric::is_finite(options.reach), "reach", options.reach, "0 or more");
@@ -17659,14 +17644,14 @@ class overhead_painter {
     template <executor E>
     void draw_all(E& ex) {
         const overhead& rig = view_.rig();
-        image<float> depth(rig.size.x, rig.size.y, uninitialized{});
+        image<float> depth(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
         shaded_images into{out_.image};
         if constexpr (casts) {
-            rest_ = image<float>(rig.size.x, rig.size.y, uninitialized{});
+            rest_ = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
             into.rest = &rest_;
         }
         if constexpr (casts || labelled) {
-            ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, uninitialized{});
+            ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
             into.ids = &ids_;
         }
         if constexpr (labelled) into.types = &out_.labels.seabed;
