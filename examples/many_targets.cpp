@@ -30,7 +30,8 @@ int main() {
         "classes.png", map.classes | [](std::uint16_t c) { return static_cast<std::uint8_t>(80 * c); });
     std::puts("class,instance,x,y,width,height,visible pixels,shadow pixels");
     for (const in::target_label& t : frame.labels.targets)
-        std::printf("%s,%d,%d,%d,%d,%d,%lld,%lld\n", t.class_name.c_str(), t.instance, t.box.x, t.box.y, t.box.width,
-                    t.box.height, static_cast<long long>(t.area), static_cast<long long>(t.shadow_area));
+        std::printf("%s,%d,%d,%d,%d,%d,%lld,%lld\n", t.class_name.c_str(), t.instance, t.box.x0, t.box.y0,
+                    t.box.width(), t.box.height(), static_cast<long long>(t.area),
+                    static_cast<long long>(t.shadow_area));
     return map.names.size() == 3 ? 0 : 1;
 }

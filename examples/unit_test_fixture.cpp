@@ -28,9 +28,9 @@ in::frame<> cube_on_sand() {
 TEST_CASE("The detector finds the shadow of a cube and its length") {
     const in::frame<> frame = cube_on_sand();
     const in::target_label& cube = frame.labels.targets.at(0);
-    const int row = cube.shadow_box.y + cube.shadow_box.height / 2;
+    const int row = cube.shadow_box.y0 + cube.shadow_box.height() / 2;
     const int found = longest_dark_run(frame.image.row(row).data(), frame.image.width(), 0.05f);
-    CHECK(std::abs(found - cube.shadow_box.width) <= 1);
+    CHECK(std::abs(found - cube.shadow_box.width()) <= 1);
 }
 
 TEST_CASE("The detector finds nothing in the rows beside the shadow") {

@@ -56,7 +56,7 @@ facts facts_of(const in::side_scan_rig<Axis>& rig, const in::target& t, const in
         echo = slant ? geometry::slant_range(x, altitude, world.z) : x;
     });
     f.shadow = (slant ? geometry::slant_range(farthest, altitude) : farthest) - echo;
-    const int end = seen.shadow_box.x + seen.shadow_box.width;
+    const int end = seen.shadow_box.x1;
     f.shadow_measured = f.left_edge + end * f.metres_per_pixel - echo;
     f.shadow_is_cut = end >= rig.bins;
     return f;
@@ -81,7 +81,7 @@ inline facts facts_of(const in::overhead_geometry& view, const in::target& t, co
         if (tip > farthest) farthest = tip, foot = p.x;
     }
     f.shadow = farthest - foot;
-    const int end = seen.shadow_box.x + seen.shadow_box.width;
+    const int end = seen.shadow_box.x1;
     f.shadow_measured = f.left_edge + end * f.metres_per_pixel - foot;
     f.shadow_is_cut = end >= rig.size.x;
     return f;

@@ -102,12 +102,12 @@ std::vector<file> files_of(const options& o, const plan& p, const stock& shared)
                             {mask_path("seabed", p.index), examples::png_bytes(d.labels.seabed)}};
 
     const double metres = d.known.metres_per_pixel;
-    const auto annotation = [&](const std::string& category, const char* of, const in::label_box& box,
-                                std::int64_t area, const auto& mask) {
+    const auto annotation = [&](const std::string& category, const char* of, const in::rect& box, std::int64_t area,
+                                const auto& mask) {
         return json{{"category", category},
                     {"mask", of},
-                    {"bbox", {box.x, box.y, box.width, box.height}},
-                    {"bbox_m", {box.x * metres, box.y * metres, box.width * metres, box.height * metres}},
+                    {"bbox", {box.x0, box.y0, box.width(), box.height()}},
+                    {"bbox_m", {box.x0 * metres, box.y0 * metres, box.width() * metres, box.height() * metres}},
                     {"area", area},
                     {"segmentation", {{"size", {o.size, o.size}}, {"counts", run_lengths(mask, box)}}}};
     };

@@ -9,8 +9,7 @@
 namespace generator {
 
 /// Run lengths of a mask in COCO's order: down the columns, beginning with zeros. Nothing is set outside of the box.
-/// @param box  has x, y, width and height
-inline std::vector<std::int64_t> run_lengths(const insonify::image<std::uint8_t>& mask, const auto& box) {
+inline std::vector<std::int64_t> run_lengths(const insonify::image<std::uint8_t>& mask, const insonify::rect& box) {
     std::vector<std::int64_t> runs;
     bool inside = false;
     std::int64_t run = 0;
@@ -23,13 +22,13 @@ inline std::vector<std::int64_t> run_lengths(const insonify::image<std::uint8_t>
         run += pixels;
     };
     const std::int64_t height = mask.height();
-    append(false, box.x * height);
-    for (int x = box.x; x < box.x + box.width; ++x) {
-        append(false, box.y);
-        for (int y = box.y; y < box.y + box.height; ++y) append(mask(x, y) != 0, 1);
-        append(false, height - box.y - box.height);
+    append(false, box.x0 * height);
+    for (int x = box.x0; x < box.x1; ++x) {
+        append(false, box.y0);
+        for (int y = box.y0; y < box.y1; ++y) append(mask(x, y) != 0, 1);
+        append(false, height - box.y1);
     }
-    append(false, (mask.width() - box.x - box.width) * height);
+    append(false, (mask.width() - box.x1) * height);
     runs.push_back(run);
     return runs;
 }

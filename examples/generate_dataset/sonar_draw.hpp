@@ -217,7 +217,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
         out.labels.instance = turned(out.labels.instance, p.turn);
         out.labels.shadow = turned(out.labels.shadow, p.turn);
         out.labels.seabed = turned(out.labels.seabed, p.turn);
-        in::describe_targets(out.labels, scene.targets);
+        in::measure_targets(out.labels);
     }
     out.gray = in::apply(out.values, in::to_uint8, ex);
     return out;

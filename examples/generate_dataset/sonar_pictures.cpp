@@ -56,13 +56,13 @@ std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const st
         const in::target_label& label = d.labels.targets[i];
         const bool labelled = i < p.targets.size();
         const auto own = in::target_mask(d.labels, label.instance), dark = in::shadow_mask(d.labels, label.instance);
-        const auto add = [&](const std::string& category, const char* of, const in::label_box& box, std::int64_t area,
+        const auto add = [&](const std::string& category, const char* of, const in::rect& box, std::int64_t area,
                              const auto& mask) {
             const double m = d.metres_per_pixel;
             annotations.push_back({{"category", category},
                                    {"mask", labelled && alone_in_picture ? of : ""},
-                                   {"bbox", {box.x, box.y, box.width, box.height}},
-                                   {"bbox_m", {box.x * m, box.y * m, box.width * m, box.height * m}},
+                                   {"bbox", {box.x0, box.y0, box.width(), box.height()}},
+                                   {"bbox_m", {box.x0 * m, box.y0 * m, box.width() * m, box.height() * m}},
                                    {"area", area},
                                    {"segmentation", {{"size", {o.size, o.size}}, {"counts", run_lengths(mask, box)}}}});
         };

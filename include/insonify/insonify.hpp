@@ -13,6 +13,7 @@
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/quantize.hpp>
 #include <insonify/core/random.hpp>
+#include <insonify/core/rect.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/filter/colormap.hpp>
 #include <insonify/filter/concept.hpp>
@@ -38,7 +39,7 @@
 #include <insonify/geometry/transform.hpp>
 #include <insonify/io/file.hpp>
 #include <insonify/io/netpbm.hpp>
-#include <insonify/raster/draw_stats.hpp>
+#include <insonify/raster/draw_options.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/flat.hpp>
 #include <insonify/seabed/heightfield.hpp>
@@ -91,6 +92,7 @@
 #include <insonify/geometry/topology.hpp>
 #include <insonify/io/manifest.hpp>
 #include <insonify/raster/draw.hpp>
+#include <insonify/raster/fragment_lanes.hpp>
 #include <insonify/raster/framebuffer.hpp>
 #include <insonify/raster/interpolatable.hpp>
 #include <insonify/raster/shader.hpp>
@@ -115,7 +117,8 @@
 #include <insonify/sonar/overhead/render.hpp>
 #include <insonify/sonar/side_scan/ping_gain.hpp>
 #include <insonify/sonar/side_scan/range_geometry.hpp>
-#include <insonify/sonar/side_scan/slant_range.hpp>
+#include <insonify/sonar/side_scan/record.hpp>
+#include <insonify/sonar/side_scan/record_options.hpp>
 #include <insonify/sonar/side_scan/slant_to_ground.hpp>
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
 #include <insonify/sonar/side_scan/swath.hpp>

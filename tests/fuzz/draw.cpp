@@ -18,7 +18,7 @@ namespace {
 
 struct drawing {
     int width, height;
-    in::draw_options options;
+    in::draw_options<> options;
     float background;  ///< depth before the draw
     bool in_pixels;
     std::vector<glm::vec4> clip;
@@ -99,7 +99,7 @@ drawing read(byte_reader& bytes) {
 // Judging.
 
 [[noreturn]] void fail(const drawing& d, const char* promise) {
-    const in::draw_options& o = d.options;
+    const in::draw_options<>& o = d.options;
     std::fprintf(stderr, "%d x %d pixels, %d sub-pixel bits, tile %d, cull %d, keep %d, load %d, level %d\n", d.width,
                  d.height, o.subpixel_bits, o.tile, static_cast<int>(o.cull), static_cast<int>(o.keep),
                  static_cast<int>(o.load), static_cast<int>(o.level));
@@ -150,7 +150,7 @@ struct backward_executor {
     }
 };
 
-picture drawn(const drawing& d, const in::draw_options& options, auto&& executor) {
+picture drawn(const drawing& d, const in::draw_options<>& options, auto&& executor) {
     picture p{{d.width, d.height}, {d.width, d.height, d.background}, {d.width, d.height}, {}};
     const auto shader = [&](const auto& f) {
         demand(d, 0 <= f.x && f.x < d.width && 0 <= f.y && f.y < d.height, "shaded pixels are in the picture");
@@ -192,7 +192,7 @@ void check_stats(const drawing& d, const in::draw_stats& s) {
 
 /// No option but those that say so changes a bit, and no executor does.
 void check_same_bytes(const drawing& d, const picture& p) {
-    in::draw_options options = d.options;
+    in::draw_options<> options = d.options;
     options.level = in::isa::scalar;
     options.tile = options.tile == 16 ? 32 : 16;
     const picture other = drawn(d, options, backward_executor{});
@@ -227,7 +227,7 @@ void check_coverage(const drawing& d) {
         if (!exact) continue;
 
         const in::mesh alone{d.mesh.positions, {}, {t}}, turned{d.mesh.positions, {}, {{t.x, t.z, t.y}}};
-        in::draw_options one_side = d.options, all = d.options;
+        in::draw_options<> one_side = d.options, all = d.options;
         one_side.cull = in::cull_mode::back;
         one_side.tile = 8;  // changes nothing but how long it takes
         all.cull = in::cull_mode::none;

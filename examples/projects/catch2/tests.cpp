@@ -17,8 +17,8 @@ namespace in = insonify;
 TEST_CASE("The finder measures the shadow of a cube") {
     const in::frame<> frame = cube_on_sand();
     const in::target_label& cube = frame.labels.targets.at(0);
-    const int row = cube.shadow_box.y + cube.shadow_box.height / 2;
-    CHECK(std::abs(longest_dark_run(frame.image.row(row)) - cube.shadow_box.width) <= 1);
+    const int row = cube.shadow_box.y0 + cube.shadow_box.height() / 2;
+    CHECK(std::abs(longest_dark_run(frame.image.row(row)) - cube.shadow_box.width()) <= 1);
 }
 
 TEST_CASE("The fixture looks as it always did") {

@@ -1,7 +1,7 @@
-// How far an image or a mask is from the truth.
+// Differences between an image or a mask and its ground truth.
 //
-// Means hide one broken tile, so the largest difference stands beside them; the ratio of two tiny masks explodes, so
-// the displacement of their border stands beside it.
+// A mean hides one broken tile, so the largest difference is reported beside it. Intersection over union is unstable
+// for tiny masks, so the displacement of their boundary is reported beside it.
 #pragma once
 
 #include <insonify/core/image_view.hpp>
@@ -31,8 +31,8 @@ struct mask_difference {
         const std::size_t joined = common + wrong_pixels();
         return joined == 0 ? 1.0 : static_cast<double>(common) / static_cast<double>(joined);
     }
-    /// How many pixels the border has moved, on average along it: wrong pixels over boundary pixels. Infinite if there
-    /// are wrong pixels but no border.
+    /// Mean displacement of the boundary along its length, pixels: wrong pixels over boundary pixels. Infinite if there
+    /// are wrong pixels but no boundary.
     INSONIFY_TAGGED double mean_boundary_displacement() const {
         if (wrong_pixels() == 0) return 0;
         if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();
@@ -40,8 +40,7 @@ struct mask_difference {
     }
 };
 
-/// Differences of pixel values, in the values' unit; NaN if any pixel is NaN in one of the images: a broken
-/// pixel shows in every figure.
+/// Differences of pixel values, in their unit. All are NaN if a pixel is NaN in either image.
 struct pixel_difference {
     std::size_t pixels = 0;
     double mean_square = 0;
@@ -81,11 +80,11 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
     accuracy::pixel_difference out{.pixels = truth.size()};
     double sum = 0;
     for (int y = 0; y < truth.height(); ++y) {
-        // Rows are summed on their own, so that small differences survive in large images.
+        // Row by row, so that small differences are not rounded away in large images.
         double row_sum = 0;
         const auto a = result.row(y), b = truth.row(y);
         for (std::size_t x = 0; x < b.size(); ++x) {
-            if (a[x] == b[x]) continue;  // two equal infinities among them
+            if (a[x] == b[x]) continue;  // equal infinities too
             const double difference = numeric::magnitude(static_cast<double>(a[x]) - static_cast<double>(b[x]));
             row_sum += difference * difference;
             if (!(difference <= out.largest) && out.largest == out.largest) out.largest = difference;  // keeps a NaN

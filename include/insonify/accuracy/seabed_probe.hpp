@@ -1,7 +1,7 @@
-// How far pictures of a seabed are from the truth, by a few small ones.
+// Measures the errors of pictures of a seabed on a few small ones.
 //
-// Of shadows the truth is a ray for each pixel, marched over the finest grid: it shares nothing with a shadow policy,
-// so any may be judged by it.
+// The ground truth of shadows is a ray per pixel, marched over the finest grid. It shares no code with any shadow
+// policy.
 #pragma once
 
 #include <insonify/accuracy/metrics.hpp>
@@ -15,22 +15,22 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace accuracy {
 
-/// Errors of a picture, measured as `metrics.hpp` does; as a budget, what is tolerated.
+/// Errors of a picture, as defined in metrics.hpp; as a budget, tolerated errors.
 struct errors {
-    double shadow_edge = 1;   ///< pixels by which edges of shadows are displaced, on average along them
-    double silhouette = 1;    ///< pixels by which outlines of targets are displaced, at most
-    double height = 1;        ///< of the seabed, root mean square, in pixels on the ground
-    double intensity = 0.05;  ///< root mean square error of the linear picture
+    double shadow_edge = 1;   ///< mean displacement of shadow edges, pixels
+    double silhouette = 1;    ///< largest displacement of the targets' outlines, pixels
+    double height = 1;        ///< of the seabed, rms, in pixels on the ground
+    double intensity = 0.05;  ///< of the linear picture, rms
 };
 
 inline namespace INSONIFY_FLAGS {
 
-/// How `settings_for` looks at a seabed.
+/// The small pictures that `settings_for` draws.
 struct probe {
-    int chips = 4;       ///< small pictures, spread over the large one
-    int pixels = 128;    ///< along their sides
-    double finest = 4;   ///< cells per pixel of what counts as the truth
-    double spare = 0.7;  ///< share of a budget that may be used where others have not been looked at
+    int chips = 4;       ///< their number, distributed over the large picture
+    int pixels = 128;    ///< along a side
+    double finest = 4;   ///< cells per pixel of the ground truth
+    double spare = 0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -43,7 +43,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Small pictures of a seabed, as fine as makes sense, to compare coarser ones with.
+/// Small pictures of a seabed with their ground truth.
 class seabed_probe {
   public:
     template <executor E>
@@ -52,7 +52,7 @@ class seabed_probe {
         const overhead_geometry view(rig);
         pixels_ = (std::min)(how.pixels, (std::min)(rig.size.x, rig.size.y));
         spacing_ = view.ground_sampling() / how.finest;
-        // Places of a sequence that fills a square evenly however many are taken.
+        // A low-discrepancy sequence in the unit square.
         // Martin Roberts. The Unreasonable Effectiveness of Quasirandom Sequences. 2018.
         for (int i = 0; i < how.chips; ++i) {
             const auto place = [&](double step, int size) {
@@ -76,7 +76,7 @@ class seabed_probe {
         }
     }
 
-    /// How far pictures of so many cells per pixel are from the truth, over all chips.
+    /// Errors of pictures with so many cells per pixel, over all chips.
     template <class Shadow, executor E>
     accuracy::errors errors_of(double cells_per_pixel, const Shadow& shadow, E& ex) const {
         accuracy::mask_difference edges;
@@ -93,7 +93,7 @@ class seabed_probe {
             heights += mean_square_height_error(chips_[i], cells_per_pixel) / static_cast<double>(chips_.size());
         }
         accuracy::errors all{.shadow_edge = 0, .silhouette = 0};
-        // Without an edge there is nothing to be displaced, but by the few wrong pixels.
+        // A lower bound of the boundary, for chips without shadow edges.
         const auto wrong = static_cast<double>(edges.wrong_pixels());
         const auto few = static_cast<double>(pixels_) / 16;
         all.shadow_edge = wrong / (std::max)(static_cast<double>(edges.boundary_pixels), few);
@@ -110,15 +110,15 @@ class seabed_probe {
 
     template <class Shadow, executor E>
     picture draw(const overhead& chip, double cells_per_pixel, const Shadow& shadow, E& ex) const {
-        render_options<Shadow> options{.shadow = shadow};
-        options.cells = (std::max)(1, static_cast<int>(numeric::floor_to_int(pixels_ * cells_per_pixel + 0.5)));
+        const render_options<Shadow> options{.shadow = shadow,
+                                             .cell = overhead_geometry(chip).ground_sampling() / cells_per_pixel};
         auto drawn = render(scene_, chip, options, ex);
         return {std::move(drawn.image), map_pixels(drawn.labels.shadow, [](std::uint16_t by) {
                     return static_cast<std::uint8_t>(by != labels::is_lit);
                 })};
     }
 
-    /// The chip's dark pixels, by a ray from each towards the light over the finest grid, in steps of a cell.
+    /// Pixels in shadow, by a ray from each towards the light over the finest grid, in steps of a cell.
     template <executor E>
     image<std::uint8_t> march(const overhead& chip, E& ex) const {
         const overhead_geometry view(chip);
@@ -126,7 +126,7 @@ class seabed_probe {
         const glm::dmat3& turn = view.rig_from({}).linear;
         const glm::dvec2 travel(numeric::product(glm::transpose(turn), glm::dvec3(view.light().travel(), 0)));
 
-        // As far up-light as the picture is long: more is not drawn either.
+        // The ground in view and as much towards the light.
         const glm::dvec2 low = chip.position - 4 * half;
         seabed::grid grid = seabed::grid_over(low, low + 8 * half, spacing_);
         grid.band_limited = true;
@@ -143,7 +143,7 @@ class seabed_probe {
                                         (chip.size.y - 2.0 * j - 1) / chip.size.x * half, 0);
                 const glm::dvec2 datum(numeric::product(glm::transpose(turn), in_rig));
                 glm::dvec2 at = chip.position + datum;
-                // What is seen there leans towards the middle; chips are narrow, so a few steps find it.
+                // Perspective moves raised ground away from the middle; on narrow chips a few iterations converge.
                 for (int k = 0; k < 6; ++k) {
                     const double height = field.facet_at(at.x, at.y).height;
                     at = chip.position + datum * (1 - height / static_cast<double>(chip.altitude));
@@ -166,7 +166,7 @@ class seabed_probe {
         }
     }
 
-    /// Of a grid against the finest one, over a net of points; in square metres.
+    /// Of a grid against the finest one, over a lattice of points; in square metres.
     double mean_square_height_error(const overhead& chip, double cells_per_pixel) const {
         constexpr int net = 24;
         const double side = 2 * overhead_geometry(chip).half_extent(0).x;

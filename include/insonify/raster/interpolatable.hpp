@@ -1,8 +1,8 @@
-// Whether a type consists of floats alone: what can be interpolated between the vertices of a triangle.
+// Whether a type consists of floats alone, so that it can be interpolated between the vertices of a triangle.
 //
-// An aggregate is looked into: it is initialized from values that convert to float, to vectors of float and to
-// aggregates of those, and from values that convert to any other scalar or class, too. If as many of the first kind fit
-// as of the second, all members are made of floats.
+// Aggregates are examined by how many values initialize them: first with values that convert to float, to vectors of
+// float and to aggregates of those, then with values that convert to every other scalar and class as well. If the two
+// counts are equal, all members are made of floats.
 #pragma once
 
 #include <insonify/config.hpp>
@@ -14,7 +14,7 @@
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// For classes that are no aggregates: specialize it as true for your own vector of floats.
+/// Specialize as true for a vector of floats that is not an aggregate and has no `value_type`.
 template <class V>
 inline constexpr bool is_vector_of_floats = requires {
     requires std::is_same_v<typename V::value_type, float>;
@@ -41,20 +41,20 @@ struct converts_to_members {
 template <class Value, std::size_t>
 using repeated = Value;
 template <class V, class Value, std::size_t... I>
-constexpr bool takes(std::index_sequence<I...>) {
+constexpr bool is_initialized_by(std::index_sequence<I...>) {
     return requires {
         V{repeated<Value, I>{}...};
     };
 }
-/// The largest number of values that initialize an aggregate.
+/// The largest number of values that initialize an aggregate, at most Count.
 template <class V, class Value, std::size_t Count>
-constexpr std::size_t most_members() {
+constexpr std::size_t member_count() {
     if constexpr (Count == 0)
         return 0;
-    else if constexpr (takes<V, Value>(std::make_index_sequence<Count>{}))
+    else if constexpr (is_initialized_by<V, Value>(std::make_index_sequence<Count>{}))
         return Count;
     else
-        return most_members<V, Value, Count - 1>();
+        return member_count<V, Value, Count - 1>();
 }
 
 template <class V>
@@ -67,13 +67,13 @@ constexpr bool consists_of_floats() {
         return false;
     } else {
         constexpr std::size_t floats = sizeof(V) / sizeof(float);
-        return most_members<V, converts_to_floats, floats>() == most_members<V, converts_to_members, floats>();
+        return member_count<V, converts_to_floats, floats>() == member_count<V, converts_to_members, floats>();
     }
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// Made of floats alone: float, glm::vec2..4, arrays and aggregates of those.
+/// Made of floats alone: float, glm::vec2..4, and arrays and aggregates of those.
 template <class V>
 concept interpolatable = std::is_trivially_copyable_v<V> && detail::consists_of_floats<V>();
 

@@ -1,11 +1,13 @@
-// What people bring to a draw: a callable that places vertices, and one that is asked for each visible pixel.
+// Shaders: callables that the rasterizer inlines into its loops.
 //
-// Both are plain callables, inlined into the loops. They must be pure: a vertex may be placed several times, and pixels
-// are asked for in any order and on any thread.
+// A vertex shader maps a vertex to clip space; a fragment shader is called once for every visible pixel. Either may be
+// written for one vertex or pixel, or over SIMD lanes for several at a time. Both must be pure: vertices may be shaded
+// more than once, and pixels in any order and on any thread.
 #pragma once
 
 #include <insonify/core/detail/portable.hpp>
 #include <insonify/core/error.hpp>
+#include <insonify/core/simd/lanes.hpp>
 #include <insonify/raster/interpolatable.hpp>
 
 #include <array>
@@ -22,26 +24,26 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What a vertex callable receives.
+/// Input of a vertex shader.
 struct vertex {
     glm::vec3 position;
     glm::vec3 normal;  ///< zero where the mesh has none
     std::uint32_t index;
 };
 
-/// A vertex placed in clip space, with the values that pixels between the vertices shall see interpolated.
-/// Visible is -w <= x <= w, -w <= y <= w (y up), 0 <= z <= w.
+/// Output of a vertex shader that has varyings. Visible is -w <= x <= w, -w <= y <= w (y up), 0 <= z <= w.
 template <class Varyings>
 struct placed_vertex {
     glm::vec4 clip;
-    Varyings varyings;
+    Varyings varyings;  ///< interpolated between the vertices for fragment shaders
 };
 
-/// `shader(vertex)` gives a clip position, alone (glm::vec4) or with varyings (placed_vertex).
+/// `shader(vertex)` returns a clip position.
 template <class S>
 concept position_shader = requires(const S& shader, const vertex& v) {
     { shader(v) } -> std::convertible_to<glm::vec4>;
 };
+/// `shader(vertex)` returns a placed_vertex.
 template <class S>
 concept varying_shader = requires(const S& shader, const vertex& v) {
     { shader(v).clip } -> std::convertible_to<glm::vec4>;
@@ -50,7 +52,16 @@ concept varying_shader = requires(const S& shader, const vertex& v) {
 template <class S>
 concept vertex_shader = position_shader<S> || varying_shader<S>;
 
-/// Stands for the varyings of a shader that has none.
+/// A vertex shader that can also shade several vertices at a time: `shader(clip, varyings, position, normal)` takes
+/// arrays of SIMD values, one array element per float, and sets the first two to the same bits that `shader(vertex)`
+/// returns. Normals are zero if the mesh has none, or if only depth is drawn.
+template <class S, class Floats>
+concept vertex_lane_shader = vertex_shader<S> &&
+    requires(const S& shader, Floats (&four)[4], const Floats (&three)[3]) {
+    shader(four, &four[0], three, three);
+};
+
+/// The varyings of a shader that has none.
 struct no_varyings {};
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -72,18 +83,6 @@ INSONIFY_INLINE glm::vec4 position_of(const placed_vertex<Varyings>& placed) {
     return placed.clip;
 }
 
-/// A vertex callable that takes several vertices at a time, too: `shader(clip, varyings, position, normal)` sets the
-/// first two, float by float, and they are the same bits that `shader(vertex)` gives.
-template <class S, class Floats>
-concept lane_shader = vertex_shader<S> && requires(const S& shader, Floats (&four)[4], const Floats (&three)[3]) {
-    shader(four, &four[0], three, three);
-};
-
-template <vertex_shader S>
-INSONIFY_INLINE glm::vec4 clip_position(const S& shader, const vertex& v) {
-    return position_of(shader(v));
-}
-
 template <vertex_shader S>
 INSONIFY_INLINE auto varyings_at(const S& shader, const vertex& v) {
     if constexpr (position_shader<S>)
@@ -92,7 +91,7 @@ INSONIFY_INLINE auto varyings_at(const S& shader, const vertex& v) {
         return shader(v).varyings;
 }
 
-/// The mean of three values by weights, float by float, each rounded once.
+/// The weighted mean of three values, computed in double and rounded once per float.
 template <class V>
 INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3& weights) {
     if constexpr (std::is_empty_v<V>) {
@@ -116,22 +115,41 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
 template <vertex_shader S>
 using varyings_of = typename detail::shader_varyings<S>::type;
 
-/// What a fragment callable receives: one visible pixel of one triangle.
+/// Input of a fragment shader: one visible pixel of one triangle.
 template <class Varyings>
 struct fragment {
     int x, y;                ///< pixel, row 0 at the top
     float depth;             ///< z / w at the pixel's centre
     std::uint32_t triangle;  ///< index into mesh.triangles
-    glm::vec3 weights;       ///< of the triangle's three vertices, perspective-correct, sum 1
+    glm::vec3 weights;       ///< barycentric, perspective-correct
     bool front;              ///< seen from its counter-clockwise side
     Varyings varyings;       ///< interpolated perspective-correctly
 };
 
-/// `shader(fragment)` gives the pixel's new value, or nothing if it stores what it wants by itself: every visible pixel
-/// is asked for exactly once per draw, after all of the draw's triangles have been resolved against each other.
+/// `shader(fragment)` returns the pixel's new value, or nothing if it stores its results itself. It is called exactly
+/// once for every visible pixel, after all triangles of the draw have been tested against each other.
 template <class S, class Varyings, class Pixel>
 concept fragment_shader = requires(const S& shader, const fragment<Varyings>& f) {
+    shader(f);
     requires std::is_void_v<Pixel> || std::is_convertible_v<decltype(shader(f)), Pixel>;
+};
+
+inline namespace INSONIFY_FLAGS {
+
+template <int N, class Varyings>
+class fragment_lanes;
+
+}  // namespace INSONIFY_FLAGS
+
+/// `shader(fragment_lanes<N, Varyings>)` shades N adjacent pixels of a row and stores its results itself, for every N
+/// that the build dispatches to (1, 4, 8). Weights and varyings are computed in float; those of a fragment_shader are
+/// rounded once from doubles.
+///
+/// If it has a member `clear(rect)`, draws that clear the depth call it for each tile before the tile's pixels are
+/// shaded.
+template <class S, class Varyings>
+concept fragment_lane_shader = requires(const S& shader, const fragment_lanes<INSONIFY_SIMD ? 4 : 1, Varyings>& f) {
+    shader(f);
 };
 
 }  // namespace INSONIFY_ABI

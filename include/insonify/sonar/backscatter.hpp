@@ -1,4 +1,4 @@
-// How much of the sound comes back from a surface that is met at an angle.
+// Backscatter laws: returned intensity as a function of the grazing angle.
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -10,20 +10,20 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What a surface is made of, as far as a picture shows it.
+/// The material of a surface.
 struct material {
-    float reflectivity = 0.5f;  ///< relative, 0 to 1 and above: tunes highlights as the paper tunes its light
+    float reflectivity = 0.5f;  ///< relative, 0 to 1 and above
 };
 
-/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. One that
-/// has `in_lanes` too computes several pixels at a time, by reference. A `validate(law)` beside it, found by its type,
-/// is called before anything is drawn.
+/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. A law
+/// may also have `in_lanes(into, s)`, which computes several pixels at a time. A `validate(law)` that is found by its
+/// type is called before anything is drawn.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
 };
 
-/// Optical Lambert, s: what the paper's game engine draws.
+/// Optical Lambert, s, as in the game engine of the paper.
 struct lambert {
     INSONIFY_MEMBER float operator()(float s) const { return s; }
     template <class Lanes>

@@ -1,7 +1,7 @@
-// The result of every kind of picture: the image, its labels, which pings its rows are, and what was drawn.
+// The result of every renderer: the image, its labels, statistics, and the order of its rows.
 #pragma once
 
-#include <insonify/raster/draw_stats.hpp>
+#include <insonify/raster/draw_options.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/side_scan/side_scan.hpp>
 
@@ -10,26 +10,26 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What became of the triangles, and how large the intermediate things were. Range modes draw no triangles.
+/// Counts of triangles and of samples. Range modes draw no triangles.
 struct render_stats {
     draw_stats seabed, targets;
-    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled, of which the mesh may leave some out
-    std::uint64_t seabed_samples = 0;         ///< points at which the seabed was evaluated
+    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled; the mesh may have fewer
+    std::uint64_t seabed_samples = 0;         ///< positions at which the seabed was evaluated
     double cell = 0;                          ///< metres between them
 };
 
-/// Which pings the rows of a picture are, and which side its columns hear.
+/// The order of a picture's rows and columns: ping numbers and sides.
 struct ping_numbers {
-    std::int64_t first = 0;  ///< of the top row
-    int step = 1;            ///< from row to row: 1, or -1; 0 for overhead pictures, whose rows are not pings
+    std::int64_t first = 0;  ///< ping of the top row
+    int step = 1;            ///< from row to row: 1 or -1; 0 for overhead pictures, whose rows are not pings
     insonify::side side = insonify::side::starboard;
-    int port_columns = 0;  ///< at the left, of another channel: port, its range growing to the left
+    int port_columns = 0;  ///< columns at the left that show the port channel, with range growing to the left
 };
 
-/// A picture with all that is known about it.
+/// A picture and its ground truth.
 ///
-/// Of `overhead`, up is forward and pixels are in [0, 1]. Of range modes, row i is ping i, column j is bin j, and
-/// pixels are intensities, 0 and above: see sonar_equation.hpp for their unit.
+/// In overhead pictures up is forward, and pixels are in [0, 1]. In range modes row i is ping i, column j is bin j, and
+/// pixels are intensities, 0 and above; see sonar_equation.hpp for their unit.
 template <class Labels = labels>
 struct frame {
     insonify::image<float> image;  ///< linear

@@ -1,4 +1,4 @@
-// Which points of a scene a light reaches: built once for a light, tested for many points, without a picture.
+// Shadow tests of points in a scene, without a picture: built once per light, then tested for any number of points.
 //
 // The casters are those of `render`: the targets, and the seabed sampled around the points and towards the light.
 #pragma once
@@ -15,11 +15,11 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Where points will be tested, and how finely the seabed is sampled there.
+/// The region of the points that will be tested, and the sampling of the seabed there.
 struct occlusion_bounds {
-    bounding_box box;  ///< around all of the points, in the world; not empty
-    double cell = 0;   ///< metres from one vertex of the seabed to the next; 0: a 512th of the box's longer side
-    double reach = 8;  ///< how far towards the light the seabed is sampled, at most, in lengths of the longer side
+    bounding_box box;  ///< contains all points, in the world; not empty
+    double cell = 0;   ///< metres between vertices of the seabed; 0: a 512th of the box's longer side
+    double reach = 8;  ///< how far towards the light the seabed is sampled at most, in lengths of the longer side
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -36,7 +36,7 @@ inline shadow::any_light light_of(const overhead& rig) {
 
 }  // namespace INSONIFY_FLAGS
 
-/// How much light points get, and from what they are shaded.
+/// Light on points, and the casters of their shadows.
 struct point_light_shares {
     std::vector<float> lit;             ///< 0 to 1
     std::vector<std::uint16_t> shadow;  ///< as in labels::shadow: 0, an instance, or labels::by_seabed
@@ -44,8 +44,8 @@ struct point_light_shares {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The casters of a scene under one light. It holds the targets' meshes; the scene may go.
-/// @param Occlusion  what a shadow policy builds
+/// The casters of a scene under one light. Shares the targets' meshes; the scene need not outlive it.
+/// @param Occlusion  built by a shadow policy
 template <class Occlusion>
 class scene_occlusion {
   public:
@@ -149,7 +149,7 @@ class scene_occlusion {
         return all;
     }
 
-    /// The ground below the box, and towards the light as far as the bottom may rise into a ray.
+    /// The ground below the box, and towards the light as far as the seabed may reach into a ray.
     static std::pair<glm::dvec2, glm::dvec2> casting_part(const scene& s, const shadow::any_light& light,
                                                           const occlusion_bounds& within, double radius) {
         const glm::dvec2 lower(within.box.lower), upper(within.box.upper);
@@ -167,7 +167,7 @@ class scene_occlusion {
                 const shadow::light_frame frame(std::get<shadow::directional_light>(light));
                 way = -rise * frame.cot_elevation() * frame.travel();
             }
-            // Light that is no point comes from a little farther and from beside.
+            // Rays from the rim of an extended light start farther away and to the side.
             const double length = numeric::square_root(way.x * way.x + way.y * way.y);
             const double wider = length + radius * (length * length / rise + rise);
             const double aside = (std::min)(longest, wider) - (std::min)(longest, length);
@@ -186,15 +186,15 @@ class scene_occlusion {
     Occlusion built_;
 };
 
-/// Prepares to test which points of a scene a light reaches.
+/// Builds the shadow test of a scene for one light.
 ///
-/// A point on a surface is not shaded by the triangle that it lies on, up to rounding: compute it in doubles, from that
-/// triangle's vertices. The seabed's mesh lies beside its analytic heights by what sampling leaves out.
+/// A point on a surface is not in the shadow of the triangle that it lies on, up to rounding: compute it in doubles
+/// from that triangle's vertices. The seabed's mesh differs from its analytic heights by the error of sampling.
 /// @param light   in the world; `light_of(rig)` is that of a rig
-/// @param within  where the points are, and how finely the seabed is sampled
+/// @param within  region of the points, and sampling of the seabed
 /// @param policy  any shadow policy
-/// @param ex      who runs it; the result is the same for any executor
-/// @throws invalid_input for bounds that are empty or not finite, a light or a policy that cannot be
+/// @param ex      runs it; the result is the same for any executor
+/// @throws invalid_input for bounds that are empty or not finite, or a light or a policy out of range
 template <shadow::casting_policy Shadow = shadow::exact, executor_argument E = serial_executor>
 auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                   const Shadow& policy = {}, E&& ex = {}) {

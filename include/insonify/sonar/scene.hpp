@@ -1,4 +1,4 @@
-// The scene: a seabed and targets on it.
+// The scene: a seabed and targets.
 #pragma once
 
 #include <insonify/geometry/shared_mesh.hpp>
@@ -18,7 +18,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// An object with a class of its own. Both sides of its triangles show and block light; it may be open or closed.
+/// An object with a class. Its mesh may be open or closed; both sides of its triangles are visible and cast shadows.
 struct target {
     shared_mesh shape;
     pose placement;
@@ -26,18 +26,18 @@ struct target {
     material surface{.reflectivity = 0.9f};
 };
 
-/// The bottom and what lies on it. Heights are metres above the datum z = 0.
+/// Heights are metres above the datum z = 0.
 struct scene {
     insonify::seabed::any seabed = insonify::seabed::flat{};
-    /// Materials by label, seabed::index_of(type). Users' own labels have the reflectivity that their seabed states,
-    /// unless one is set here.
+    /// Materials by label, seabed::index_of(type). Labels of your own have the reflectivity that your seabed states,
+    /// unless it is set here.
     bottom_materials bottom = default_bottom();
     std::vector<target> targets;
 
-    /// Adds a mesh, a shared mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
-    /// Targets are numbered by instance, 1 for the first. A mesh without normals gets smooth ones, also across sharp
-    /// edges whose triangles share vertices; `with_creases` keeps those sharp.
-    /// Several targets of one shape share it: make a `shared_mesh` once and add it as often as needed.
+    /// Adds a mesh, a shared mesh, or a shape with a `to_mesh`: cube, cylinder, cone, sphere, your own. Instances are
+    /// numbered from 1. A mesh without normals gets smooth ones, also across sharp edges whose triangles share
+    /// vertices; `with_creases` keeps those sharp. To draw one mesh many times, make a `shared_mesh` once and add it
+    /// repeatedly.
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
     INSONIFY_MEMBER target& add(Shape&& shape, const pose& placement, std::string class_name,
@@ -57,12 +57,12 @@ struct scene {
 
 inline namespace INSONIFY_FLAGS {
 
-/// @throws invalid_input for a material whose reflectivity is negative or not finite. Poses, meshes and seabeds are
-///         checked by what draws them
+/// @throws invalid_input for a material whose reflectivity is negative or not finite. Renderers check poses, meshes and
+///         seabeds
 inline void validate(const scene& s) {
     const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
         if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
-        std::string name = list;  // appended to: at -O3, g++ 12 warns of "[" + to_text(i)
+        std::string name = list;  // appended, because g++ 12 warns of "[" + to_text(i) at -O3
         name += '[';
         name += detail::to_text(i);
         name += member;
@@ -74,7 +74,7 @@ inline void validate(const scene& s) {
         check(s.targets[i].surface, "scene.targets", i, "].surface.reflectivity");
 }
 
-/// The material of each label: the scene's, or the seabed's own where the scene leaves it to that.
+/// The material of each label: the scene's, or that of the seabed's model where the scene sets none.
 /// @throws invalid_input for a reflectivity of the seabed that is negative or not finite
 inline bottom_materials resolved_bottom(const scene& s) {
     bottom_materials all = s.bottom;
@@ -90,8 +90,7 @@ inline bottom_materials resolved_bottom(const scene& s) {
     return all;
 }
 
-/// The same pose lowered or raised until the shape just touches the seabed: no vertex is below it, one is on it.
-/// `burial` then sinks it from there.
+/// The same pose, lowered or raised so that one vertex touches the seabed and none is below it. `burial` then sinks it.
 /// @param shape  of at least one position
 /// @throws invalid_input for a shape without positions, or a pose that can't be right
 inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose placement) {

@@ -1,4 +1,4 @@
-// Brightness by label: the registry of seabed/registry.hpp as materials.
+// Materials by label, from the registry (seabed/registry.hpp).
 #pragma once
 
 #include <insonify/seabed/sediment.hpp>
@@ -15,19 +15,19 @@ using seabed::sediment;
 
 inline namespace INSONIFY_FLAGS {
 
-/// The backscattering strength of a sediment at normal incidence by Lambert's law, as a factor; for those who compute
-/// levels. Use with `lambert_backscatter`.
+/// The backscattering strength of a sediment at normal incidence by Lambert's law, as a factor. Use with
+/// `lambert_backscatter` to compute levels.
 constexpr material surface_of(sediment s) {
     return {seabed::facts_of(s).strength_at_nadir()};
 }
 
-/// A material per label.
+/// Materials by label.
 using bottom_materials = std::array<material, seabed::label_count>;
 
-/// The reflectivity of labels for which the seabed's own properties count.
+/// Marks labels that take the reflectivity of the seabed's model.
 inline constexpr float by_seabed_model = -1;
 
-/// The registry's materials; users' own labels are as bright as their seabed says.
+/// The registry's materials; labels outside of the registry take those of the seabed's model.
 constexpr bottom_materials default_bottom() {
     bottom_materials bottom{};
     bottom.fill({by_seabed_model});

@@ -1,7 +1,7 @@
-// Speckle by seabed label, keyed by ping and bin: recordings made in pieces have the same speckle.
+// Speckle by seabed label.
 //
-// The fluctuation of a bin is a function of (seed, side, ping number, bin) and nothing else: recordings made in pieces
-// fit together, and the two sides are independent.
+// The fluctuation of a bin is a function of (seed, side, ping number, bin) alone: recordings made in pieces fit
+// together, and the two sides are independent.
 //
 // Based on: E. Jakeman, P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation
 // 24, 1976 (the K-distribution). George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM
@@ -21,18 +21,18 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The fluctuation of a sediment, as the table has it.
+/// The speckle law of a sediment, from the registry.
 constexpr speckle_law speckle_of(seabed::sediment s) {
     return seabed::properties_of(seabed::type_of(s)).speckle;
 }
 
-/// A law per label.
+/// Laws by label.
 using speckle_laws = std::array<speckle_law, seabed::label_count>;
 
-/// Looks of labels for which the seabed's own properties count.
+/// Marks labels that take the law of the seabed's model.
 inline constexpr int looks_by_seabed_model = -1;
 
-/// The registry's laws; users' own labels fluctuate as their seabed says.
+/// The registry's laws; labels outside of the registry take those of the seabed's model.
 constexpr speckle_laws default_speckle() {
     speckle_laws laws{};
     laws.fill({looks_by_seabed_model});
@@ -42,15 +42,16 @@ constexpr speckle_laws default_speckle() {
 
 }  // namespace INSONIFY_FLAGS
 
-/// Speckle by type of seabed. The defaults are illustrative: relief that is drawn makes its own fluctuations, so
-/// ripples take plain Rayleigh, and a texture stands for structure finer than the seabed is sampled.
+/// Speckle by type of seabed. The defaults are illustrative: sampled relief makes fluctuations of its own, so ripples
+/// have plain Rayleigh speckle; a texture models structure finer than the sampling.
 struct seabed_speckle {
-    /// By label, seabed::index_of(type). Users' own labels have the law that their seabed states, unless one is set.
+    /// By label, seabed::index_of(type). Labels of your own have the law that your seabed states, unless it is set
+    /// here.
     speckle_laws bottom = default_speckle();
-    speckle_law elsewhere{};   ///< where the labels name no seabed: targets, and noise in the water column
-    float along_track = 1;     ///< pings at which the correlation of intensities has fallen to 1 / e, 0 to 16
+    speckle_law elsewhere{};   ///< of pixels without a seabed label: targets, and noise in the water column
+    float along_track = 1;     ///< correlation length (1 / e) of intensities in pings, 0 to 16
     float across_track = 1;    ///< the same in bins
-    float texture_length = 3;  ///< pings and bins over which a texture stays the same, 1 to 1024
+    float texture_length = 3;  ///< correlation length of textures in pings and bins, 1 to 1024
     std::uint64_t seed = 1;
 };
 
@@ -79,7 +80,7 @@ class ping_noise {
     philox_key key_;
 };
 
-/// A complex Gaussian field of unit power, by rows; real and imaginary parts take turns.
+/// A correlated complex Gaussian field of unit power, by rows, with real and imaginary parts interleaved.
 class speckle_field {
   public:
     speckle_field(const ping_noise& noise, const seabed_speckle& s, int bins)
@@ -88,7 +89,7 @@ class speckle_field {
           across_(intensity_taps(static_cast<double>(s.across_track))),
           along_(intensity_taps(static_cast<double>(s.along_track))) {}
 
-    /// The field of one look at so many pings in a row, the lowest number first.
+    /// The field of one look for consecutive pings, from number `first` on.
     image<float> pings(std::int64_t first, int count, std::uint32_t look) const {
         const int reach = static_cast<int>(along_.size()) - 1;
         image<float> blurred(static_cast<int>(2 * bins_), count + 2 * reach);
@@ -128,8 +129,9 @@ class speckle_field {
     std::vector<float> across_, along_;
 };
 
-/// The K-distribution's mean: gamma-distributed at the nodes of a lattice. A bin takes that of one of the four nodes
-/// around it, chosen at random with the bilinear weights, so that textures are correlated and keep their distribution.
+/// The texture of the K-distribution: gamma-distributed at the nodes of a lattice. A bin takes the value of one of the
+/// four nodes around it, chosen at random with bilinear weights, so that textures are correlated and keep their
+/// distribution.
 class speckle_texture {
   public:
     speckle_texture(const seabed_speckle& s, side looks)
@@ -139,7 +141,7 @@ class speckle_texture {
 
     float operator()(std::int64_t ping, std::uint32_t bin, float shape) const {
         const philox_counter lot = lots_(ping, bin, 0);
-        // Rounding a coordinate plus a uniform number goes to either neighbour as often as it is near.
+        // Rounding a coordinate plus a uniform number chooses either neighbour with its linear weight.
         const std::int64_t row = numeric::floor_to_int(static_cast<double>(ping) * frequency_ + uniform_open(lot[0]));
         const auto column = static_cast<std::uint32_t>(numeric::floor_to_int(bin * frequency_ + uniform_open(lot[1])));
         return static_cast<float>(gamma_of_mean_one(static_cast<double>(shape),
@@ -162,11 +164,11 @@ inline void validate(const speckle_law& law) {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Makes an image of intensities fluctuate.
+/// Applies speckle to an image of mean intensities.
 ///
 /// @param mean     intensities; 0 stays 0
-/// @param types    a seabed::type for each pixel, as labels have it; anything else is `elsewhere`
-/// @param numbers  which pings the rows are
+/// @param types    a seabed::type for each pixel, as in labels::seabed; others are `elsewhere`
+/// @param numbers  ping numbers of the rows
 /// @throws invalid_input for images of different sizes or a parameter out of its range
 template <executor_argument E = serial_executor>
 image<float> with_speckle(image_view<const float> mean, image_view<const std::uint8_t> types, const seabed_speckle& s,
@@ -186,7 +188,7 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     laws[labels::no_seabed] = s.elsewhere;
     for (const speckle_law& law : laws) detail::validate(law);
 
-    // Looks that only some types have are drawn for all, and used by those.
+    // All looks are computed for all bins; types use as many as they have.
     int looks = 1;
     for (const speckle_law& law : laws) looks = (std::max)(looks, law.looks);
 
@@ -224,7 +226,7 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     return out;
 }
 
-/// Speckle with the laws that a seabed states for its own labels.
+/// Speckle with the laws of the seabed's model for labels that have none.
 /// @param legend  as labels::legend
 inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type_properties> legend) {
     for (const seabed::type_properties& t : legend) {
@@ -234,7 +236,7 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
     return s;
 }
 
-/// The same recording with speckle; its rows say which pings they are, and its legend which laws own labels have.
+/// The recording with speckle, by its own ping numbers and legend.
 template <executor_argument E = serial_executor>
 frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
     const seabed_speckle laws = with_legend(s, r.labels.legend);

@@ -97,7 +97,9 @@ struct candidate {
 template <class Shadow>
 candidate make_candidate(const in::scene& scene, const in::overhead& rig, const std::string& seabed,
                          const std::string& policy, const in::render_options<Shadow>& options) {
-    candidate c{.way = {.seabed = seabed, .policy = policy, .cells = static_cast<double>(options.cells) / rig.size.x},
+    candidate c{.way = {.seabed = seabed,
+                        .policy = policy,
+                        .cells = in::overhead_geometry(rig).ground_sampling() / options.cell},
                 .draw = [&scene, rig, options] { return in::render(scene, rig, options); }};
     if constexpr (requires { options.shadow.texels_per_pixel; })
         c.way.texels = static_cast<double>(options.shadow.texels_per_pixel);
@@ -114,13 +116,14 @@ void measure_pictures(const options& o, report::contents& into) {
         in::scene scene;
         scene.seabed = bottom;
         const auto dark = marching::dark_pixels(bottom, rig, 4, pool);
-        const auto truth = in::render(scene, rig, in::render_options<in::shadow::exact>{.cells = 4 * o.pixels}, pool);
+        const double pixel = in::overhead_geometry(rig).ground_sampling();
+        const auto truth = in::render(scene, rig, in::render_options<>{.cell = 0.25 * pixel}, pool);
         std::vector<candidate> candidates;
         for (const double cells : {0.0625, 0.125, 0.25, 0.5, 1.0, 2.0})
             for_each_policy([&](const char* policy, auto shadow) {
                 const auto add = [&] {
                     in::render_options<decltype(shadow)> how{.shadow = shadow};
-                    how.cells = static_cast<int>(cells * o.pixels);
+                    how.cell = pixel / cells;
                     candidates.push_back(make_candidate(scene, rig, name, policy, how));
                 };
                 if constexpr (requires { shadow.texels_per_pixel; }) {
@@ -178,7 +181,7 @@ void measure_targets(const options& o, report::contents& into) {
         shape.segments = 1024;
         return shape;
     });
-    in::render_options<> best{.cells = o.pixels / 8};
+    in::render_options<> best{.cell = 8 * in::overhead_geometry(rig).ground_sampling()};
     best.subpixel_bits = 16;
     const auto truth = in::render(fine, rig, best);
     const auto both = [&](const in::frame<>& f) {
@@ -218,7 +221,7 @@ void measure_mesh(const options& o, report::contents& into) {
     for (const auto& [name, bottom] : seabeds) {
         in::scene scene;
         scene.seabed = bottom;
-        in::render_options<> every{.cells = o.pixels};
+        in::render_options<> every{.cell = in::overhead_geometry(rig).ground_sampling()};
         const auto truth = in::render(scene, rig, every);
         const std::vector<float> errors{0, 0.05f, 0.25f, 1, 4};
         std::vector<std::string> names;
@@ -351,11 +354,11 @@ void measure_depth(const options& o, report::contents& into) {
     };
     const auto draw = [&](bool quick) {
         in::image<float> depth(o.pixels, o.pixels, 0.0f);
-        const in::draw_options how{.keep = in::keep_depth::larger};
         if (quick)
-            in::draw(bottom, place, in::quick_depth_target{depth}, how);
+            in::draw(bottom, place, in::depth_target{depth},
+                     in::draw_options<in::depth_precision::quick>{.keep = in::keep_depth::larger});
         else
-            in::draw(bottom, place, in::depth_target{depth}, how);
+            in::draw(bottom, place, in::depth_target{depth}, {.keep = in::keep_depth::larger});
         return depth;
     };
     const auto exact = draw(false);

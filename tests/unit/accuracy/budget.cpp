@@ -80,15 +80,15 @@ TEST_CASE("Scenes keep to a budget of 1 or 4 pixels of shadow edge, and the larg
     in::thread_pool pool(2);
     for (const std::uint64_t seed : {1u, 19u, 22u}) {
         const trial t = random_trial(seed, 96);
-        int cells = 1 << 30;
+        double cell = 0;
         for (const double tolerated : {1.0, 4.0}) {
             CAPTURE(seed, tolerated);
             const auto how = acc::settings_for({.shadow_edge = tolerated, .intensity = 1}, t.bottom, t.rig,
                                                {.chips = 2, .pixels = 80}, pool);
             CHECK(how.expected.shadow_edge <= tolerated);
             CHECK(displacement(t, how, pool) <= tolerated);
-            CHECK(how.cells <= cells);
-            cells = how.cells;
+            CHECK(how.cell >= cell);
+            cell = how.cell;
         }
     }
 }
@@ -97,16 +97,17 @@ TEST_CASE("Pictures keep to a budget of intensity") {
     const trial t = random_trial(2, 96);
     in::scene scene;
     scene.seabed = t.bottom;
-    const auto truth = in::render(scene, t.rig, in::render_options<>{.cells = 4 * 96});
-    int cells = 1 << 30;
+    const auto truth =
+        in::render(scene, t.rig, in::render_options<>{.cell = 0.25 * in::overhead_geometry(t.rig).ground_sampling()});
+    double cell = 0;
     for (const double tolerated : {0.04, 0.15}) {
         const acc::budget budget{.shadow_edge = 100, .height = 100, .intensity = tolerated};
         const auto how = acc::settings_for(budget, t.bottom, t.rig, {.chips = 2, .pixels = 80});
         const auto drawn = in::render(scene, t.rig, how.options());
-        CAPTURE(tolerated, how.cells);
+        CAPTURE(tolerated, how.cell);
         CHECK(acc::compare_images(drawn.image, truth.image).rmse() <= tolerated);
-        CHECK(how.cells < cells);
-        cells = how.cells;
+        CHECK(how.cell > cell);
+        cell = how.cell;
     }
 }
 
@@ -165,13 +166,14 @@ TEST_CASE("Settings are values: they can be read, changed and handed to render")
     const trial t = random_trial(22, 64);
     auto how = acc::settings_for<in::shadow::map>({.shadow_edge = 2, .intensity = 1}, t.bottom, t.rig,
                                                   {.chips = 1, .pixels = 48, .finest = 2});
-    CHECK(how.cells >= 1);
+    CHECK(how.cell > 0);
     CHECK(how.shadow.texels_per_pixel >= 0.5f);
-    how.cells = 37;
+    const double picture = 64 * in::overhead_geometry(t.rig).ground_sampling();
+    how.cell = picture / 37;
     how.shadow.texels_per_pixel = 3;
     how.subpixel_bits = 12;
     const auto options = how.options<in::no_labels>();
-    CHECK(options.cells == 37);
+    CHECK(options.cell == picture / 37);
     CHECK(options.shadow.texels_per_pixel == 3);
     CHECK(options.subpixel_bits == 12);
     in::scene scene;
@@ -204,12 +206,13 @@ TEST_CASE("From fast over balanced to exact errors never rise and work never fal
         in::scene scene;
         scene.seabed = t.bottom;
         const auto truth = marching::dark_pixels(t.bottom, t.rig, 4, pool);
-        const auto fine = in::render(scene, t.rig, in::render_options<in::shadow::exact>{.cells = 4 * 80}, pool);
+        const auto fine = in::render(
+            scene, t.rig, in::render_options<>{.cell = 0.25 * in::overhead_geometry(t.rig).ground_sampling()}, pool);
         double wrong = 1e30, intensity = 1e30;
         std::uint64_t work = 0;
         const auto compare = [&](const auto& how) {
             const auto frame = in::render(scene, t.rig, how.options(), pool);
-            CAPTURE(seed, how.cells);
+            CAPTURE(seed, how.cell);
             const auto found = acc::compare_masks(dark_of(frame.labels), truth);
             const auto now = static_cast<double>(found.wrong_pixels());
             CHECK(now <= wrong + 2);  // pixels, of 6400
@@ -248,8 +251,8 @@ TEST_CASE("Budgets and named settings hold where meshes of other makers stand on
         stand(open, -0.15, 0.1);
         stand(dense, 0.2, 0.15);
         stand(soup, 0, -0.2);
-        in::render_options<> finest{.cells = 4 * 128};
-        finest.subpixel_bits = 16;
+        const in::render_options<> finest{.cell = 0.25 * in::overhead_geometry(t.rig).ground_sampling(),
+                                          .subpixel_bits = 16};
         const auto truth = in::render(scene, t.rig, finest, pool);
         const auto off_by = [&](const auto& how) {
             const auto drawn = in::render(scene, t.rig, how.options(), pool);
@@ -281,7 +284,7 @@ TEST_CASE("Of 100 random scenes 99 keep to a budget of 0.25, 1 or 4 pixels of sh
                     off <= tolerated ? "scene" : "SCENE", static_cast<unsigned long long>(seed),
                     static_cast<int>(t.bottom.only_type().value()),
                     in::numeric::to_degrees(static_cast<double>(t.rig.grazing)), tolerated, how.expected.shadow_edge,
-                    off, how.cells / 192.0);
+                    off, in::overhead_geometry(t.rig).ground_sampling() / how.cell);
     }
     CHECK(within >= scenes * 99 / 100);
 }

@@ -29,8 +29,8 @@ std::vector<glm::dvec4> cuts_of_first_edge(const clip_polygon& polygon) {
     std::vector<glm::dvec4> cuts;
     for (int i = 0; i < polygon.count; ++i) {
         const auto& corner = polygon.corners[static_cast<std::size_t>(i)];
-        const bool is_new = corner.shares.x < 1 && corner.shares.y < 1;
-        if (corner.shares.z == 0 && is_new) cuts.push_back(corner.position);
+        const bool is_new = corner.weights.x < 1 && corner.weights.y < 1;
+        if (corner.weights.z == 0 && is_new) cuts.push_back(corner.position);
     }
     return cuts;
 }

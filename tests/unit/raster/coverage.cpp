@@ -93,7 +93,7 @@ class comparison {
   public:
     std::uint64_t wrong = 0, covered = 0;
 
-    void check(const std::array<glm::dvec2, 3>& corners, in::draw_options options) {
+    void check(const std::array<glm::dvec2, 3>& corners, in::draw_options<> options) {
         glm::dvec2 seen[3];
         for (std::size_t i = 0; i < 3; ++i) {
             mesh_.positions[i] = glm::vec3(corners[i], 0.5);
@@ -125,7 +125,7 @@ void compare(std::uint64_t seed, int count) {
     for (int kind = 0; kind < any_triangle::kinds; ++kind) {
         comparison result;
         for (int i = 0; i < count; ++i) {
-            in::draw_options options;
+            in::draw_options<> options;
             options.subpixel_bits = i % 2 == 0 ? 8 : i % 4 == 1 ? 16 : 4 + static_cast<int>(choice.below(13));
             options.tile = 8 << choice.below(3);
             options.level = choice.below(8) == 0   ? in::isa::scalar

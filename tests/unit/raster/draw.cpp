@@ -44,7 +44,7 @@ struct picture {
     friend bool operator==(const picture&, const picture&) = default;
 };
 
-picture draw_bumps(const in::mesh& m, in::draw_options options, auto&& ex) {
+picture draw_bumps(const in::mesh& m, in::draw_options<> options, auto&& ex) {
     picture p(200, 130);
     options.keep = in::keep_depth::larger;
     options.load = in::depth_load::clear;
@@ -77,7 +77,7 @@ TEST_CASE("Buffers that belong to no mesh are drawn as a mesh of them is") {
     const in::mesh m = bumps(20);
     const std::vector<glm::vec3> positions = m.positions;
     const std::vector<glm::uvec3> triangles = m.triangles;
-    const in::draw_options options{.keep = in::keep_depth::larger, .load = in::depth_load::clear};
+    const in::draw_options<> options{.keep = in::keep_depth::larger, .load = in::depth_load::clear};
     in::image<float> of_mesh(90, 70), of_buffers(90, 70);
     in::draw(m, place_only, in::depth_target{of_mesh}, options);
     in::draw({positions, {}, triangles}, place_only, in::depth_target{of_buffers}, options);
@@ -236,7 +236,7 @@ TEST_CASE("What lies outside of the picture is missed, whatever else it is; what
         in::mesh m{{at(0.01f, 4), at(1, 4), at(0.01f, 5), at(4000, 4)}, {}, {}};
         for (int i = 0; i < 37; ++i) m.triangles.insert(m.triangles.end(), {{0, 0, 0}, {0, 1, 2}, {0, 2, 3}});
         in::image<float> depth(8, 8);
-        const in::draw_options options{.cull = cull, .load = in::depth_load::clear, .level = level};
+        const in::draw_options<> options{.cull = cull, .load = in::depth_load::clear, .level = level};
         auto stats = in::draw(m, pixel_space{8, 8}, in::depth_target{depth}, options);
         CHECK(stats.missed == m.triangles.size());
         if (beyond < 0) continue;

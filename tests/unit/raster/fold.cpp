@@ -1,6 +1,6 @@
 // Polygons that rounding has folded over themselves, against a sum of triangles that an exact oracle has judged.
 #include <insonify/core/random.hpp>
-#include <insonify/raster/detail/fold.hpp>
+#include <insonify/raster/detail/clip.hpp>
 
 #include "../../catch.hpp"
 #include "pixel_space.hpp"
@@ -47,13 +47,13 @@ TEST_CASE("The parts of a polygon cover what winds around more often one way tha
         const in::detail::screen_polygon polygon(polygon_of(points), to_screen);
         in::image<int> count(size, size), winding(size, size);
         bool runs = false;
-        polygon.for_each_part(grid, [&](std::array<int, 3> corners, const in::detail::pixel_box& box, bool is_run) {
+        polygon.for_each_part(grid, [&](std::array<int, 3> corners, const in::rect& pixels, bool is_run) {
             runs |= is_run;
             glm::dvec2 corner[3];
             for (std::size_t k = 0; k < 3; ++k) corner[k] = points[static_cast<std::size_t>(corners[k])];
             const oracle part(corner, bits);
-            for (int y = box.y0; y <= box.y1; ++y)
-                for (int x = box.x0; x <= box.x1; ++x) count(x, y) += is_run || part.covers(x, y) ? 1 : 0;
+            for (int y = pixels.y0; y < pixels.y1; ++y)
+                for (int x = pixels.x0; x < pixels.x1; ++x) count(x, y) += is_run || part.covers(x, y) ? 1 : 0;
         });
         for (std::size_t i = 1; i + 1 < points.size(); ++i) {
             const oracle part({points[0], points[i], points[i + 1]}, bits);

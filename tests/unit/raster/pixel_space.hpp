@@ -25,7 +25,7 @@ struct pixel_space {
 };
 
 /// How often each pixel is covered, every triangle drawn by itself.
-inline in::image<int> hits(const in::mesh& m, int width, int height, auto&& place, in::draw_options options = {}) {
+inline in::image<int> hits(const in::mesh& m, int width, int height, auto&& place, in::draw_options<> options = {}) {
     in::image<int> count(width, height);
     in::image<float> depth(width, height);
     options.load = in::depth_load::clear;
@@ -37,7 +37,7 @@ inline in::image<int> hits(const in::mesh& m, int width, int height, auto&& plac
     }
     return count;
 }
-inline in::image<int> hits(const in::mesh& m, int width, int height, in::draw_options options = {}) {
+inline in::image<int> hits(const in::mesh& m, int width, int height, in::draw_options<> options = {}) {
     return hits(m, width, height, pixel_space{width, height}, options);
 }
 

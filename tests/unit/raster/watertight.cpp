@@ -20,7 +20,7 @@ struct hit_counter {
     in::mesh one{};
     in::image<float> depth{size, size};
 
-    void draw(const in::mesh& m, auto&& place, in::draw_options options) {
+    void draw(const in::mesh& m, auto&& place, in::draw_options<> options) {
         front = back = in::image<int>(size, size);
         options.load = in::depth_load::clear;
         one.positions = m.positions;
@@ -39,7 +39,7 @@ struct hit_counter {
     }
 };
 
-in::draw_options any_options(in::random_sequence& random) {
+in::draw_options<> any_options(in::random_sequence& random) {
     return {.subpixel_bits = 4 + static_cast<int>(random.below(13)), .tile = 8 << random.below(2)};
 }
 
@@ -157,7 +157,7 @@ void check_meshes(std::uint64_t first_seed, std::uint64_t count) {
         if (hits.front != hits.back) FAIL("a solid has a hole");
 
         const plane_view view(random);
-        in::draw_options options = any_options(random);
+        in::draw_options<> options = any_options(random);
         options.subpixel_bits = (std::max)(options.subpixel_bits, 8);
         hits.draw(view.mesh, view, options);
         for (int y = 0; y < size; ++y)

@@ -83,7 +83,7 @@ TEST_CASE("Fields of view of a tenth of a degree and of 179 degrees") {
         REQUIRE(frame.labels.targets.size() == 1);
         // As wide as it is, but for what perspective adds to its top.
         const double expected = 128.0 / 4 * 10 / (10 - static_cast<double>(height));
-        CHECK(static_cast<double>(frame.labels.targets[0].box.width) == Approx(expected).margin(1.01));
+        CHECK(static_cast<double>(frame.labels.targets[0].box.width()) == Approx(expected).margin(1.01));
         for (const float value : frame.image.pixels()) REQUIRE((value >= 0 && value <= 1));
     }
     CHECK_THROWS_AS(in::render({}, in::overhead{.field_of_view = 180_deg}), in::invalid_input);

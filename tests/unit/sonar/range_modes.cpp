@@ -222,10 +222,10 @@ TEST_CASE("Row i is ping i in every recording, the first on top; upside_down tur
     const auto recorded = in::record(s, std::span<const in::ping>(track), rig);
     CHECK(drawn.image == recorded.image);
     CHECK(drawn.labels.instance == recorded.labels.instance);
-    CHECK(drawn.labels.targets[0].box.y == 10);
+    CHECK(drawn.labels.targets[0].box.y0 == 10);
     CHECK((drawn.rows.first == 0 && drawn.rows.step == 1));
     const auto turned = in::upside_down(drawn);
-    CHECK(turned.labels.targets[0].box.y == 40 - 10 - drawn.labels.targets[0].box.height);
+    CHECK(turned.labels.targets[0].box.y0 == 40 - 10 - drawn.labels.targets[0].box.height());
     CHECK((turned.rows.first == 39 && turned.rows.step == -1));
     CHECK(std::equal(turned.image.row(39).begin(), turned.image.row(39).end(), drawn.image.row(0).begin()));
     // Speckle follows the numbers.

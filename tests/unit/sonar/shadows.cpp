@@ -360,8 +360,7 @@ TEST_CASE("Seabed that can't throw a shadow into the picture changes no pixel of
         in::overhead rig = scenes::rig(azimuth, 4, 200);
         rig.yaw = 0.3f;
         in::scene s = wide_rubble();
-        exact_options options;
-        options.cells = 128;
+        exact_options options{.cell = in::overhead_geometry(rig).half_extent(0).x / 64};
         const auto as_it_is = in::render(s, rig, options);
         // One stone far away, which the light comes to last, could be high enough to matter: more has to be there.
         in::seabed::heightfield field = *s.seabed.get_if<in::seabed::heightfield>();
@@ -391,10 +390,9 @@ TEST_CASE("A wall outside of the picture throws its shadow in, as far as it is h
     for (int j = 0; j < 641; ++j) field.heights(160, j) = 0.9f;  // at x = -10, 6 m before the picture
     in::scene s;
     s.seabed = field;
-    in::render_options<in::shadow::exact> options;
-    options.cells = 128;
     for (const double elevation : {4.0, 5.0, 6.5}) {
         const in::overhead rig = scenes::rig(0, elevation, 200);
+        const exact_options options{.cell = in::overhead_geometry(rig).half_extent(0).x / 64};
         const auto frame = in::render(s, rig, options);
         const double tip = -10 + 0.9 / std::tan(in::numeric::to_radians(elevation));
         for (int x = 0; x < 200; ++x) {

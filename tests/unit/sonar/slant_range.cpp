@@ -500,8 +500,8 @@ TEST_CASE("Both sides in one picture, with the water column between them") {
     for (const in::target_label& t : swath.labels.targets) {
         CHECK(t.area > 0);
         const bool port = t.class_name == "port cube";
-        CHECK((t.box.x < 300) == port);
-        CHECK((t.shadow_box.x < t.box.x) == port);  // shadows fall away from the sonar
+        CHECK((t.box.x0 < 300) == port);
+        CHECK((t.shadow_box.x0 < t.box.x0) == port);  // shadows fall away from the sonar
     }
 }
 

@@ -57,10 +57,10 @@ TEST_CASE("Slant-range correction puts the bottom where it is, and needs as many
     const auto heard = in::render(s, rig, {.cell = 0.01});
     const auto on_ground = in::to_ground_range(heard, rig, map);
     REQUIRE(on_ground.labels.targets.size() == 1);
-    const in::label_box box = on_ground.labels.targets[0].box;
-    CHECK(box.x * 0.01 == Approx(8.9).margin(0.025));
-    CHECK((box.x + box.width) * 0.01 == Approx(9.1).margin(0.025));
-    CHECK(box.height == 3);
+    const in::rect box = on_ground.labels.targets[0].box;
+    CHECK(box.x0 * 0.01 == Approx(8.9).margin(0.025));
+    CHECK(box.x1 * 0.01 == Approx(9.1).margin(0.025));
+    CHECK(box.height() == 3);
     for (int x = 100; x < 1500; ++x)  // no water column is left
         REQUIRE(on_ground.labels.seabed(x, 0) != (on_ground.labels.instance(x, 0) == 0 ? in::labels::no_seabed : 0));
     const std::vector<double> heights{6, 6, 6}, two{6, 6};
@@ -81,8 +81,8 @@ TEST_CASE("Three geometries, one type to change: the same scene, the same labels
         const in::target_label& t = picture.labels.targets[0];
         CHECK(t.class_name == "cube");
         CHECK((t.area > 0 && t.shadow_area > 0));
-        CHECK(t.shadow_box.x + t.shadow_box.width > t.box.x + t.box.width);
-        CHECK(t.box.y + t.box.height / 2 < picture.image.height() / 2);  // ahead is up
+        CHECK(t.shadow_box.x1 > t.box.x1);
+        CHECK(t.box.y0 + t.box.height() / 2 < picture.image.height() / 2);  // ahead is up
         for (const float v : picture.image.pixels()) REQUIRE(v >= 0);
     };
     check(in::render(s, in::overhead{.position = {5, 0}, .altitude = 4, .size = {400, 400}}));

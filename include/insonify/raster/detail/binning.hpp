@@ -1,15 +1,15 @@
-// Which triangles each tile has to look at, in the order in which they were submitted.
+// Sorts triangles into tiles, in submission order.
 //
-// Triangles go through in chunks, in parallel. Neighbours in a mesh are mostly neighbours on the screen, so a chunk
-// notes runs: triangles that follow one another and touch the same tiles. Counting the runs of every chunk and tile
-// gives each its place, and a second parallel pass puts them there: an order-preserving counting sort whose result
-// doesn't depend on who ran which chunk.
+// Triangles are binned in chunks, in parallel. Neighbours in a mesh are mostly neighbours on the screen, so a chunk
+// stores runs: consecutive triangles that touch the same tiles. Counting the runs of every chunk and tile gives each
+// its position, and a second parallel pass copies them there: an order-preserving counting sort, whose result does not
+// depend on which thread ran which chunk.
 #pragma once
 
 #include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/executor.hpp>
+#include <insonify/core/rect.hpp>
 #include <insonify/core/simd/lanes.hpp>
-#include <insonify/raster/detail/setup.hpp>
 
 #include <algorithm>
 #include <span>
@@ -21,7 +21,22 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The image cut into square tiles of 2^log2_size pixels.
+/// The first and the last tile of a rectangle of tiles, column and row in 16 bits each: one comparison for both.
+struct tile_range {
+    std::uint32_t first, last;
+
+    static std::uint32_t pack(int column, int row) {
+        return static_cast<std::uint32_t>(column) | static_cast<std::uint32_t>(row) << 16;
+    }
+    rect tiles() const {
+        const auto column = [](std::uint32_t tile) { return static_cast<int>(tile & 0xFFFFu); };
+        const auto row = [](std::uint32_t tile) { return static_cast<int>(tile >> 16); };
+        return {column(first), row(first), column(last) + 1, row(last) + 1};
+    }
+    friend bool operator==(const tile_range&, const tile_range&) = default;
+};
+
+/// The image divided into square tiles of 2^log2_size pixels.
 struct tile_grid {
     int log2_size;
     int columns, rows;
@@ -32,59 +47,49 @@ struct tile_grid {
           rows((height + (1 << log2_tile) - 1) >> log2_tile) {}
 
     std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
-    /// The tiles that a box of pixels touches.
-    pixel_box touched(const pixel_box& box) const {
-        return {box.x0 >> log2_size, box.y0 >> log2_size, box.x1 >> log2_size, box.y1 >> log2_size};
+    /// The pixels of a tile, clipped to the image.
+    rect pixels(std::size_t tile, int width, int height) const {
+        const int x = static_cast<int>(tile % static_cast<std::size_t>(columns)) << log2_size;
+        const int y = static_cast<int>(tile / static_cast<std::size_t>(columns)) << log2_size;
+        return intersect({x, y, x + (1 << log2_size), y + (1 << log2_size)}, {0, 0, width, height});
+    }
+    /// The tiles that a rectangle of pixels touches; it must not be empty.
+    tile_range touched(const rect& pixels) const {
+        return {tile_range::pack(pixels.x0 >> log2_size, pixels.y0 >> log2_size),
+                tile_range::pack((pixels.x1 - 1) >> log2_size, (pixels.y1 - 1) >> log2_size)};
     }
 };
 
-/// The first and the last tile of a rectangle of tiles, each with its column and row in 16 bits: soon compared.
-struct tile_range {
-    std::uint32_t first, last;
-
-    static tile_range of(const pixel_box& tiles) {
-        const auto pack = [](int column, int row) {
-            return static_cast<std::uint32_t>(column) | static_cast<std::uint32_t>(row) << 16;
-        };
-        return {pack(tiles.x0, tiles.y0), pack(tiles.x1, tiles.y1)};
-    }
-    pixel_box box() const {
-        const auto unpack = [](std::uint32_t half) { return static_cast<int>(half & 0xFFFFu); };
-        return {unpack(first), unpack(first >> 16), unpack(last), unpack(last >> 16)};
-    }
-    friend bool operator==(const tile_range&, const tile_range&) = default;
-};
-
-/// Triangles whose names follow one another, all drawn the same way.
+/// Triangles with consecutive ids.
 struct triangle_run {
     std::uint32_t first, count;
-    bool is_small;  ///< eight go through the set-up at a time
+    bool is_small;  ///< see small_setup.hpp
 };
 
-/// Reads the triangles of some runs in order, small ones as many at a time as are wanted, whatever their runs.
+/// Reads the triangles of a tile's runs in order; small ones in groups across runs.
 class run_reader {
   public:
     explicit run_reader(std::span<const triangle_run> runs) : runs_(runs) {}
 
     bool empty() const { return runs_.empty(); }
 
-    /// Sets the names of the next small triangles, Most of them or as many as come before one that isn't small; behind
-    /// those stands the first again, and the second half is scratch.
-    /// @returns how many
-    template <int Most>
-    INSONIFY_INLINE int take_small(std::uint32_t (&names)[static_cast<unsigned>(2 * Most)]) {
-        lanes<std::uint32_t, Most> number;
-        count_up<std::uint32_t, Most>(number);
+    /// Sets the ids of the next small triangles, at most N and up to the next one that isn't small. The rest of the
+    /// first N ids repeats the first; the second half of the array is scratch.
+    /// @returns their number
+    template <int N>
+    INSONIFY_INLINE int take_small(std::uint32_t (&ids)[static_cast<unsigned>(2 * N)]) {
+        lanes<std::uint32_t, N> number;
+        count_up<std::uint32_t, N>(number);
         int count = 0;
-        while (count < Most && !runs_.empty() && runs_.front().is_small) {
+        while (count < N && !runs_.empty() && runs_.front().is_small) {
             const triangle_run& run = runs_.front();
-            const std::uint32_t some = (std::min)(run.count - taken_, static_cast<std::uint32_t>(Most - count));
-            store(names + count, lanes<std::uint32_t, Most>(number + (run.first + taken_)));
+            const std::uint32_t some = (std::min)(run.count - taken_, static_cast<std::uint32_t>(N - count));
+            store(ids + count, lanes<std::uint32_t, N>(number + (run.first + taken_)));
             count += static_cast<int>(some);
             taken_ += some;
             if (taken_ == run.count) advance();
         }
-        for (int i = count; count > 0 && i < Most; ++i) names[i] = names[0];
+        for (int i = count; count > 0 && i < N; ++i) ids[i] = ids[0];
         return count;
     }
     /// The next run.
@@ -107,43 +112,43 @@ class run_reader {
 /// The runs of one chunk.
 class tile_runs {
   public:
-    /// The next triangles, `count` of them from `first` on, and the tiles that each of them touches.
+    /// Appends `count` triangles, each of which touches these tiles.
     void add(std::uint32_t first, std::uint32_t count, const tile_range& tiles, bool is_small) {
-        if (!runs_.empty()) {
-            noted& last = runs_.back();
+        if (!entries_.empty()) {
+            entry& last = entries_.back();
             if (last.run.first + last.run.count == first && last.tiles == tiles && last.run.is_small == is_small) {
                 last.run.count += count;
                 return;
             }
         }
-        runs_.push_back({tiles, {first, count, is_small}});
+        entries_.push_back({tiles, {first, count, is_small}});
     }
 
     /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.
     template <class Visit>
     void for_each(const tile_grid& grid, const Visit& visit) const {
-        for (const noted& n : runs_) {
-            const pixel_box tiles = n.tiles.box();
-            for (int row = tiles.y0; row <= tiles.y1; ++row)
-                for (int column = tiles.x0; column <= tiles.x1; ++column)
+        for (const entry& e : entries_) {
+            const rect tiles = e.tiles.tiles();
+            for (int row = tiles.y0; row < tiles.y1; ++row)
+                for (int column = tiles.x0; column < tiles.x1; ++column)
                     visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
                               static_cast<std::size_t>(column),
-                          n.run);
+                          e.run);
         }
     }
 
-    /// Adds `offset` to all names from `first` on; no run may go across it.
-    void rename(std::uint32_t first, std::uint32_t offset) {
-        for (noted& n : runs_)
-            if (n.run.first >= first) n.run.first += offset;
+    /// Adds `offset` to all ids from `first` on; no run may contain ids on either side of it.
+    void shift_ids(std::uint32_t first, std::uint32_t offset) {
+        for (entry& e : entries_)
+            if (e.run.first >= first) e.run.first += offset;
     }
 
   private:
-    struct noted {
+    struct entry {
         tile_range tiles;
         triangle_run run;
     };
-    std::vector<noted> runs_;
+    std::vector<entry> entries_;
 };
 
 /// Runs by tile.
@@ -154,25 +159,25 @@ class tile_bins {
     /// @param chunks  the runs of all chunks, in submission order
     template <executor E>
     tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
-        // Count, then turn the counts into places: by tile first, by chunk within a tile.
+        // Counts, then their prefix sums: by tile first, by chunk within a tile.
         const std::size_t tiles = grid.count();
-        std::vector<std::uint32_t> places(chunks.size() * tiles, 0);
-        const auto of_chunk = [&](std::size_t chunk) { return std::span(places).subspan(chunk * tiles, tiles); };
+        std::vector<std::uint32_t> positions(chunks.size() * tiles, 0);
+        const auto of_chunk = [&](std::size_t chunk) { return std::span(positions).subspan(chunk * tiles, tiles); };
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
         });
-        std::uint32_t place = 0;
+        std::uint32_t sum = 0;
         for (std::size_t tile = 0; tile < tiles; ++tile) {
-            first_[tile] = place;
+            first_[tile] = sum;
             for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
                 const std::uint32_t count = of_chunk(chunk)[tile];
-                of_chunk(chunk)[tile] = place;
-                place += count;
+                of_chunk(chunk)[tile] = sum;
+                sum += count;
             }
         }
-        first_[tiles] = place;
+        first_[tiles] = sum;
 
-        runs_ = uninitialized_vector<triangle_run>(place, memory_of(ex));
+        runs_ = uninitialized_vector<triangle_run>(sum, memory_of(ex));
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(
                 grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });

@@ -1,13 +1,18 @@
-// Clipping of the few triangles that need it: in front of the camera plane, beyond the depth range, or 2^50 sub-pixels
-// outside the picture. Everything else is left to the rectangle of the image.
+// Clipping, and clipped triangles on the pixel grid.
 //
-// Where an edge crosses a plane, the new vertex is the same to the bit from whichever end it is computed. Both
-// triangles that share the edge get it: no crack opens, however many planes cut.
+// Only triangles that reach behind the camera plane, out of the depth range, or 2^50 sub-pixels out of the picture are
+// clipped; the image's rectangle cuts off the rest. Where an edge crosses a plane, the new vertex has the same bits
+// from whichever end it is computed, and both triangles at the edge get it: no crack opens, however many planes cut.
+//
+// Snapping can fold a thin polygon over itself: a vertex that lands on the wrong side of an edge flips one of the
+// triangles that the polygon is divided into, and pixels beside the polygon would be hit. The winding number then
+// decides pixel by pixel, by the same top-left rule.
 #pragma once
 
 #include <insonify/core/detail/portable.hpp>
 #include <insonify/core/simd/lanes.hpp>
 #include <insonify/raster/detail/setup.hpp>
+#include <insonify/raster/draw_options.hpp>
 
 #include <algorithm>
 #include <array>
@@ -22,25 +27,26 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A corner of a clipped piece: where it is, and what share each vertex of the whole triangle has in it.
+/// A corner of a clipped triangle: its clip position and its barycentric weights in the whole triangle.
 struct clip_corner {
     glm::dvec4 position;
-    glm::dvec3 shares;
+    glm::dvec3 weights;
 };
 
-/// A convex piece of a triangle: three corners and at most one more for each plane.
+/// The part of a triangle inside all planes, convex: three corners and at most one more for each plane.
 struct clip_polygon {
     static constexpr int planes = 7;
     std::array<clip_corner, 3 + planes> corners;
     int count = 0;
-    bool cut = false;  ///< by any plane
+    bool was_cut = false;  ///< by any plane
 };
 
 /// From clip space to the fixed-point grid.
 class projection {
   public:
-    /// @param exact  divides by w; else multiplies by 1 / w, which is as good but for the last bit. Exact places are
-    ///               the nearest on the grid up to 2^27 sub-pixels from its middle; beyond, but for 2^-52 of the way
+    /// @param exact  whether to divide by w rather than multiply by 1 / w, which may be off in the last bit. Exact
+    ///               positions are the nearest on the grid up to 2^27 sub-pixels from its centre, and within 2^-52 of
+    ///               the distance beyond that
     projection(const pixel_grid& grid, keep_depth keep, bool exact = true)
         : grid_(grid),
           half_width_(0.5 * grid.width),
@@ -54,7 +60,7 @@ class projection {
           sign_(keep == keep_depth::smaller ? 1.0 : -1.0),
           exact_(exact) {}
 
-    /// Distance to each clipping plane in clip space, >= 0 inside. The first keeps w away from zero.
+    /// Distance to a clipping plane in clip space, >= 0 inside. The first plane keeps w away from zero.
     double distance(int plane, const glm::dvec4& p) const {
         switch (plane) {
             case 0: return p.w - smallest_w;
@@ -67,14 +73,7 @@ class projection {
         }
     }
 
-    /// Inside all planes and compact on the grid; false for NaN and infinity too.
-    bool is_compact(const glm::dvec4& p) const {
-        const double x = numeric::magnitude(p.x), y = numeric::magnitude(p.y);
-        return p.w >= smallest_w && p.z >= 0 && p.z <= p.w && x <= compact_x_ * p.w && y <= compact_y_ * p.w &&
-               p.w <= static_cast<double>((std::numeric_limits<float>::max)());
-    }
-
-    /// Internally smaller depth always wins; a target that keeps the larger one sees it negated.
+    /// Depth is negated where the larger one is kept: in a tile, smaller is always nearer.
     screen_vertex to_screen(const glm::dvec4& p) const {
         const double inverse_w = 1 / p.w;
         const glm::dvec3 over_w = exact_ ? glm::dvec3(p.x / p.w, p.y / p.w, p.z / p.w)
@@ -83,7 +82,7 @@ class projection {
                 sign_ * over_w.z, inverse_w};
     }
 
-    /// The same for N positions, by axis. What isn't compact gets the place of what is off the grid.
+    /// The same for N positions, by axis. Vertices that are not compact (or NaN) are marked as off the grid.
     template <int N>
     INSONIFY_INLINE void to_screen(const lanes<double, N> (&p)[4], lanes<std::int64_t, N>& x, lanes<std::int64_t, N>& y,
                                    lanes<double, N>& z, lanes<double, N>& inverse_w) const {
@@ -108,31 +107,30 @@ class projection {
         z = z * sign_;
         snap<N>(x, right * right_.units, right_.origin);
         snap<N>(y, down * down_.units, down_.origin);
-        x = compact ? x : masks{} + std::int64_t{grid_place::no_x};
+        x = compact ? x : masks{} + std::int64_t{grid_position::off_grid};
         y = compact ? y : masks{};
     }
 
-    /// The part of a triangle that lies inside all planes (Sutherland and Hodgman, 1974).
+    /// Clips a triangle by all planes (Sutherland and Hodgman, 1974).
     clip_polygon clip(const std::array<glm::dvec4, 3>& triangle) const {
-        clip_polygon piece;
+        clip_polygon polygon;
         for (int i = 0; i < 3; ++i) {
-            const glm::dvec3 share{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
-            piece.corners[static_cast<std::size_t>(i)] = {triangle[static_cast<std::size_t>(i)], share};
+            const glm::dvec3 weights{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
+            polygon.corners[static_cast<std::size_t>(i)] = {triangle[static_cast<std::size_t>(i)], weights};
         }
-        piece.count = 3;
-        for (int plane = 0; plane < clip_polygon::planes && piece.count > 0; ++plane) piece = cut(piece, plane);
-        for (int i = 0; i < piece.count; ++i) move_inside(piece.corners[static_cast<std::size_t>(i)].position);
-        return piece;
+        polygon.count = 3;
+        for (int plane = 0; plane < clip_polygon::planes && polygon.count > 0; ++plane) polygon = cut(polygon, plane);
+        for (int i = 0; i < polygon.count; ++i) move_inside(polygon.corners[static_cast<std::size_t>(i)].position);
+        return polygon;
     }
 
   private:
     static constexpr double smallest_w = 1e-30;
 
-    /// An axis of the way from clip space over w to the grid, as pixel_grid::snap goes it: to scale by a power of two
-    /// at once changes no rounding.
+    /// One axis of pixel_grid::snap; scaling by the width and the power of two at once changes no rounding.
     struct axis {
-        double units;          ///< sub-pixels
-        std::uint64_t origin;  ///< of the picture, less what the magic number leaves
+        double units;          ///< half the picture in sub-pixels
+        std::uint64_t origin;  ///< of the picture, less the bits that the magic number leaves
         axis(const pixel_grid& grid, int extent, double half)
             : units(half * static_cast<double>(grid.unit())),
               origin(static_cast<std::uint64_t>(extent * grid.half() -
@@ -142,14 +140,14 @@ class projection {
     INSONIFY_INLINE static void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& units,
                                      std::uint64_t origin) {
         const lanes<double, N> sum = units + pixel_grid::magic;
-        lanes<std::uint64_t, N> bits;  // what isn't compact may wrap around
+        lanes<std::uint64_t, N> bits;  // unsigned: vertices that are not compact may wrap around
         std::memcpy(&bits, &sum, sizeof bits);
         bits = bits + origin;
         std::memcpy(&into, &bits, sizeof into);
     }
 
-    /// What rounding has left outside of a plane, by a little or, next to the eye, by a lot. It depends on the position
-    /// alone, so neighbours go on sharing their corners.
+    /// Clamps a corner that rounding left outside of a plane: by little, or next to the eye by a lot. The result
+    /// depends on the position alone, so triangles that share a corner still do.
     void move_inside(glm::dvec4& p) const {
         p.w = (std::max)(p.w, smallest_w);
         p.x = std::clamp(p.x, -widest_x_ * p.w, widest_x_ * p.w);
@@ -159,7 +157,7 @@ class projection {
 
     clip_polygon cut(const clip_polygon& whole, int plane) const {
         clip_polygon kept;
-        kept.cut = whole.cut;
+        kept.was_cut = whole.was_cut;
         const auto keep = [&](const clip_corner& corner) {
             kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
         };
@@ -169,7 +167,7 @@ class projection {
             const double d_here = distance(plane, here.position), d_next = distance(plane, next.position);
             const bool here_inside = d_here >= 0, next_inside = d_next >= 0;
             if (here_inside) keep(here);
-            kept.cut |= !here_inside;
+            kept.was_cut |= !here_inside;
             if (here_inside == next_inside) continue;
             clip_corner crossed = crossing(here, d_here, next, d_next);
             if (plane == 0) crossed.position = next_to_eye(here.position, next.position);
@@ -178,21 +176,21 @@ class projection {
         return kept;
     }
 
-    /// Where the edge between two corners on either side of a plane meets it. Both shares are positive, so a crossing
-    /// next to the eye doesn't cancel out beside an end that is far away; and exchanging the corners changes no bit.
+    /// Where the edge between two corners on either side of a plane meets it. Both weights are positive, so that a
+    /// crossing next to the eye does not cancel out against a distant end. Exchanging the corners changes no bit.
     static clip_corner crossing(const clip_corner& a, double d_a, const clip_corner& b, double d_b) {
-        const double share_a = d_b / (d_b - d_a), share_b = d_a / (d_a - d_b);
-        return {share_a * a.position + share_b * b.position, share_a * a.shares + share_b * b.shares};
+        const double weight_a = d_b / (d_b - d_a), weight_b = d_a / (d_a - d_b);
+        return {weight_a * a.position + weight_b * b.position, weight_a * a.weights + weight_b * b.weights};
     }
 
-    /// Where an edge crosses w = smallest_w. Interpolated, x, y and z would be what rounding leaves of two large
-    /// numbers, and nothing beside it. Products of floats are exact in doubles, so here an edge with z = w, or one
-    /// through the eye, keeps its proportions. Exchanging the ends changes no bit.
+    /// Where an edge crosses w = smallest_w. Interpolation would cancel: x, y and z are tiny beside those of the ends.
+    /// Products of floats are exact in double, so that here an edge with z = w, or one through the eye, keeps its
+    /// proportions. Exchanging the ends changes no bit.
     static glm::dvec4 next_to_eye(const glm::dvec4& a, const glm::dvec4& b) {
         const double run = b.w - a.w;
         glm::dvec4 p(0, 0, 0, smallest_w);
         for (int i = 0; i < 3; ++i) p[i] = ((a[i] * b.w - b[i] * a.w) + smallest_w * (b[i] - a[i])) / run;
-        // What both ends are inside of, everything between them is.
+        // A plane with both ends inside has everything between them inside.
         if (a.z >= 0 && b.z >= 0) p.z = (std::max)(p.z, 0.0);
         if (a.z <= a.w && b.z <= b.w) p.z = (std::min)(p.z, smallest_w);
         return p;
@@ -205,6 +203,86 @@ class projection {
     axis right_, down_;
     double sign_;
     bool exact_;
+};
+
+/// A clipped triangle, snapped.
+class screen_polygon {
+  public:
+    screen_polygon(const clip_polygon& polygon, const projection& p) : count_(polygon.count) {
+        for (int i = 0; i < count_; ++i)
+            corners_[static_cast<std::size_t>(i)] = p.to_screen(polygon.corners[static_cast<std::size_t>(i)].position);
+        int128 area;
+        for (int i = 1; i + 1 < count_; ++i) {
+            const int128 part = wide_area(at(0), at(i), at(i + 1));
+            area = area + part;
+            turns_[part.sign() + 1] = true;
+            const int128 size = part.sign() < 0 ? -part : part;
+            if ((size - largest_).sign() > 0) {
+                largest_ = size;
+                largest_part_ = i;
+            }
+        }
+        area_sign_ = area.sign();
+    }
+
+    const screen_vertex& at(int corner) const { return corners_[static_cast<std::size_t>(corner)]; }
+    /// 1 for clockwise on the screen, -1 for counter-clockwise, 0 for no area.
+    int area_sign() const { return area_sign_; }
+
+    /// Calls `part(corners, pixels, is_run)` for disjoint parts of the polygon: triangles of three of its corners; or,
+    /// if it is folded, runs of covered pixels in the plane of three of its corners.
+    template <class Part>
+    void for_each_part(const pixel_grid& grid, const Part& part) const {
+        if (turns_[0] && turns_[2]) return for_each_run(grid, part);
+        for (int i = 1; i + 1 < count_; ++i) {
+            const rect pixels = center_rect(at(0), at(i), at(i + 1), grid);
+            if (!pixels.empty() && wide_area(at(0), at(i), at(i + 1)).sign() != 0)
+                part(std::array<int, 3>{0, i, i + 1}, pixels, false);
+        }
+    }
+
+  private:
+    template <class Part>
+    void for_each_run(const pixel_grid& grid, const Part& part) const {
+        const std::array<int, 3> plane{0, largest_part_, largest_part_ + 1};
+        rect all{grid.width, grid.height, 0, 0};
+        for (int i = 1; i + 1 < count_; ++i) {
+            const rect r = center_rect(at(0), at(i), at(i + 1), grid);
+            if (r.empty()) continue;
+            all = {(std::min)(all.x0, r.x0), (std::min)(all.y0, r.y0), (std::max)(all.x1, r.x1),
+                   (std::max)(all.y1, r.y1)};
+        }
+        for (int y = all.y0; y < all.y1; ++y)
+            for (int x = all.x0; x < all.x1; ++x) {
+                if (winding(x, y, grid) * area_sign_ <= 0) continue;
+                const int first = x;
+                while (x < all.x1 && winding(x, y, grid) * area_sign_ > 0) ++x;
+                part(plane, rect{first, y, x, y + 1}, true);
+            }
+    }
+
+    /// The winding number of the outline around a pixel's centre, clockwise. The fill rule shifts the centre to the
+    /// right by an infinitesimal amount, and downwards by one of second order.
+    int winding(int px, int py, const pixel_grid& grid) const {
+        const std::int64_t x = grid.center(px), y = grid.center(py);
+        int sum = 0;
+        for (int i = 0; i < count_; ++i) {
+            const screen_vertex &from = at(i), &to = at((i + 1) % count_);
+            const bool up = to.y <= y && y < from.y, down = from.y <= y && y < to.y;
+            if (!up && !down) continue;
+            const int side = wide_side(to.x - from.x, to.y - from.y, x - from.x, y - from.y).sign();
+            if (up && side >= 0) ++sum;
+            if (down && side <= 0) --sum;
+        }
+        return sum;
+    }
+
+    std::array<screen_vertex, 3 + clip_polygon::planes> corners_;
+    int count_;
+    bool turns_[3] = {};  ///< whether a part runs counter-clockwise, is degenerate, runs clockwise
+    int128 largest_{};
+    int largest_part_ = 1;
+    int area_sign_ = 0;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -79,7 +79,7 @@ struct map_placement {
     glm::vec3 start;
 
     glm::vec4 operator()(const vertex& v) const { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); }
-    /// See lane_shader.
+    /// See vertex_lane_shader.
     template <class Floats>
     INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats*, const Floats (&position)[3],
                                     const Floats (&)[3]) const {
@@ -169,7 +169,8 @@ class height_map {
     template <executor_argument E = serial_executor>
     draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
         if (heights_.empty()) return {};
-        return draw(m, grid_.placing(frame_, to_world), quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
+        return draw(m, grid_.placing(frame_, to_world), depth_target{heights_},
+                    draw_options<depth_precision::quick>{.keep = keep_depth::larger}, ex);
     }
 
     const light_frame& frame() const { return frame_; }

@@ -1,8 +1,8 @@
-// One overhead picture: its options and the functions that draw it. render.hpp has the code behind them.
+// Overhead pictures: their options, and the functions that draw them. Their bodies are in render.hpp.
 #pragma once
 
 #include <insonify/core/executor.hpp>
-#include <insonify/core/simd/dispatch.hpp>
+#include <insonify/raster/draw_options.hpp>
 #include <insonify/shadow/policy.hpp>
 #include <insonify/sonar/backscatter.hpp>
 #include <insonify/sonar/frame.hpp>
@@ -17,53 +17,65 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// How to draw a picture; the types say what is in it. Shadow is a shadow::policy, Labels are `labels` or `no_labels`.
-template <class Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert>
+/// Options of an overhead picture. The types select what is computed: Shadow is a shadow::policy, Labels are `labels`
+/// or `no_labels`, and Depth is how depths between vertices are rounded.
+template <class Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert,
+          depth_precision Depth = depth_precision::quick>
 struct render_options {
     Shadow shadow{};
     Law law{};
-    int cells = 0;  ///< of the seabed, along the picture's longer side; 0: one for every two pixels
-    /// How far up the light the seabed may cast from, at most, in lengths of the picture; it is sampled no farther than
-    /// its heights can throw a shadow anyway. Light below 1 degree over rock comes from farther, and passes there.
+    double cell = 0;  ///< metres between the vertices at which the seabed is sampled; 0: two pixels on level ground
+    /// How far towards the light the seabed may cast from, at most, in lengths of the picture. Less is sampled if its
+    /// heights throw no shadow that far; light below 1 degree over rock comes from farther.
     float reach = 8;
-    /// Pixels: by how much the seabed's mesh may displace what is seen, and on level ground the edge of a shadow. 0
-    /// draws every cell; more draws fewer triangles the smoother the bottom, and costs the time to find out.
+    /// Tolerance for the seabed's mesh, in pixels: how far it may displace the seabed in the picture or, on level
+    /// ground, the edge of a shadow. 0 draws every cell. More draws fewer triangles on smooth seabeds, and takes time
+    /// to choose them.
     float edge_error = 0;
-    float slope_error = 0.02f;  ///< by how much its slopes may then be off, metres per metre
-    /// See draw_options. Which triangle a pixel shows decides whether it faces the light, too.
+    float slope_error = 0.02f;  ///< tolerance for its slopes, metres per metre, if edge_error is not 0
+    /// See draw_options. Whether a pixel faces the light follows from the triangle that it shows.
     int subpixel_bits = std::is_same_v<Shadow, shadow::none> ? 8 : 12;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
 
-    /// The same options with another shadow policy, another law, or without labels.
+    /// The same options with another shadow policy, another law, without labels, or with correctly rounded depths.
     template <shadow::policy Other>
-    INSONIFY_MEMBER render_options<Other, Labels, Law> with(const Other& other) const {
-        return {other, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    INSONIFY_MEMBER render_options<Other, Labels, Law, Depth> with(const Other& other) const {
+        return retyped<Other, Labels, Law, Depth>(other, law);
     }
     template <backscatter_law Other>
-    INSONIFY_MEMBER render_options<Shadow, Labels, Other> with(const Other& other) const {
-        return {shadow, other, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    INSONIFY_MEMBER render_options<Shadow, Labels, Other, Depth> with(const Other& other) const {
+        return retyped<Shadow, Labels, Other, Depth>(shadow, other);
     }
-    INSONIFY_MEMBER render_options<Shadow, no_labels, Law> without_labels() const {
-        return {shadow, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    INSONIFY_MEMBER render_options<Shadow, no_labels, Law, Depth> without_labels() const {
+        return retyped<Shadow, no_labels, Law, Depth>(shadow, law);
+    }
+    INSONIFY_MEMBER render_options<Shadow, Labels, Law, depth_precision::exact> with_exact_depth() const {
+        return retyped<Shadow, Labels, Law, depth_precision::exact>(shadow, law);
+    }
+
+  private:
+    template <class S, class L, class B, depth_precision D>
+    INSONIFY_MEMBER render_options<S, L, B, D> retyped(const S& policy, const B& backscatter) const {
+        return {policy, backscatter, cell, reach, edge_error, slope_error, subpixel_bits, tile, level};
     }
 };
 
-/// Which triangle each pixel of a picture shows.
+/// The triangle that each pixel of a picture shows.
 struct visibility {
     static constexpr std::uint32_t no_triangle = shadow::invalid_id;
 
     image<std::uint16_t> instance;  ///< as in labels::instance
-    image<std::uint32_t> triangle;  ///< of the target's mesh, or of the bottom's; no_triangle where nothing is shown
+    image<std::uint32_t> triangle;  ///< of the target's mesh, or of the seabed's; no_triangle where neither is visible
 };
 
 namespace detail::inline INSONIFY_FLAGS {
 
-template <class Shadow, class Labels, class Law>
-frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options,
+template <class Shadow, class Labels, class Law, depth_precision Depth>
+frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                     executor_ref ex);
-template <class Law>
-visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law>& options,
+template <class Law, depth_precision Depth>
+visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law, Depth>& options,
                executor_ref ex);
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -86,35 +98,35 @@ visibility see(const scene& s, const overhead& rig, built_in<shadow::none, label
 
 inline namespace INSONIFY_FLAGS {
 
-/// Draws a scene as the paper's rig sees it.
+/// Draws a scene from above.
 ///
 /// @param s        the seabed and its targets
-/// @param rig      camera and light; see there for what a pixel means
-/// @param options  types of shadow, labels and backscatter law, and how finely the seabed is sampled
-/// @param ex       who runs it; the result is the same bytes for any executor
-/// @returns a picture of rig.size pixels, linear in [0, 1], with labels of the same size and what was drawn
-/// @throws invalid_input for a rig, a seabed, a material, a pose or an option that can't be right
+/// @param rig      camera and light; see there for the unit of pixels
+/// @param options  shadow policy, labels, backscatter law and depth by type; sampling of the seabed
+/// @param ex       runs it; the result is the same bytes for any executor
+/// @returns a picture of rig.size pixels, linear in [0, 1], with labels of the same size and statistics
+/// @throws invalid_input for a rig, a seabed, a material, a pose or an option out of range
 template <class Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert,
-          executor_argument E = serial_executor>
-frame<Labels> render(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options = {},
-                     E&& ex = {}) {
+          depth_precision Depth = depth_precision::quick, executor_argument E = serial_executor>
+frame<Labels> render(const scene& s, const overhead& rig,
+                     const render_options<Shadow, Labels, Law, Depth>& options = {}, E&& ex = {}) {
     return detail::paint(s, rig, options, executor_ref(ex));
 }
 
 /// The triangles that `render` shows with the same options.
 /// @throws invalid_input as `render` does
 template <class Shadow = shadow::exact, class Labels = labels, class Law = lambert,
-          executor_argument E = serial_executor>
+          depth_precision Depth = depth_precision::quick, executor_argument E = serial_executor>
 visibility visible_triangles(const scene& s, const overhead& rig,
-                             const render_options<Shadow, Labels, Law>& options = {}, E&& ex = {}) {
-    const render_options<shadow::none, labels, Law> seen{.law = options.law,
-                                                         .cells = options.cells,
-                                                         .reach = options.reach,
-                                                         .edge_error = options.edge_error,
-                                                         .slope_error = options.slope_error,
-                                                         .subpixel_bits = options.subpixel_bits,
-                                                         .tile = options.tile,
-                                                         .level = options.level};
+                             const render_options<Shadow, Labels, Law, Depth>& options = {}, E&& ex = {}) {
+    const render_options<shadow::none, labels, Law, Depth> seen{.law = options.law,
+                                                                .cell = options.cell,
+                                                                .reach = options.reach,
+                                                                .edge_error = options.edge_error,
+                                                                .slope_error = options.slope_error,
+                                                                .subpixel_bits = options.subpixel_bits,
+                                                                .tile = options.tile,
+                                                                .level = options.level};
     return detail::see(s, rig, seen, executor_ref(ex));
 }
 

@@ -1,4 +1,4 @@
-// Paints a frame: the seabed sampled where the rig looks, shadows, the image in linear values, and its labels.
+// Draws overhead pictures: samples the seabed in view, draws it and the targets, casts shadows, and labels pixels.
 #pragma once
 
 #include <insonify/geometry/bounds.hpp>
@@ -21,32 +21,28 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// A picture under construction, in the rig's frame.
-template <class Shadow, class Labels, class Law>
+template <class Shadow, class Labels, class Law, depth_precision Depth>
 class overhead_painter {
   public:
     template <executor E>
-    overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
+    overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
+                     E& ex)
         : scene_(s), view_(rig), options_(options), whole_bottom_(memory_of(ex)) {
         validate(s);
         out_.rows.step = 0;
         materials_ = resolved_bottom(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
-        // The first draw fills it, and the depths.
+        // The first draw clears it.
         out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
         validate_if_possible(options.law);
-        require(options.cells >= 0 && options.cells <= 32768, "cells", options.cells, "0 to 32768");
+        require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "0 metres or more");
         require(options.reach >= 0 && numeric::is_finite(options.reach), "reach", options.reach, "0 or more");
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
-        if constexpr (labelled) {
-            out_.labels = labels(rig.size.x, rig.size.y, ex);
-            out_.labels.legend = s.seabed.legend();
-        }
-        for (const target& t : s.targets) {
+        if constexpr (labelled) out_.labels = labels(s, rig.size.x, rig.size.y, ex);
+        for (const target& t : s.targets)
             targets_.push_back(
                 {t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.kind(), t.shape.grid()});
-            target_pixels_.push_back(shown_pixels(view_, targets_.back()));
-        }
         if (has_bottom()) sample_seabed(ex);
     }
 
@@ -67,12 +63,12 @@ class overhead_painter {
         }
         if constexpr (labelled) {
             label_surfaces(ex);
-            describe_targets(out_.labels, scene_.targets);
+            measure_targets(out_.labels);
         }
         return std::move(out_);
     }
 
-    /// Triangles alone.
+    /// The visibility buffer alone.
     template <executor E>
     visibility see(E& ex) {
         place_objects();
@@ -94,19 +90,19 @@ class overhead_painter {
 
     bool has_bottom() const { return !scene_.seabed.empty(); }
 
-    /// Heights where the picture looks, and up-light of there as far as the relief can throw a shadow.
+    /// Samples the ground in view, and towards the light as far as its relief can throw a shadow into view.
     template <executor E>
     void sample_seabed(E& ex) {
         const overhead& rig = view_.rig();
-        const int longer = (std::max)(rig.size.x, rig.size.y);
-        const int cells = options_.cells > 0 ? options_.cells : (longer + 1) / 2;
         const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
-        const double spacing = longer_side / cells;
+        const int longer = (std::max)(rig.size.x, rig.size.y);
+        const double spacing = options_.cell > 0 ? options_.cell : longer_side / ((longer + 1) / 2);
+        require(longer_side <= 32768 * spacing, "cell", spacing, "at least a 32768th of the picture");
 
         seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
         seabed::detail::require_finite(range);
         const double longest = static_cast<double>(options_.reach) * longer_side;
-        ground_box ground = shown_ground(view_, range);
+        ground_area ground = shown_ground(view_, range);
         if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
         field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
         out_.stats.seabed_samples = field_.heights.size();
@@ -125,7 +121,7 @@ class overhead_painter {
         out_.stats.seabed_rows = field_.heights.height();
     }
 
-    /// The lattice of the bottom's vertices, if all of them are there and float holds their places.
+    /// The lattice of the bottom's vertices, if none is missing and float holds their coordinates exactly.
     void find_bottom_grid() {
         const glm::ivec2 size(field_.heights.width(), field_.heights.height());
         const glm::ivec2 last = bottom_first_ + size;
@@ -135,7 +131,7 @@ class overhead_painter {
             size.x, size.y, field_.spacing * glm::dvec2(bottom_first_), {field_.spacing, 0}, {0, field_.spacing}, true};
     }
 
-    /// The bottom's mesh, and the type of each of its vertices where there are several.
+    /// Sets the bottom's mesh and, if there are several types, that of each vertex.
     template <executor E>
     void model_seabed(E& ex) {
         const auto every = field_.types.pixels();
@@ -145,13 +141,13 @@ class overhead_painter {
             bottom_types_.assign(every.begin(), every.end());
             return;
         }
-        // What is off by h throws a shadow that is off by h cot(elevation), whatever the view.
-        const double forgiven = static_cast<double>(options_.edge_error) * view_.ground_sampling();
+        // An error of height h displaces a shadow by h cot(elevation), in any view.
+        const double tolerance = static_cast<double>(options_.edge_error) * view_.ground_sampling();
         const double cot = casts ? view_.light().cot_elevation() : 0;
         auto [shape, vertices] = seabed::tessellate(field_,
-                                                    {.height = forgiven / cot,
+                                                    {.height = tolerance / cot,
                                                      .slope = static_cast<double>(options_.slope_error),
-                                                     .lean = forgiven * static_cast<double>(view_.rig().altitude),
+                                                     .lean = tolerance * static_cast<double>(view_.rig().altitude),
                                                      .nadir = -field_.spacing * glm::dvec2(bottom_first_)},
                                                     ex, bottom_first_);
         sparse_bottom_ = std::move(shape);
@@ -161,9 +157,9 @@ class overhead_painter {
         std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
     }
 
-    /// The multiples of the spacing over a part of the ground, counted from the rig's position: where a vertex is
-    /// depends neither on what else is sampled nor on how far the world's origin is.
-    seabed::grid grid_under(const ground_box& ground, double spacing) {
+    /// The multiples of the spacing over a part of the ground, counted from the rig's position: the position of a
+    /// vertex depends neither on the extent that is sampled nor on the distance to the world's origin.
+    seabed::grid grid_under(const ground_area& ground, double spacing) {
         seabed::grid grid{.origin = view_.rig().position, .spacing = spacing, .band_limited = true};
         const auto along = [&](int axis) {
             const double first = static_cast<double>(numeric::floor_to_int(ground.first[axis] / spacing + 1e-6));
@@ -188,7 +184,7 @@ class overhead_painter {
                 bottom_grid_ ? &*bottom_grid_ : nullptr};
     }
 
-    /// All that the picture may show.
+    /// A box around everything that the picture may show.
     bounding_box receivers() const {
         double low = static_cast<double>(lowest_), top = static_cast<double>(highest_);
         if (!has_bottom()) {
@@ -206,7 +202,7 @@ class overhead_painter {
         return {{-half, low}, {half, top}};
     }
 
-    /// The bottom and the targets, in the order in which they are drawn and of their ids.
+    /// Lists the bottom and the targets, in the order in which they are drawn and their ids assigned.
     void place_objects() {
         std::uint64_t ids = 0;
         const auto add = [&](const placed_mesh& placed, std::uint32_t caster, std::uint16_t instance,
@@ -236,7 +232,7 @@ class overhead_painter {
                 scene_.targets[i].surface);
     }
 
-    /// What the light makes of each pixel without shadows, and which triangle it shows.
+    /// Draws all surfaces: unshadowed light and the visibility buffer.
     template <executor E>
     void draw_all(E& ex) {
         const overhead& rig = view_.rig();
@@ -251,25 +247,23 @@ class overhead_painter {
             into.ids = &ids_;
         }
         if constexpr (labelled) into.types = &out_.labels.seabed;
-        if (surfaces_.empty()) into.clear({0, 0, rig.size.x - 1, rig.size.y - 1});
+        if (surfaces_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
             const bool is_bottom = has_bottom() && i == 0;
-            const std::size_t target = has_bottom() ? i - 1 : i;
-            const placed_mesh& placed = is_bottom ? bottom_in_rig_ : targets_[target];
-            const draw_stats stats = draw_lanes(placed.shape, surface_placement(view_, placed),
-                                                surface_shader<Law>(view_, surfaces_[i], options_.law, into), depth,
-                                                std::span(target_pixels_).subspan(is_bottom ? 0 : target + 1),
-                                                {.keep = keep_depth::larger,
-                                                 .load = i == 0 ? depth_load::clear : depth_load::keep,
-                                                 .subpixel_bits = options_.subpixel_bits,
-                                                 .tile = options_.tile,
-                                                 .level = options_.level},
-                                                ex);
+            const placed_mesh& placed = is_bottom ? bottom_in_rig_ : targets_[has_bottom() ? i - 1 : i];
+            const draw_options<Depth> options{.keep = keep_depth::larger,
+                                              .load = i == 0 ? depth_load::clear : depth_load::keep,
+                                              .subpixel_bits = options_.subpixel_bits,
+                                              .tile = options_.tile,
+                                              .level = options_.level};
+            const draw_stats stats = draw(placed.shape, surface_vertex_shader(view_, placed),
+                                          surface_shader<Law>(view_, surfaces_[i], options_.law, into),
+                                          framebuffer<void>{depth}, options, ex);
             (is_bottom ? out_.stats.seabed : out_.stats.targets) += stats;
         }
     }
 
-    /// Instances and seabed types from the visibility buffer.
+    /// Labels instances and seabed types from the visibility buffer.
     template <executor E>
     void label_surfaces(E& ex) {
         if (surfaces_.empty()) return;
@@ -289,35 +283,34 @@ class overhead_painter {
     const scene& scene_;
     bottom_materials materials_;  ///< by seabed::type
     overhead_geometry view_;
-    render_options<Shadow, Labels, Law> options_;
-    image<std::uint32_t> ids_;  ///< the visibility buffer: triangles in the order of surfaces_
-    image<float> rest_;         ///< what pixels show without the light
+    render_options<Shadow, Labels, Law, Depth> options_;
+    image<std::uint32_t> ids_;  ///< the visibility buffer; triangles are numbered in the order of surfaces_
+    image<float> rest_;         ///< sky and ambient light
     frame<Labels> out_;
     seabed::heightfield field_;
     uninitialized_mesh whole_bottom_;         ///< if every vertex is drawn
-    mesh sparse_bottom_;                      ///< if some are left out
-    mesh_view bottom_;                        ///< one of them
-    std::vector<seabed::type> bottom_types_;  ///< by vertex, or none where there is one type alone
-    glm::ivec2 bottom_first_{0, 0};           ///< of the field's vertices, counted from the rig's position
-    float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum
+    mesh sparse_bottom_;                      ///< otherwise
+    mesh_view bottom_;                        ///< one of the two
+    std::vector<seabed::type> bottom_types_;  ///< by vertex; empty if there is one type
+    glm::ivec2 bottom_first_{0, 0};           ///< lattice coordinates of the first vertex, from the rig's position
+    float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices and the datum
     placed_mesh bottom_in_rig_;
     std::vector<surface> surfaces_;
-    bool has_gaps_ = false;  ///< the bottom lacks data somewhere
+    bool has_gaps_ = false;  ///< some vertices of the bottom have no data
     std::optional<regular_grid> bottom_grid_;
     std::vector<placed_mesh> targets_;
-    std::vector<pixel_box> target_pixels_;  ///< which may show them
 };
 
-template <class Shadow, class Labels, class Law>
-frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options,
+template <class Shadow, class Labels, class Law, depth_precision Depth>
+frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                     executor_ref ex) {
     static_assert(shadow::policy<Shadow>);
-    return overhead_painter<Shadow, Labels, Law>(s, rig, options, ex).paint(ex);
+    return overhead_painter<Shadow, Labels, Law, Depth>(s, rig, options, ex).paint(ex);
 }
-template <class Law>
-visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law>& options,
+template <class Law, depth_precision Depth>
+visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law, Depth>& options,
                executor_ref ex) {
-    return overhead_painter<shadow::none, labels, Law>(s, rig, options, ex).see(ex);
+    return overhead_painter<shadow::none, labels, Law, Depth>(s, rig, options, ex).see(ex);
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -1,4 +1,4 @@
-// The paper's rig: a camera that looks straight down, and a parallel light low over the sea floor that turns with it.
+// The overhead rig: a camera that looks straight down, and a light at a low grazing angle that rotates with it.
 #pragma once
 
 #include <insonify/geometry/transform.hpp>
@@ -14,11 +14,11 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Camera and light over a point of the sea floor. Image up is forward, image right is starboard; the light comes from
-/// the left, so ranges and shadows grow to the right, as on a starboard channel.
+/// Camera and light above a position on the seabed. Image up is forward, image right is starboard. The light comes from
+/// the left, so shadows fall to the right, as in a starboard channel.
 ///
-/// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky x share of the
-/// sky that the surface looks at + ambient), cut at 1.
+/// A pixel is linear radiance: reflectivity x (intensity x law(sine of the grazing angle on the surface) x lit fraction
+/// + sky x fraction of the sky that the surface faces + ambient), clamped to 1.
 struct overhead {
     glm::dvec2 position{0, 0};                                      ///< of the camera over the datum, metres
     float altitude = 10;                                            ///< above the datum, metres
@@ -26,19 +26,18 @@ struct overhead {
     float field_of_view = static_cast<float>(2 * numeric::pi / 3);  ///< across the picture, radians
     glm::ivec2 size{2048, 2048};                           ///< pixels: width (across track), height (along track)
     float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
-    float light_azimuth = 0;  ///< where the light travels, from image right towards image up, radians
-    /// Of the light from the datum below the camera, to which grazing and azimuth belong, metres. Infinitely far, its
-    /// rays are parallel; from nearby they spread, and only `shadow::exact` and `penumbra` can say where they end. They
-    /// don't weaken on their way.
+    float light_azimuth = 0;  ///< direction of travel of the light, from image right towards image up, radians
+    /// Distance of the light from the datum below the camera, where grazing and azimuth apply, metres. Rays of an
+    /// infinitely distant light are parallel. Near lights need `shadow::exact` or `penumbra`, and have no falloff.
     float light_distance = std::numeric_limits<float>::infinity();
     float intensity = 4;  ///< of the light on a surface that faces it
-    float sky = 0.05f;    ///< light from everywhere, which no shadow stops; 0 for none
-    float ambient = 0;    ///< light that reaches every surface alike, whatever its slope; 0 for none
+    float sky = 0.05f;    ///< light from the upper hemisphere, without shadows
+    float ambient = 0;    ///< light on every surface alike, without shadows
 };
 
 inline namespace INSONIFY_FLAGS {
 
-/// @throws invalid_input for a value that can't be right
+/// @throws invalid_input for a value out of range
 inline void validate(const overhead& rig) {
     using detail::require;
     detail::require_finite("overhead.position.x", rig.position.x);
@@ -58,8 +57,8 @@ inline void validate(const overhead& rig) {
     require(rig.ambient >= 0 && numeric::is_finite(rig.ambient), "overhead.ambient", rig.ambient, "0 or more");
 }
 
-/// What follows from a rig. Everything is drawn in the rig's own frame (origin on the datum below the camera, x to the
-/// right, y forward, z up), so coordinates stay small however far the rig is from the world's origin.
+/// The projection and the light of a rig. Everything is drawn in the rig's frame (origin on the datum below the camera,
+/// x to the right, y forward, z up), so that coordinates stay small at any distance from the world's origin.
 class overhead_geometry {
   public:
     /// @throws invalid_input as validate does
@@ -76,35 +75,36 @@ class overhead_geometry {
 
     const overhead& rig() const { return rig_; }
     const shadow::light_frame& light() const { return light_; }
-    /// From the datum below the camera to a point of the light, over the distance to its middle; `beside` that, across
-    /// and up, in the same measure.
+    /// Direction from the datum below the camera to a point of the light, in units of the distance to its centre;
+    /// `beside` is the offset from the centre, across and up, in the same unit.
     glm::dvec3 toward_light(const glm::dvec2& beside) const {
         const glm::dvec3& middle = light_.to_light();
         const glm::dvec3 across(-light_.travel().y, light_.travel().x, 0), up = numeric::cross(middle, across);
         return middle + beside.x * across + beside.y * up;
     }
     bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
-    /// Where a point of a light that isn't infinitely far stands.
+    /// Position of a point of a near light.
     glm::dvec3 light_position(const glm::dvec2& beside = {0, 0}) const {
         return static_cast<double>(rig_.light_distance) * toward_light(beside);
     }
 
-    /// From world to rig frame. Applied to an object's own map first, it takes large coordinates away exactly.
+    /// From an object's frame to the rig's. Subtracts the rig's position before it rotates, so that large coordinates
+    /// cancel exactly.
     affine rig_from(const affine& world_from_object) const {
         const glm::dvec3 relative = world_from_object.offset - glm::dvec3(rig_.position, 0);
         return {numeric::product(rig_from_world_.linear, world_from_object.linear),
                 numeric::product(rig_from_world_.linear, relative)};
     }
 
-    /// Half of what the picture shows at a height above the datum, metres.
+    /// Half the size of the picture's footprint at a height above the datum, metres.
     glm::dvec2 half_extent(double height) const {
         const double half_width = (static_cast<double>(rig_.altitude) - height) * tangent_;
         return {half_width, half_width * rig_.size.y / rig_.size.x};
     }
-    /// Metres on level ground at the datum from one pixel to the next.
+    /// Metres per pixel on level ground at the datum.
     double ground_sampling() const { return 2 * half_extent(0).x / rig_.size.x; }
 
-    /// The picture's corners at a height, from the rig's position and along the world's axes.
+    /// A corner of the picture's footprint at a height, relative to the rig's position, along the world's axes.
     glm::dvec2 corner(double height, int right, int up) const {
         const glm::dvec2 half = half_extent(height);
         const glm::dvec2 p{right * half.x, up * half.y};
@@ -115,7 +115,7 @@ class overhead_geometry {
     glm::vec4 clip(const glm::vec3& p) const {
         return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
     }
-    /// The same of three coordinates in lanes.
+    /// The same for coordinates in SIMD lanes.
     template <class Floats>
     INSONIFY_INLINE void clip(Floats (&into)[4], const Floats* p) const {
         into[0] = p[0] * clip_scale_.x;
@@ -125,15 +125,15 @@ class overhead_geometry {
     }
 
     glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
-    /// Metres from one pixel to the next, 1 m below the camera.
+    /// Metres per pixel, 1 m below the camera.
     double ray_step() const { return 2 * tangent_ / rig_.size.x; }
-    /// From the camera through a pixel's centre to 1 m below it.
+    /// Vector from the camera through a pixel's centre, to 1 m below it.
     glm::dvec3 ray(int x, int y) const {
         const double step = ray_step();
         return {step * (x + 0.5 - 0.5 * rig_.size.x), step * (0.5 * rig_.size.y - y - 0.5), -1};
     }
 
-    /// Where a point of the rig frame appears, in continuous pixels.
+    /// Projection of a point of the rig's frame, in continuous pixels.
     glm::dvec2 pixel(const glm::dvec3& p) const {
         const double scale = 0.5 * rig_.size.x / (tangent_ * (static_cast<double>(rig_.altitude) - p.z));
         return {0.5 * rig_.size.x + scale * p.x, 0.5 * rig_.size.y - scale * p.y};

@@ -1,8 +1,8 @@
-// The closed forms of side-scan geometry over a level bottom: ranges, shadows, layover and what is measured from them.
+// Closed forms of side-scan geometry over level seabed: ranges, shadows, layover, and heights measured from them.
 //
-// Lengths are metres. `altitude` is the sonar's above the bottom, `ground` a distance across the track on the bottom,
-// `height` that of a point above the bottom. Results that don't exist are 0 (a distance inside the water column) or
-// infinity (the shadow of what reaches the sonar's height), never NaN for finite arguments.
+// Lengths are metres. `altitude` is the sonar's above the seabed, `ground` a distance across the track on the seabed,
+// `height` that of a point above the seabed. Results that do not exist are 0 (a distance inside the water column) or
+// infinity (the shadow of an object as high as the sonar), never NaN for finite arguments.
 //
 // Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
 #pragma once
@@ -25,22 +25,22 @@ inline double slant_range(double ground, double altitude, double height = 0) {
     return numeric::square_root(ground * ground + down * down);
 }
 
-/// Where the bottom is at a slant range; 0 in the water column.
+/// Distance across the track of the seabed at a slant range; 0 in the water column.
 inline double ground_range(double slant, double altitude) {
     return slant > altitude ? numeric::square_root(slant * slant - altitude * altitude) : 0;
 }
 
-/// Angle of the sound with the bottom, radians: pi / 2 below the sonar.
+/// Angle of the ray with the seabed, radians: pi / 2 below the sonar.
 inline double grazing_angle(double ground, double altitude) {
     return numeric::atan2(altitude, ground);
 }
 
-/// Where the shadow of a point ends on the bottom.
+/// Distance across the track of the shadow of a point.
 inline double shadow_tip(double ground, double altitude, double height) {
     return height < altitude ? ground * altitude / (altitude - height) : std::numeric_limits<double>::infinity();
 }
 
-/// Length of a shadow on the bottom, from below the point that casts it.
+/// Length of a shadow on the seabed, from below the point that casts it.
 inline double shadow_length(double ground, double altitude, double height) {
     return height < altitude ? height * ground / (altitude - height) : std::numeric_limits<double>::infinity();
 }
@@ -51,28 +51,28 @@ inline double slant_shadow_length(double ground, double altitude, double height)
     return slant_range(shadow_tip(ground, altitude, height), altitude) - slant_range(ground, altitude, height);
 }
 
-/// Where a raised point appears after `ground_range`: layover moves it towards the sonar, to 0 at most.
+/// Apparent position of a raised point after slant-range correction: layover moves it towards the sonar, at most to 0.
 inline double apparent_ground(double ground, double altitude, double height) {
     return ground_range(slant_range(ground, altitude, height), altitude);
 }
 
-/// Height of what casts a shadow, from the slant ranges of its top and of the shadow's tip.
+/// Height of an object, from the slant ranges of its top and of its shadow's tip.
 inline double height_from_slant(double top, double tip, double altitude) {
     return tip > 0 ? altitude * (tip - top) / tip : 0;
 }
 
-/// The same from distances on the bottom.
+/// The same from distances across the track, of its foot and of its shadow's tip.
 inline double height_from_ground(double foot, double tip, double altitude) {
     return tip > 0 ? altitude * (tip - foot) / tip : 0;
 }
 
-/// Metres of bottom in a bin of slant range; infinite straight below the sonar.
+/// Metres of seabed in a bin of slant range; infinite straight below the sonar.
 inline double ground_resolution(double bin, double grazing) {
     const double cosine = numeric::sin_cos(grazing).cosine;
     return cosine > 0 ? bin / cosine : std::numeric_limits<double>::infinity();
 }
 
-/// Metres of track between the half-power points of a beam of so many radians, one way.
+/// Metres along the track between the one-way -3 dB points of a beam, given in radians.
 inline double along_track_footprint(double slant, double beam_width) {
     return slant * beam_width;
 }

@@ -1,4 +1,4 @@
-// A side-scan sonar on its way: where each ping is sent from, and which ranges are listened to.
+// The side-scan rig: pings along a track, and the ranges that are recorded.
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -14,16 +14,16 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Which way a channel looks: to the left or to the right of the track.
+/// The side of the track that a channel faces: left or right.
 enum class side : std::uint8_t { port, starboard };
 
-/// What a column of the picture is a step of.
+/// The quantity that columns of the picture count.
 enum class across_track {
-    slant_range,   ///< the time of the echo: water column, layover, front faces folded towards the sonar
-    ground_range,  ///< the place on the bottom: a map, with the shadows of the same source
+    slant_range,   ///< travel time: water column, layover
+    ground_range,  ///< position across the track: a map, with the same shadows
 };
 
-/// One ping: where the sonar is, and its attitude. Rotations apply as for ships: yaw first, then pitch, then roll.
+/// Position and attitude of the sonar at one ping. Rotations apply as for ships: yaw first, then pitch, then roll.
 struct ping {
     glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum, heave included
     double yaw = 0;                ///< radians: 0 travels towards +y, with starboard at +x; counter-clockwise
@@ -33,7 +33,7 @@ struct ping {
 
 inline namespace INSONIFY_FLAGS {
 
-/// @throws invalid_input for a value that can't be right
+/// @throws invalid_input for a value out of range
 inline void validate(const ping& p) {
     detail::require_finite("ping.position.x", p.position.x);
     detail::require_finite("ping.position.y", p.position.y);
@@ -46,23 +46,22 @@ inline void validate(const ping& p) {
 
 }  // namespace INSONIFY_FLAGS
 
-/// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
-/// all else stays the same.
+/// One channel of a side-scan sonar on a straight, level track: `side_scan` for slant range, `ground_range` for ground
+/// range.
 ///
-/// A picture of it has a row per ping and a column per bin. Row i is ping i, the first on top, as in every recording of
-/// range modes (`upside_down` turns it so that up is forward); its left column is the first bin on either side, so that
-/// range grows and shadows fall to the right.
+/// A picture has a row per ping and a column per bin. Row i is ping i, the first on top (`upside_down` flips it so that
+/// up is forward). The left column is the first bin on either side, so that range grows and shadows fall to the right.
 template <across_track Axis>
 struct side_scan_rig {
     static constexpr across_track axis = Axis;
 
     glm::dvec2 position{0, 0};   ///< of the first ping over the datum, metres
     float altitude = 5;          ///< above the datum, metres
-    float yaw = 0;               ///< radians, as a ping's
+    float yaw = 0;               ///< radians, as of a ping
     float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
     int pings = 1024;            ///< 1 to 2^20
-    float first_range = 0;       ///< where the first bin begins, metres, >= 0
-    float range = 40;            ///< where the last bin ends, metres
+    float first_range = 0;       ///< start of the first bin, metres, >= 0
+    float range = 40;            ///< end of the last bin, metres
     int bins = 2048;             ///< 1 to 2^20
     insonify::side side = insonify::side::starboard;
 
@@ -76,7 +75,7 @@ using ground_range = side_scan_rig<across_track::ground_range>;
 
 inline namespace INSONIFY_FLAGS {
 
-/// @throws invalid_input for a value that can't be right
+/// @throws invalid_input for a value out of range
 template <across_track Axis>
 void validate(const side_scan_rig<Axis>& rig) {
     using detail::require;
@@ -96,7 +95,7 @@ void validate(const side_scan_rig<Axis>& rig) {
             "port or starboard");
 }
 
-/// A ping of the rig's track; those before the first and after the last are on the same line.
+/// A ping of the rig's track. Numbers below 0 and beyond the last continue the line.
 template <across_track Axis>
 ping ping_of(const side_scan_rig<Axis>& rig, int number) {
     const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
@@ -105,7 +104,7 @@ ping ping_of(const side_scan_rig<Axis>& rig, int number) {
             static_cast<double>(rig.yaw)};
 }
 
-/// The track of a rig, a ping after the other.
+/// All pings of the rig's track, in order.
 template <across_track Axis>
 std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     validate(rig);
@@ -115,8 +114,8 @@ std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     return track;
 }
 
-/// A ping's own frame: x away from it on the side it looks to, level; u along the sonar's axis; z up from the sonar.
-/// The fan is the plane u = 0, which a pitch tilts from the vertical.
+/// The frame of a ping: x level and across the track, on the side that it faces; u along the sonar's axis; z up, from
+/// the sonar. The fan is the plane u = 0, which pitch tilts from the vertical.
 class ping_frame {
   public:
     ping_frame(const ping& p, side looks) : position_(p.position) {
@@ -129,21 +128,21 @@ class ping_frame {
         sine_roll_ = sign * roll.sine, cosine_roll_ = roll.cosine;
     }
     const glm::dvec3& position() const { return position_; }
-    /// Unit vectors on the ground.
+    /// Horizontal unit vectors.
     const glm::dvec2& across() const { return across_; }
     const glm::dvec2& along() const { return along_; }
     bool is_level() const { return sine_pitch_ == 0; }
     double sine_pitch() const { return sine_pitch_; }
     double cosine_pitch() const { return cosine_pitch_; }
-    /// Of the angle by which the side that is looked to is rolled down.
+    /// Of the angle by which the side that it faces is rolled down.
     double sine_roll() const { return sine_roll_; }
     double cosine_roll() const { return cosine_roll_; }
 
-    /// World coordinates of the datum below (x, u), u along the heading.
+    /// Horizontal world coordinates of (x, u), with u along the heading.
     glm::dvec2 world(double x, double u) const {
         return {position_.x + x * across_.x + u * along_.x, position_.y + x * across_.y + u * along_.y};
     }
-    /// World coordinates below the fan's point at (x, down).
+    /// Horizontal world coordinates of the fan's point (x, down).
     glm::dvec2 below(double x, double down) const { return world(x, down * sine_pitch_); }
     /// (x, u, z) of a world vector.
     glm::dvec3 turned(const glm::dvec3& v) const {

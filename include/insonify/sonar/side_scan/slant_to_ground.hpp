@@ -1,8 +1,8 @@
-// Slant-range correction: a recording laid out on the bottom, as if that were level.
+// Slant-range correction: resamples a recording to ground range, assuming a level seabed.
 #pragma once
 
 #include <insonify/sonar/side_scan/range_geometry.hpp>
-#include <insonify/sonar/side_scan/slant_range.hpp>
+#include <insonify/sonar/side_scan/record.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11,16 +11,16 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Lays a recording out on a level bottom at the datum: the water column goes, what is raised stays shifted towards the
-/// sonar by its layover. Intensities are interpolated linearly between the centres of bins and labels are those of the
-/// nearest bin; what the recording doesn't reach is 0, without labels.
+/// Resamples a recording to ground range on a level seabed at the datum. The water column disappears; raised objects
+/// stay displaced towards the sonar by their layover. Intensities are interpolated linearly between the centres of
+/// bins, labels taken from the nearest bin; ranges that the recording does not contain are 0 and unlabelled.
 ///
-/// @param slant      as `render` or `record` made it
+/// @param slant      a result of `render` or `record`
 /// @param from       its rig
-/// @param to         which ground ranges the result's columns are: first_range, range and bins count
-/// @param altitudes  of the sonar above the bottom, one per row from the top, or none: then all are the rig's
-/// @throws invalid_input for a rig that can't be right, or a number of altitudes that is neither 0 nor that of rows, or
-/// one
+/// @param to         first_range, range and bins are the columns of the result
+/// @param altitudes  of the sonar above the seabed, one per row from the top; empty for the rig's altitude
+/// @throws invalid_input for a rig out of range, a number of altitudes that is neither 0 nor that of rows, or an
+/// altitude
 ///         that is not finite
 template <class Labels>
 frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from, const ground_range& to,
@@ -50,10 +50,10 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
             if (!(column >= 0 && column < bins)) continue;
             const int nearest = static_cast<int>(column);
             const int left = column - nearest < 0.5 ? nearest - 1 : nearest;
-            const auto share = static_cast<float>(column - 0.5 - left);
+            const auto weight = static_cast<float>(column - 0.5 - left);
             const float before = slant.image((std::max)(left, 0), y);
             const float after = slant.image((std::min)(left + 1, bins - 1), y);
-            out.image(x, y) = before + share * (after - before);
+            out.image(x, y) = before + weight * (after - before);
             if constexpr (std::is_same_v<Labels, labels>) {
                 out.labels.instance(x, y) = slant.labels.instance(nearest, y);
                 out.labels.shadow(x, y) = slant.labels.shadow(nearest, y);
@@ -61,7 +61,7 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
             }
         }
     }
-    if constexpr (std::is_same_v<Labels, labels>) detail::describe_again(out.labels);
+    if constexpr (std::is_same_v<Labels, labels>) measure_targets(out.labels);
     return out;
 }
 

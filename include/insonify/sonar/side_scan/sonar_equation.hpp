@@ -1,12 +1,11 @@
-// The sonar equation as a list of parts: what is not in the list is not computed, and not compiled.
+// The sonar equation as a list of parts. Parts that are not in the list are neither computed nor compiled.
 //
-// A picture's pixels are intensities (power), linear. Without any part, a bin holds the backscattering cross-section of
-// what lies in it: reflectivity x law(sine of grazing) x area, summed over the surfaces, in square metres for one
-// metre of source level. In decibels, with the parts in the order in which sound meets them (R. J. Urick. Principles of
-// Underwater Sound, 3rd edition, 1983):
+// Pixels are linear intensities (power). Without any part, a bin holds the backscattering cross-section of the surfaces
+// in it: reflectivity x law(sine of the grazing angle) x area, summed, in square metres at 1 m for source level 0. In
+// decibels, in the order of propagation (R. J. Urick. Principles of Underwater Sound, 3rd edition, 1983):
 //
 //   RL = source_level + vertical_beam - transmission_loss - absorption + 10 log10(cross-section x footprint / spacing),
-//   then pulse and horizontal_beam blur it, noise_floor adds to it, and time_varied_gain or level_gain amplify it all.
+//   then pulse and horizontal_beam blur it, noise_floor is added, and time_varied_gain or level_gain amplify the sum.
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -28,18 +27,18 @@ inline double from_decibels(double decibels) {
 
 }  // namespace INSONIFY_FLAGS
 
-/// The level of the source.
+/// The source level.
 struct source_level {
     float decibels = 0;
     INSONIFY_MEMBER double over_range(double) const { return from_decibels(static_cast<double>(decibels)); }
 };
 
-/// Spherical spreading, there and back: 40 log10 R, R in metres.
+/// Two-way spherical spreading: 40 log10 R, R in metres.
 struct transmission_loss {
     INSONIFY_MEMBER double over_range(double range) const { return 1 / (range * range * range * range); }
 };
 
-/// What sea water takes, there and back: 2 alpha R. About 76, 116, 169, 322 dB/km at 300, 450, 600, 900 kHz in salt
+/// Two-way absorption of sea water: 2 alpha R. About 76, 116, 169, 322 dB/km at 300, 450, 600, 900 kHz in salt
 /// water, 30, 68, 122, 274 in fresh (M. A. Ainslie, J. G. McColm. A Simplified Formula for Viscous and Chemical
 /// Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m).
 struct absorption {
@@ -49,12 +48,12 @@ struct absorption {
     }
 };
 
-/// The beam in the vertical plane, twice (there and back): Gaussian about an axis that points down from the horizon,
-/// over side lobes that hear everywhere alike. They are what lets the first return be heard from straight below.
+/// The two-way vertical beam pattern: Gaussian about an axis below the horizon, plus omnidirectional side lobes. Side
+/// lobes receive the first return from straight below.
 struct vertical_beam {
     float width = static_cast<float>(numeric::to_radians(50));  ///< between the -3 dB points of one way, radians
     float tilt = static_cast<float>(numeric::to_radians(20));   ///< of the axis below the horizon, radians
-    float side_lobes = 1e-3f;                                   ///< power, both ways, over that on the axis
+    float side_lobes = 1e-3f;                                   ///< two-way power relative to that on the axis
     /// @param across, down  of the unit vector along the ray
     INSONIFY_MEMBER double over_direction(double across, double down) const {
         const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(width);
@@ -62,22 +61,22 @@ struct vertical_beam {
     }
 };
 
-/// The beam along the track, twice: a Gaussian that widens with range. It blurs over the neighbouring pings, and makes
-/// the area that a ping insonifies grow with range.
+/// The two-way horizontal beam pattern: a Gaussian along the track whose width grows with range. It blurs over
+/// neighbouring pings, and the insonified area grows with it.
 struct horizontal_beam {
     float width = static_cast<float>(numeric::to_radians(0.3));  ///< between the -3 dB points of one way, radians
-    /// Metres of track that are heard fully, as it were: the integral of the pattern.
+    /// Equivalent width along the track, metres: the integral of the pattern.
     INSONIFY_MEMBER double footprint(double range) const { return 0.7526967 * range * static_cast<double>(width); }
-    /// Metres to either side beyond which nothing is heard.
+    /// Metres to either side beyond which the pattern counts as 0.
     INSONIFY_MEMBER double reach(double range) const { return range * static_cast<double>(width); }
     INSONIFY_MEMBER double pattern(double along, double range) const {
         const double off = along / (range * static_cast<double>(width));
         return numeric::exp(-5.545177444479562 * off * off);
     }
-    /// Metres of track over which the correlation of speckle falls to 1 / e, intensities': what two pings hear has the
-    /// same phases as long as the sonar moves by less than a part of its array, and is the same bottom as long as it
-    /// moves by less than a part of the footprint. Gaussian patterns make both Gaussian: of 0.6006 range x width, and
-    /// of 0.2650 wavelength / width.
+    /// Correlation length (1 / e) of speckle intensities along the track, metres. Two pings correlate as long as the
+    /// sonar moves by less than a fraction of its array, so that phases stay the same, and of the footprint, so that
+    /// the scatterers do. Gaussian patterns make both correlations Gaussian, with lengths of 0.2650 wavelength / width
+    /// and 0.6006 range x width.
     /// @param wavelength  of the sound, metres: 0.0033 at 450 kHz
     INSONIFY_TAGGED double speckle_length(double range, double wavelength) const {
         const double by_footprint = 0.6005612 * range * static_cast<double>(width);
@@ -86,27 +85,27 @@ struct horizontal_beam {
     }
 };
 
-/// The pulse: every echo lasts as long, centred where its range is.
+/// The pulse: a rectangle around the range of every echo.
 struct pulse {
-    float length = 0.03f;  ///< metres of range: half of the speed of sound times the duration, or over twice the band
+    float length = 0.03f;  ///< metres of range: c x duration / 2, or c / (2 x bandwidth)
     INSONIFY_MEMBER double duration() const { return static_cast<double>(length); }
 };
 
-/// What the receiver hears where nothing is: a mean intensity. Under `speckle` it fluctuates as noise does.
+/// The mean intensity of the receiver's noise. Speckle makes it fluctuate.
 struct noise_floor {
     float intensity = 1e-3f;
     INSONIFY_MEMBER double noise() const { return static_cast<double>(intensity); }
 };
 
-/// The flat bottom that a receiver may expect at a range, before its own gain.
+/// The echo of level seabed that gains are computed for.
 struct flat_echo {
     double range, altitude;  ///< metres
     double bin, spacing;     ///< metres
-    bool counts_time;        ///< bins are steps of slant range
+    bool counts_time;        ///< bins count slant range
 };
 
-/// Gain that makes up for spreading and absorption alone. A bottom whose strength doesn't depend on the angle comes out
-/// level, up to 1 / cos(grazing), at 40 dB per decade, or at 30 with a horizontal beam.
+/// Gain that compensates spreading and absorption. Seabed whose strength does not depend on the angle comes out level,
+/// up to 1 / cos(grazing angle), at 40 dB per decade, or at 30 with a horizontal beam.
 struct time_varied_gain {
     float spreading = 40;         ///< decibels per tenfold range
     float absorption_per_km = 0;  ///< decibels, one way, as in `absorption`
@@ -118,9 +117,8 @@ struct time_varied_gain {
     }
 };
 
-/// Gain that makes a level bottom of reflectivity one come out as one, whatever the other parts are: beam pattern,
-/// spreading, law and area. At grazing angles above `steepest` it stays what it is there, so that the first return
-/// keeps being bright.
+/// Gain under which level seabed of reflectivity 1 has intensity 1, whatever the other parts are: beam pattern,
+/// spreading, law and area. At grazing angles above `steepest` it is constant, so that the first return stays bright.
 struct level_gain {
     float steepest = static_cast<float>(numeric::pi / 4);  ///< radians, below pi / 2
     template <class LevelAt>
@@ -134,8 +132,8 @@ struct level_gain {
 
 inline namespace INSONIFY_FLAGS {
 
-// Before anything is recorded, each part is checked by the `validate` that its type brings along; a user's own too.
-// They throw invalid_input for a value out of its range.
+// Recordings call `validate` for each part whose type has one, also for your own. They throw invalid_input for a value
+// out of range.
 
 inline void validate(const source_level& s) {
     detail::require(s.decibels >= -300 && s.decibels <= 300, "source_level.decibels", s.decibels, "-300 to 300 dB");
@@ -200,13 +198,13 @@ concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(dou
 };
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// A part of the sonar equation: one of the above, or a user's own type with one of their functions.
+/// A part of the sonar equation: one of the above, or your own type with one of their functions.
 template <class P>
 concept equation_part = detail::direction_part<P> || detail::range_part<P> || detail::footprint_part<P> ||
     detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;
 
-/// The parts of a sonar: `sonar_equation{transmission_loss{}, absorption{}, time_varied_gain{}}`. The order doesn't
-/// matter; of horizontal beams and pulses there may be one each.
+/// A list of parts, as in `sonar_equation{transmission_loss{}, absorption{}, time_varied_gain{}}`, in any order; at
+/// most one horizontal beam and one pulse.
 template <equation_part... Parts>
 class sonar_equation {
   public:
@@ -222,7 +220,7 @@ class sonar_equation {
     INSONIFY_MEMBER explicit(sizeof...(Parts) == 1) sonar_equation(Parts... parts) requires(sizeof...(Parts) > 0)
         : parts_(parts...) {}
 
-    /// Power along a ray, given by its unit vector.
+    /// Factor on power along a ray, given by its unit vector.
     INSONIFY_TAGGED double over_direction(double across, double down) const {
         return product([&](const auto& p) {
             if constexpr (detail::direction_part<decltype(p)>)
@@ -231,7 +229,7 @@ class sonar_equation {
                 return 1.0;
         });
     }
-    /// Power from a range, for a ping that stands for `spacing` metres of track.
+    /// Factor on power from a range, with pings `spacing` metres apart.
     INSONIFY_TAGGED double over_range(double range, double spacing) const {
         return product([&](const auto& p) {
             if constexpr (detail::range_part<decltype(p)>)
@@ -242,7 +240,7 @@ class sonar_equation {
                 return 1.0;
         });
     }
-    /// What a receiver multiplies by. `law` is that of the bottom.
+    /// Factor of the receiver's gain. `law` is that of the seabed.
     template <class Law>
     INSONIFY_TAGGED double gain(const flat_echo& e, const Law& law) const {
         const auto level_at = [&](double sine) {
@@ -258,7 +256,7 @@ class sonar_equation {
                 return 1.0;
         });
     }
-    /// Mean intensity of what is heard where nothing is.
+    /// Mean intensity of noise.
     INSONIFY_TAGGED double noise() const {
         double sum = 0;
         for_each([&](const auto& p) {

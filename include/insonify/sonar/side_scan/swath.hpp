@@ -1,7 +1,7 @@
-// Both sides of the track in one picture.
+// Mirrors, flips and joins pictures: both sides of a track in one.
 #pragma once
 
-#include <insonify/sonar/side_scan/slant_range.hpp>
+#include <insonify/sonar/side_scan/record.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10,7 +10,7 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The picture with left and right exchanged: what grew to the right grows to the left.
+/// The picture with left and right exchanged.
 template <class T>
 image<T> mirrored(const image<T>& source) {
     image<T> out(source.width(), source.height());
@@ -19,7 +19,7 @@ image<T> mirrored(const image<T>& source) {
     return out;
 }
 
-/// The picture turned by half a turn: that of a rig which looks the other way, with forward up again.
+/// The picture rotated by 180 degrees: of a rig that faces backwards, with forward up again.
 template <class T>
 image<T> turned(const image<T>& source) {
     image<T> out(source.width(), source.height());
@@ -27,18 +27,18 @@ image<T> turned(const image<T>& source) {
     return out;
 }
 
-/// The recording with its last ping on top, so that up is forward, as in overhead pictures.
+/// The recording with its last ping on top: up is forward, as in overhead pictures.
 template <class Labels>
 frame<Labels> upside_down(frame<Labels> r) {
-    const auto turn = [](auto& picture) {
+    const auto flip = [](auto& picture) {
         for (int y = 0; 2 * y < picture.height() - 1; ++y)
             std::swap_ranges(picture.row(y).begin(), picture.row(y).end(),
                              picture.row(picture.height() - 1 - y).begin());
     };
-    turn(r.image);
+    flip(r.image);
     if constexpr (std::is_same_v<Labels, labels>) {
-        turn(r.labels.instance), turn(r.labels.shadow), turn(r.labels.seabed);
-        detail::describe_again(r.labels);
+        flip(r.labels.instance), flip(r.labels.shadow), flip(r.labels.seabed);
+        measure_targets(r.labels);
     }
     r.rows.first += static_cast<std::int64_t>(r.image.height() - 1) * r.rows.step;
     r.rows.step = -r.rows.step;
@@ -47,7 +47,7 @@ frame<Labels> upside_down(frame<Labels> r) {
 
 /// Two pictures side by side, `gap` columns of `fill` between them.
 ///
-/// `beside(turned(port.image), starboard.image, gap)` of two frames of `overhead`, the one with its yaw half a turn
+/// `beside(turned(port.image), starboard.image, gap)` of two overhead frames, the first with its yaw half a turn
 /// further, is the paper's stitched picture; its dead zone is the gap.
 /// @throws invalid_input for pictures of different heights, or a negative gap
 template <class T>
@@ -62,8 +62,8 @@ image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill
     return out;
 }
 
-/// A port and a starboard recording of one track as one, port to the left: range grows from the middle outwards, and
-/// the water column, as wide as the sonar is high, lies between. `targets` of the labels describes both sides.
+/// Joins a port and a starboard recording of one track, port to the left: range grows outwards from the middle, where
+/// the water column lies. The labels' bounding boxes and areas are those of both sides together.
 template <class Labels>
 frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
     frame<Labels> out;
@@ -78,12 +78,12 @@ frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboa
         out.labels.seabed = beside(mirrored(port.labels.seabed), starboard.labels.seabed);
         out.labels.targets = starboard.labels.targets;
         out.labels.legend = starboard.labels.legend;
-        detail::describe_again(out.labels);
+        measure_targets(out.labels);
     }
     return out;
 }
 
-/// Draws both sides of a straight track; the rig's own side doesn't matter. See `render`.
+/// Records both sides of a straight track; the rig's own side is ignored. See `render`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 frame<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,

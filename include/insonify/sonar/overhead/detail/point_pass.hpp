@@ -112,7 +112,7 @@ struct point_kernel {
     std::span<const shown_pixel> pixels;
     bool has_near_light;
     bool wants_averted;
-    const pixel_box& box;
+    const rect& box;
     point_list& points;
 
     template <int Width>

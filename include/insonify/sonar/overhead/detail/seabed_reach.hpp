@@ -1,4 +1,4 @@
-// How far beyond the picture the seabed has to be there, so that whatever can throw a shadow into it does.
+// The ground that an overhead picture shows, and the ground that can throw a shadow into it.
 #pragma once
 
 #include <insonify/seabed/model.hpp>
@@ -10,8 +10,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A rectangle along the world's axes around the rig's position, metres.
-struct ground_box {
+/// A rectangle along the world's axes, relative to the rig's position, metres.
+struct ground_area {
     glm::dvec2 first{0}, last{0};
 
     void include(const glm::dvec2& p) {
@@ -20,30 +20,29 @@ struct ground_box {
     }
 };
 
-/// All of the bottom that the picture may show.
-inline ground_box shown_ground(const overhead_geometry& view, const seabed::height_range& range) {
-    ground_box box;
+/// The ground that may be in view.
+inline ground_area shown_ground(const overhead_geometry& view, const seabed::height_range& range) {
+    ground_area area;
     for (const int right : {-1, 1})
         for (const int up : {-1, 1})
-            for (const double height : {range.lowest, range.highest}) box.include(view.corner(height, right, up));
-    return box;
+            for (const double height : {range.lowest, range.highest}) area.include(view.corner(height, right, up));
+    return area;
 }
 
-/// The same, longer towards the light by as much as can throw a shadow into it, at most `longest` metres.
+/// The same, extended towards the light to all ground that can throw a shadow into view, by at most `longest` metres.
 ///
-/// A shadow falls from a point of the bottom to a lower one along a ray of the light. On its way up from the lower one,
-/// a ray comes to the highest point that there may be within (highest - lowest) cot(elevation) metres, or, of light
-/// from nearby, within the same share of its way to the light; beyond that it meets nothing. Of a light that isn't a
-/// point, this is asked of the corners of a square around it: the way is a quotient of linear functions of the place on
-/// it, so it is longest in one of them.
+/// On its way to the light, a ray from the lowest ground rises above the highest within (highest - lowest)
+/// cot(elevation) metres or, if the light is near, within that fraction of the distance to it; beyond, it meets
+/// nothing. For a light that isn't a point, the corners of a square around it are tried: the distance is a quotient of
+/// linear functions of the position on the light, so its maximum is in a corner.
 /// @param radius  of the light over its distance
-inline ground_box casting_ground(const overhead_geometry& view, const seabed::height_range& range, double radius,
-                                 double longest) {
-    const ground_box shown = shown_ground(view, range);
-    ground_box all = shown;
+inline ground_area casting_ground(const overhead_geometry& view, const seabed::height_range& range, double radius,
+                                  double longest) {
+    const ground_area shown = shown_ground(view, range);
+    ground_area all = shown;
     const double relief = range.highest - range.lowest;
     const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
-    const auto held = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
+    const auto clamped = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
     for (const double across : {-radius, radius})
         for (const double up : {-radius, radius}) {
             const glm::dvec2 beside{across, up};
@@ -58,7 +57,7 @@ inline ground_box casting_ground(const overhead_geometry& view, const seabed::he
                     } else {
                         way = toward.z > 0 ? relief / toward.z * toward[axis] : longest * (toward[axis] < 0 ? -1 : 1);
                     }
-                    const double end = from + held(way);
+                    const double end = from + clamped(way);
                     all.first[axis] = (std::min)(all.first[axis], end);
                     all.last[axis] = (std::max)(all.last[axis], end);
                 }

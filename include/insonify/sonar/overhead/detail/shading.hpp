@@ -1,15 +1,16 @@
-// From what a pixel shows to its light: the surface's smooth normal, the backscatter law, and what the surface sends
-// back without the light, several pixels at a time.
+// Shaders of overhead pictures: unshadowed direct light and ambient light of each visible pixel, over SIMD lanes.
 //
-// Shadows and labels are no part of it: they are passes of their own over what this one leaves (render.hpp).
+// Shadows and labels are later passes over the images written here (render.hpp).
 #pragma once
 
 #include <insonify/core/image.hpp>
+#include <insonify/geometry/bounds.hpp>
+#include <insonify/geometry/shared_mesh.hpp>
 #include <insonify/raster/draw.hpp>
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/shadow/policy.hpp>
 #include <insonify/sonar/backscatter.hpp>
-#include <insonify/sonar/overhead/detail/placed_mesh.hpp>
+#include <insonify/sonar/overhead/rig.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17,31 +18,39 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// What pixels between the vertices are shaded from, in the rig's frame. The pixel's place gives the rest.
+/// A mesh in the rig's frame.
+struct placed_mesh {
+    mesh_view shape;
+    bounding_box box;  ///< of the shape, in its own frame
+    affine to_rig;
+    surface_kind kind = surface_kind::open;
+    const regular_grid* grid = nullptr;  ///< see shared_mesh
+};
+
+/// Varyings, in the rig's frame. Horizontal coordinates follow from the pixel.
 struct surface_varyings {
     glm::vec3 normal;
     float height;
 };
 
-/// Places the vertices of an object in the rig's frame and in its picture.
-struct surface_placement {
+/// Vertex shader of a mesh in the rig's picture.
+struct surface_vertex_shader {
     const overhead_geometry& view;
     glm::mat3 linear;
     glm::vec3 offset;
     glm::mat3 normals;
 
-    surface_placement(const overhead_geometry& rig, const placed_mesh& shape)
+    surface_vertex_shader(const overhead_geometry& rig, const placed_mesh& shape)
         : view(rig),
           linear(shape.to_rig.linear),
           offset(shape.to_rig.offset),
           normals(numeric::cofactors(shape.to_rig.linear)) {}
 
     placed_vertex<surface_varyings> operator()(const vertex& v) const {
-        const glm::vec3 position = place(v.position);
+        const glm::vec3 position = numeric::product(linear, v.position) + offset;
         return {view.clip(position), {numeric::product(normals, v.normal), position.z}};
     }
-    glm::vec3 place(const glm::vec3& position) const { return numeric::product(linear, position) + offset; }
-    /// See lane_shader.
+    /// See vertex_lane_shader.
     template <class Floats>
     INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats* varyings, const Floats (&position)[3],
                                     const Floats (&normal)[3]) const {
@@ -54,29 +63,28 @@ struct surface_placement {
     }
 };
 
-/// An object of the picture: what it is made of, and its number.
+/// The bottom or a target, as the passes over the picture need it.
 struct surface {
     mesh_view mesh;
     affine to_rig;
     std::uint32_t first_id = 0;           ///< of its triangles in the visibility buffer
-    std::uint32_t caster = 0;             ///< its number among the casters
+    std::uint32_t caster = 0;             ///< index into the casters
     std::uint16_t instance = 0;           ///< as in labels::instance
-    std::uint8_t seabed = 0;              ///< as in labels::seabed, unless there are types
-    material whole;                       ///< of all of it, unless there are types
-    const seabed::type* types = nullptr;  ///< by vertex: the bottom's, where there are several
+    std::uint8_t seabed = 0;              ///< as in labels::seabed, if there are no types
+    material whole;                       ///< if there are no types
+    const seabed::type* types = nullptr;  ///< by vertex, of a bottom of several types
     const material* materials = nullptr;  ///< by type
 };
 
-/// What shading leaves for each pixel. A null pointer leaves it out.
+/// The images that shading writes; null pointers are optional.
 struct shaded_images {
-    image<float>& direct;                  ///< what the light makes of it, unshadowed; with the rest, if there is no
-                                           ///< image for that
-    image<float>* rest = nullptr;          ///< what it shows without the light
+    image<float>& direct;                  ///< unshadowed light of the source; all light, if there is no other image
+    image<float>* rest = nullptr;          ///< sky and ambient light
     image<std::uint32_t>* ids = nullptr;   ///< the visibility buffer
-    image<std::uint8_t>* types = nullptr;  ///< seabed::type, where an object has several
+    image<std::uint8_t>* types = nullptr;  ///< seabed::type, of bottoms of several types
 
-    void clear(const pixel_box& tile) const {
-        for (int y = tile.y0; y <= tile.y1; ++y) {
+    void clear(const rect& tile) const {
+        for (int y = tile.y0; y < tile.y1; ++y) {
             std::fill_n(&direct(tile.x0, y), tile.width(), 0.0f);
             if (rest != nullptr) std::fill_n(&(*rest)(tile.x0, y), tile.width(), 0.0f);
             if (ids != nullptr) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
@@ -84,7 +92,7 @@ struct shaded_images {
     }
 };
 
-/// Shades an object's visible pixels.
+/// Fragment shader over lanes of one surface.
 template <class Law>
 class surface_shader {
   public:
@@ -104,30 +112,18 @@ class surface_shader {
         for (int i = 0; i < 3; ++i) to_light_[i] = light[i];
     }
 
-    void clear(const pixel_box& tile) const { into_.clear(tile); }
+    void clear(const rect& tile) const { into_.clear(tile); }
 
-    /// Shades the pixels of one tile.
-    struct tile_shader {
-        const surface_shader& whole;
-
-        template <int N>
-        INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
-            whole.shade(f);
-        }
-    };
-    tile_shader on(const pixel_box&) const { return {*this}; }
-
-  private:
     template <int N>
-    INSONIFY_INLINE void shade(const fragment_lanes<N, surface_varyings>& f) const {
+    INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
         floats normal[3], length, to_light[3];
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(normal[i], i); });
         const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
-        const ints unknown = f.visible & ~(ints(square > 0x1p-40f) & ints(square < 0x1p100f));
-        if (any(unknown)) use_facets<N>(normal, f, unknown);
+        const ints invalid = f.visible & ~(ints(square > 0x1p-40f) & ints(square < 0x1p100f));
+        if (any(invalid)) use_facets<N>(normal, f, invalid);
         square_root<N>(length, normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
         length = length > 0.0f ? length : floats{} + 1.0f;
         const floats turned = side / length;
@@ -152,18 +148,19 @@ class surface_shader {
         const floats rest = reflectivity * (sky * (0.5f * (1.0f + turned * normal[2])) + ambient);
         if (into_.rest == nullptr) {
             const floats one = floats{} + 1.0f, value = rest + direct;
-            store_visible<N>(f, floats(value < one ? value : one), into_.direct);
+            f.store(into_.direct, floats(value < one ? value : one));
         } else {
-            store_visible<N>(f, direct, into_.direct);
-            store_visible<N>(f, rest, *into_.rest);
+            f.store(into_.direct, direct);
+            f.store(*into_.rest, rest);
         }
         if (into_.ids == nullptr) return;
         lanes<std::uint32_t, N> ids;
         load(ids, f.triangles);
-        store_visible<N>(f, lanes<std::uint32_t, N>(ids + object_.first_id), *into_.ids);
+        f.store(*into_.ids, lanes<std::uint32_t, N>(ids + object_.first_id));
     }
 
-    /// Normals that cancel between the vertices, or are none: the facet's.
+  private:
+    /// Replaces normals that are zero or not finite by the facet's.
     template <int N>
     INSONIFY_RARE void use_facets(lanes<float, N> (&normal)[3], const fragment_lanes<N, surface_varyings>& f,
                                   const lanes<std::int32_t, N>& where) const {
@@ -176,7 +173,7 @@ class surface_shader {
         }
     }
 
-    /// The seabed's type at the corner that weighs most.
+    /// The seabed's type at the vertex with the largest weight.
     template <int N>
     INSONIFY_INLINE std::uint8_t type_at(const fragment_lanes<N, surface_varyings>& f, int k) const {
         const glm::uvec3& t = object_.mesh.triangles[f.triangles[k]];
@@ -184,7 +181,7 @@ class surface_shader {
         return static_cast<std::uint8_t>(object_.types[a >= b ? (a >= c ? t.x : t.z) : (b >= c ? t.y : t.z)]);
     }
 
-    /// The unit vector to the light.
+    /// Sets the unit vector to the light.
     template <int N>
     INSONIFY_INLINE void point_to_light(lanes<float, N> (&into)[3],
                                         const fragment_lanes<N, surface_varyings>& f) const {
@@ -207,16 +204,6 @@ class surface_shader {
         for (int i = 0; i < 3; ++i) into[i] = into[i] / length;
     }
 
-    template <int N, class T>
-    INSONIFY_INLINE static void store_visible(const fragment_lanes<N, surface_varyings>& f, const lanes<T, N>& value,
-                                              image<T>& picture) {
-        if (f.all_visible)
-            store(&picture(f.x, f.y), value);
-        else
-            for (int k = 0; k < N; ++k)
-                if (lane(f.visible, k) != 0) picture(f.x + k, f.y) = lane(value, k);
-    }
-
     template <int N>
     INSONIFY_INLINE void law(lanes<float, N>& into, const lanes<float, N>& sine) const {
         if constexpr (requires { law_.in_lanes(into, sine); })
@@ -230,9 +217,9 @@ class surface_shader {
     Law law_;
     bool is_near_;
     float left_, top_;        ///< from the picture's middle to the first pixel's centre, in pixels
-    spread<float> ray_step_;  ///< how far the ground is from pixel to pixel, seen from a height of one
+    spread<float> ray_step_;  ///< see overhead_geometry::ray_step
     spread<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
-    spread<float> to_light_[3];                           ///< where it stands, if it is near
+    spread<float> to_light_[3];                           ///< unit vector, or the position of a near light
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

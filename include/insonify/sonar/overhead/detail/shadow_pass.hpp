@@ -72,7 +72,7 @@ class shadow_pass {
             std::vector<float> lit(pixels);
             if constexpr (is_collective) pending[first / run] = point_list(rest_of_points, first / run * room, room);
             for (std::size_t i = first; i < last; ++i) {
-                const pixel_box box = tile_box(i);
+                const rect box = tile_box(i);
                 point_list points(arrays, 0, pixels);
                 std::fill(lit.begin(), lit.end(), 0.0f);
                 find_points(finders, box, lit, points);
@@ -127,14 +127,10 @@ class shadow_pass {
     tile_grid tiles() const {
         return {image_.width(), image_.height(), std::countr_zero(static_cast<unsigned>(tile_))};
     }
-    pixel_box tile_box(std::size_t i) const {
-        const auto columns = static_cast<std::size_t>(tiles().columns);
-        const int x = static_cast<int>(i % columns) * tile_, y = static_cast<int>(i / columns) * tile_;
-        return intersect({x, y, x + tile_ - 1, y + tile_ - 1}, {0, 0, image_.width() - 1, image_.height() - 1});
-    }
+    rect tile_box(std::size_t i) const { return tiles().pixels(i, image_.width(), image_.height()); }
 
     /// A tile's pixel, counted from its first, as one of the picture's.
-    std::uint32_t pixel_in(const pixel_box& box, std::size_t pixel) const {
+    std::uint32_t pixel_in(const rect& box, std::size_t pixel) const {
         const auto width = static_cast<std::size_t>(box.width());
         return static_cast<std::uint32_t>((static_cast<std::size_t>(box.y0) + pixel / width) *
                                               static_cast<std::size_t>(image_.width()) +
@@ -143,13 +139,12 @@ class shadow_pass {
 
     /// The points of a tile that matter: where there is light to lose, or all for the sake of labels. Pixels of
     /// triangles of which all is known get their share of light at once.
-    void find_points(std::span<const point_finder> finders, const pixel_box& box, std::span<float> lit,
-                     point_list& into) {
+    void find_points(std::span<const point_finder> finders, const rect& box, std::span<float> lit, point_list& into) {
         std::vector<std::vector<shown_pixel>> pixels(surfaces_.size());
         const surface* last = nullptr;
         const shadow::known* known = nullptr;  // of the triangles of that
         std::vector<shown_pixel>* to = nullptr;
-        for (int y = box.y0; y <= box.y1; ++y) {
+        for (int y = box.y0; y < box.y1; ++y) {
             const std::uint32_t* const ids = &ids_(box.x0, y);
             const float* const direct = &image_(box.x0, y);
             for (int x = 0; x < box.width(); ++x) {
@@ -181,10 +176,10 @@ class shadow_pass {
 
     /// Pixels of a tile from what the light makes of them and how much of it arrives.
     /// @param lit  of the pixels that need no point
-    void finish(const pixel_box& box, const point_list& points, const shadow::shares& light, std::span<float> lit) {
+    void finish(const rect& box, const point_list& points, const shadow::shares& light, std::span<float> lit) {
         const auto width = static_cast<std::size_t>(box.width());
         for (std::size_t i = 0; i < points.facing; ++i) lit[points.pixel(i)] = light.lit[i];
-        for (int y = box.y0; y <= box.y1; ++y) {
+        for (int y = box.y0; y < box.y1; ++y) {
             const float* const share = lit.data() + static_cast<std::size_t>(y - box.y0) * width;
             float* const value = &image_(box.x0, y);
             const float* const rest = &rest_(box.x0, y);

@@ -1,7 +1,6 @@
-// The bottom under a track that goes anywhere: heights and slopes in square tiles, sampled where pings look and nowhere
-// else.
+// The seabed along a track: heights and slopes in square tiles, sampled only where pings need them.
 //
-// Tiles lie on a lattice of the world, so that a place is sampled the same whatever track passes over it.
+// Tiles lie on a lattice of the world, so that a position has the same samples whatever track passes over it.
 #pragma once
 
 #include <insonify/core/executor.hpp>
@@ -19,9 +18,9 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The bottom at a vertex, and between vertices.
+/// The seabed at a vertex, or interpolated between vertices.
 struct bottom_vertex {
-    float height;            ///< metres above the datum; NaN where there is none
+    float height;            ///< metres above the datum; NaN without seabed
     float slope_x, slope_y;  ///< rise per metre, by central differences
     std::uint32_t type;
 };
@@ -30,7 +29,7 @@ class bottom_tiles {
   public:
     static constexpr int cells = 64;  ///< along a tile's side
 
-    /// @param spacing  metres between vertices; what `even` makes of it is taken
+    /// @param spacing  metres between vertices, rounded by `even`
     bottom_tiles(const seabed::any& source, double spacing)
         : is_empty_(source.empty()),
           prepared_(source.prepare()),
@@ -38,19 +37,20 @@ class bottom_tiles {
           spacing_(even(spacing)),
           scale_(1 / spacing_) {}
 
-    /// A length whose multiples are exact, so that a vertex is the same in whatever row it is sampled.
+    /// Rounds a length so that its multiples are exact: a vertex has the same coordinates in every row.
     static double even(double length) {
         require(length > 1e-9 && length < 1e9, "cell", length, "metres above 0");
         return seabed::detail::eight_bits(length);
     }
 
-    /// Samples what a fan of pings looks at, and forgets the rest.
-    /// @param from, reach  metres from each ping, on the side it looks to
+    /// Samples the seabed below some pings, and discards all other tiles.
+    /// @param from, reach  metres across the track from each ping, on its side
     template <executor E>
     void cover(std::span<const ping_frame> pings, double from, double reach, E& ex) {
         if (is_empty_) return;
         const double side = cells * spacing_;
-        // Lines of sight in steps of half a tile: the boxes around the steps hold every tile that is touched.
+        // Steps of half a tile along each ping's fan: the rectangles around the steps contain every tile that it
+        // touches.
         const double looked_at = reach - from;
         const int steps = static_cast<int>(numeric::floor_to_int(2 * looked_at / side)) + 1;
         const auto step = [&](int i) { return from + looked_at * i / steps; };
@@ -88,7 +88,7 @@ class bottom_tiles {
             }
         }
 
-        // Long rows are cheaper per sample: neighbours along x are sampled together.
+        // Tiles that are neighbours along x are sampled together: long rows cost less per sample.
         std::vector<tile_run> runs;
         std::uint32_t tiles = 0;
         for (std::int64_t y = 0; y < rows; ++y)
@@ -108,7 +108,8 @@ class bottom_tiles {
         sampled_ += tiles * tile_size;
     }
 
-    /// The bottom at a world position that is covered; bilinear in the cell, of the nearest vertex's type.
+    /// The seabed at a world position, which must be covered: bilinear in the cell, with the type of the nearest
+    /// vertex.
     bottom_vertex at(double x, double y) const {
         if (is_empty_) return {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0};
         const double u = x * scale_, v = y * scale_;
@@ -129,7 +130,7 @@ class bottom_tiles {
                 wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
     }
 
-    /// Clamps a depth to those bounds; NaN becomes the least.
+    /// Clamps a depth along a pitched fan to the seabed's bounds; NaN becomes the lower one.
     double clamped(const ping_frame& p, double depth) const {
         const auto [least, most] = depths(p);
         return depth > least ? (std::min)(depth, most) : least;
@@ -140,7 +141,7 @@ class bottom_tiles {
 
   private:
     static constexpr int shift = 6;
-    static constexpr std::size_t stride = cells + 1;  // the next tile's first vertices too
+    static constexpr std::size_t stride = cells + 1;  // with the first vertices of the next tile
     static constexpr std::size_t tile_size = stride * stride;
     static constexpr std::uint32_t absent = 0xFFFFFFFFu;
     static_assert(1 << shift == cells);
@@ -149,7 +150,7 @@ class bottom_tiles {
         return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
     }
 
-    /// Bounds of the bottom's depth along a fan; used for pitched fans only.
+    /// Bounds of the seabed's depth along a pitched fan; 0 for level ones, which do not need them.
     /// @throws invalid_input for pitched pings over a seabed that does not state its heights
     std::pair<double, double> depths(const ping_frame& p) const {
         if (p.is_level() || range_.empty()) return {0, 0};
@@ -158,14 +159,14 @@ class bottom_tiles {
                 (p.position().z - range_.lowest) / p.cosine_pitch()};
     }
 
-    /// Tiles side by side.
+    /// Neighbouring tiles along x.
     struct tile_run {
         std::int64_t x, y;
         std::uint32_t slot, count;
     };
     static constexpr std::uint32_t longest_run = 8;
 
-    /// The vertices of a run, with a ring of neighbours for the slopes.
+    /// Samples a run, with a margin of one vertex for the slopes.
     void sample(const tile_run& run) const {
         const std::size_t width = run.count * cells + 3, height = stride + 2;
         std::vector<float> heights(width * height);
@@ -181,7 +182,7 @@ class bottom_tiles {
         const auto scale = static_cast<float>(0.5 * scale_);
         const auto slope = [&](float before, float after) {
             const float rise = scale * (after - before);
-            return numeric::is_finite(rise) ? rise : 0.0f;  // beside a hole
+            return numeric::is_finite(rise) ? rise : 0.0f;  // next to a gap
         };
         for (std::size_t tile = 0; tile < run.count; ++tile) {
             bottom_vertex* out = &vertices_[(run.slot + tile) * tile_size];

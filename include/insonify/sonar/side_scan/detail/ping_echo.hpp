@@ -1,15 +1,15 @@
-// Computes the echo of one ping, bin by bin.
+// The echo of one ping, bin by bin.
 //
-// Source and receiver coincide: the first surface along a ray is both insonified and heard. Each ray's
-// power is spread evenly over the bins between the ranges at which its upper and its lower edge meet the surface; so
-// level ground has no gaps and no beats, whatever the ratio of rays to bins. Bottom that is met by no ray is in shadow,
-// and belongs to whatever stands in front of it.
+// Source and receiver coincide, so the first surface along a ray is both insonified and received. A ray's power is
+// distributed evenly over the bins between the ranges at which its edges meet the surface: level ground has no gaps and
+// no beats, whatever the ratio of rays to bins. Seabed that no ray meets is in shadow; its caster is what the rays met
+// in front of it.
 #pragma once
 
 #include <insonify/seabed/any.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/side_scan/detail/bottom_tiles.hpp>
-#include <insonify/sonar/side_scan/detail/name_tally.hpp>
+#include <insonify/sonar/side_scan/detail/label_tally.hpp>
 #include <insonify/sonar/side_scan/detail/ping_fan.hpp>
 #include <insonify/sonar/side_scan/detail/target_hits.hpp>
 
@@ -24,21 +24,21 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Power and contents of a range bin; lengths are in bins.
 struct echo_bin {
     float bottom = 0, target = 0;  ///< power
-    float lit = 0;                 ///< of the bottom
+    float lit = 0;                 ///< length of seabed
     float dark_by_seabed = 0, dark_by_target = 0;
-    float of_seabed = 0;  ///< of the first type in the bin; name_tally has the others
-    // Those that have most of the bin, in the end.
+    float of_seabed = 0;  ///< length of the first type in the bin; a label_tally has the others
+    // The labels that have most of the bin.
     std::uint16_t instance = labels::no_instance, caster = labels::by_seabed;
     std::uint8_t seabed = labels::no_seabed;
 };
 
-/// Computes pings one after the other. Rig is a side_scan or a ground_range; what labels need is left out if !Labelled.
+/// Traces pings one after the other, reusing memory and, where possible, the fan. Rig is a side_scan or a ground_range.
 template <class Rig, class Law, class Equation, bool Labelled>
-class ping_listener {
+class ping_tracer {
   public:
-    ping_listener(const scene& s, const bottom_materials& materials, std::span<const sliced_target> targets,
-                  const bottom_tiles& bottom, const Rig& rig, const Law& law, const Equation& equation, double cell,
-                  const seabed::height_range& relief, double start)
+    ping_tracer(const scene& s, const bottom_materials& materials, std::span<const sliced_target> targets,
+                const bottom_tiles& bottom, const Rig& rig, const Law& law, const Equation& equation, double cell,
+                const seabed::height_range& relief, double start)
         : scene_(s),
           materials_(materials),
           targets_(targets),
@@ -63,52 +63,51 @@ class ping_listener {
         }
     }
 
-    /// @returns one per bin, until the next ping
-    std::span<const echo_bin> hear(const ping_frame& p) {
+    /// @returns one per bin, valid until the next call
+    std::span<const echo_bin> trace(const ping_frame& p) {
         std::fill(bins_.begin(), bins_.end(), echo_bin{});
         sample_bottom(p);
         const double altitude = p.position().z;
-        if (looks_beyond(relief_, first_range_, p)) lowest_ = relief_.lowest, highest_ = relief_.highest;
-        if (!(lowest_ <= highest_))  // no bottom here: rays for the targets alone
+        if (skips_foreground(relief_, first_range_, p)) lowest_ = relief_.lowest, highest_ = relief_.highest;
+        if (!(lowest_ <= highest_))  // no seabed here: rays for the targets alone
             lowest_ = highest_ = (std::min)(foot_, altitude - range_ / 16);
-        // The pitched fan's own depths are longer; heights above are bounded by the level ones.
-        const double longer = 1 / p.cosine_pitch();
-        const fan_shape shape = fan_shape::around((altitude - lowest_) * longer, altitude - highest_,
+        // In a pitched fan depths are longer; level ones bound the heights above.
+        const double stretch = 1 / p.cosine_pitch();
+        const fan_shape shape = fan_shape::around((altitude - lowest_) * stretch, altitude - highest_,
                                                   altitude - (std::max)(top_, highest_));
         const std::array<double, 3> attitude{p.sine_roll(), p.cosine_roll(), p.cosine_pitch()};
-        if (!(shape == fan_.shape()) || attitude != attitude_) spread_out(shape, attitude);
-        if (!(altitude > lowest_) || profile_[0].down <= 0) return bins_;  // it lies in the ground
+        if (!(shape == fan_.shape()) || attitude != attitude_) build_fan(shape, attitude);
+        if (!(altitude > lowest_) || profile_[0].down <= 0) return bins_;  // the sonar is below the seabed
         gather_targets(p);
-        hear_bottom(p);
-        if (some_target_) hear_targets();
-        if constexpr (Labelled) name_bins();
+        trace_bottom(p);
+        if (some_target_) add_target_echoes();
+        if constexpr (Labelled) label_bins();
         return bins_;
     }
 
     /// Ground range up to which the bottom has to be sampled, metres.
     static double reach(const Rig& rig, double cell) { return static_cast<double>(rig.range) + 4 * cell; }
 
-    /// Ground range from which the bottom has to be sampled: nothing nearer is heard in the window or hides what is.
-    /// @param relief  of the bottom
+    /// Ground range from which the bottom has to be sampled: nothing nearer is received in the window or occludes it.
     static double start(const Rig& rig, double cell, const seabed::height_range& relief, const ping_frame& p,
                         std::span<const sliced_target> targets) {
         const double altitude = p.position().z, first = static_cast<double>(rig.first_range);
-        if (!looks_beyond(relief, first, p)) return 0;
-        const double lowest = altitude - relief.lowest, heard = first - 4 * rig.bin();
-        const double square = counts_time ? heard * heard - lowest * lowest : heard * heard;
-        const double place = heard > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
+        if (!skips_foreground(relief, first, p)) return 0;
+        const double lowest = altitude - relief.lowest, window = first - 4 * rig.bin();
+        const double square = counts_time ? window * window - lowest * lowest : window * window;
+        const double place = window > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
         for (const sliced_target& t : targets)
             if (t.is_met_by(p, 1e9) && t.nearest(p) < place) return 0;
-        // A crest, the highest there can be, and the lowest place that it hides.
+        // The highest possible crest that occludes the lowest possible ground there.
         return (std::max)(0.0, place * (altitude - relief.highest) / lowest - 4 * cell);
     }
 
   private:
-    static constexpr float most = 2;  // bins that an echo may spread to either side of its ray, whatever the slope
+    static constexpr float widest = 2;  ///< bins to either side of its ray that an echo may cover, at any slope
     static constexpr bool counts_time = Rig::axis == across_track::slant_range;
 
-    /// Whether a ping is well above the bottom, so that the bottom before the window can be skipped.
-    static bool looks_beyond(const seabed::height_range& relief, double first_range, const ping_frame& p) {
+    /// Whether a ping is so high above the bottom that the bottom in front of the window can be skipped.
+    static bool skips_foreground(const seabed::height_range& relief, double first_range, const ping_frame& p) {
         const double altitude = p.position().z;
         return first_range > 0 && p.is_level() && !relief.empty() && relief.lowest > -altitude &&
                2 * relief.highest < altitude;
@@ -119,26 +118,26 @@ class ping_listener {
         float slope, slope_along;
         std::uint8_t type;
     };
-    /// Builds the fan, and each ray's power per metre of range.
-    void spread_out(const fan_shape& shape, const std::array<double, 3>& attitude) {
+    /// Builds the fan, and the power per metre of range of each ray.
+    void build_fan(const fan_shape& shape, const std::array<double, 3>& attitude) {
         const auto slant = [&](double r) {
             return counts_time ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
         };
         farthest_ = slant(range_);
         fan_ = ping_fan(shape, step_, slant(first_range_), farthest_);
-        carried_.resize(fan_.size());
+        ray_power_.resize(fan_.size());
         attitude_ = attitude;
         const auto [sine_roll, cosine_roll, cosine_pitch] = attitude;
-        // A fan that leans by a pitch is thinner than its spacing along the track.
+        // A pitched fan is thinner than the spacing of pings along the track.
         const float thickness = spacing_ * static_cast<float>(cosine_pitch);
         for (std::size_t k = 0; k < fan_.size(); ++k) {
             const double across = fan_[k].sine * cosine_roll + fan_[k].cosine * sine_roll,
                          down = fan_[k].cosine * cosine_roll - fan_[k].sine * sine_roll;
-            carried_[k] = thickness * static_cast<float>(fan_[k].width * equation_.over_direction(across, down));
+            ray_power_[k] = thickness * static_cast<float>(fan_[k].width * equation_.over_direction(across, down));
         }
     }
 
-    /// The profile below the ping, from where it matters outwards.
+    /// Samples the profile below the ping, from first_point_ outwards.
     void sample_bottom(const ping_frame& p) {
         const auto end = static_cast<std::size_t>(numeric::floor_to_int(range_ / profile_step_)) + 2;
         profile_.resize(end - first_point_);
@@ -149,14 +148,15 @@ class ping_listener {
             bottom_vertex v;
             double depth;
             if (p.is_level()) {
-                const glm::dvec2 at = p.world(place_of(i), 0);
+                const glm::dvec2 at = p.world(x_of(i), 0);
                 v = tiles_.at(at.x, at.y);
                 depth = altitude - static_cast<double>(v.height);
             } else {
-                // The place depends on the depth; slopes below 1 / tan(pitch) make the steps converge.
+                // The position depends on the depth: a fixed-point iteration, which slopes below 1 / tan(pitch) let
+                // converge.
                 depth = i > 0 ? profile_[i - 1].down : 0;
                 for (int step = 0; step < 5; ++step) {
-                    const glm::dvec2 at = p.below(place_of(i), tiles_.clamped(p, depth));
+                    const glm::dvec2 at = p.below(x_of(i), tiles_.clamped(p, depth));
                     v = tiles_.at(at.x, at.y);
                     depth = (altitude - static_cast<double>(v.height)) / p.cosine_pitch();
                 }
@@ -164,13 +164,13 @@ class ping_listener {
             const auto height = static_cast<double>(v.height);
             profile_[i] = {depth, v.slope_x * across.x + v.slope_y * across.y,
                            v.slope_x * along.x + v.slope_y * along.y, static_cast<std::uint8_t>(v.type)};
-            lowest_ = (std::min)(height, lowest_);  // NaN stays out
+            lowest_ = (std::min)(height, lowest_);  // ignores NaN
             highest_ = (std::max)(height, highest_);
         }
     }
 
-    /// How far out a point of the profile is.
-    double place_of(std::size_t i) const { return profile_step_ * static_cast<double>(first_point_ + i); }
+    /// Distance across the track of a point of the profile.
+    double x_of(std::size_t i) const { return profile_step_ * static_cast<double>(first_point_ + i); }
 
     void gather_targets(const ping_frame& p) {
         some_target_ = false;
@@ -178,34 +178,35 @@ class ping_listener {
             if (!targets_[i].is_met_by(p, farthest_)) continue;
             if (!some_target_) hits_.begin(fan_);
             some_target_ = true;
-            targets_[i].cut(p, [&](const outline_piece& piece) {
-                hits_.add(piece, static_cast<std::uint16_t>(i + 1), scene_.targets[i].surface.reflectivity);
+            targets_[i].cut(p, [&](const cut_segment& segment) {
+                hits_.add(segment, static_cast<std::uint16_t>(i + 1), scene_.targets[i].surface.reflectivity);
             });
         }
         if (some_target_) hits_.resolve();
     }
 
-    /// Walks along the profile; rays meet it in order, and what lies below the last one met is hidden.
-    void hear_bottom(const ping_frame& ping) {
+    /// Walks outwards along the profile. Rays meet it in order; bottom below the last ray that met it is in shadow.
+    void trace_bottom(const ping_frame& ping) {
         double horizon_x = 0, horizon_down = 1;
-        // Rays that meet the bottom before the profile begins see nothing behind it.
-        std::size_t k = first_point_ > 0 ? fan_.first_over(place_of(0), profile_[0].down) : 0;
+        // Rays that meet the bottom in front of the profile go no further.
+        std::size_t k = first_point_ > 0 ? fan_.first_over(x_of(0), profile_[0].down) : 0;
         if (some_target_)
             for (std::size_t j = 0; j < k; ++j) hits_.cut_off(j, 0);
         const std::size_t rays = fan_.size();
         for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
-            const double px = place_of(i), qx = place_of(i + 1);
+            const double px = x_of(i), qx = x_of(i + 1);
             const bottom_point &p = profile_[i], &q = profile_[i + 1];
             const double dx = qx - px, ddown = q.down - p.down;
             const double above = qx * horizon_down - q.down * horizon_x;
             if (!(above > 0)) {
-                if (Labelled && ddown == ddown) name(p, q, px, dx, 0, 1, hider(qx, q.down));
+                if (Labelled && ddown == ddown) label(p, q, px, dx, 0, 1, caster_below_horizon(qx, q.down));
                 continue;
             }
-            // The part over the horizon begins here. Labels divide it halfway between rays, as the rays' power does.
+            // The part above the horizon. Labels divide it halfway between rays, as the rays' power does.
             const double below = px * horizon_down - p.down * horizon_x;
             double from = below / (below - above);
-            if (Labelled && from > 0) name(p, q, px, dx, 0, from, hider(px + from * dx, p.down + from * ddown));
+            if (Labelled && from > 0)
+                label(p, q, px, dx, 0, from, caster_below_horizon(px + from * dx, p.down + from * ddown));
             double last_met = from;
             const std::size_t first = k;
             for (; k < rays && ping_fan::beyond(fan_[k], qx, q.down) >= 0; ++k) {
@@ -215,53 +216,54 @@ class ping_listener {
                 const double range = (px + f * dx) * ray.sine + (p.down + f * ddown) * ray.cosine;
                 if (Labelled && some_target_ && k > first) {
                     const double between = 0.5 * (last_met + f);
-                    name(p, q, px, dx, from, between, screen(k - 1, px + last_met * dx, p.down + last_met * ddown));
+                    label(p, q, px, dx, from, between, occluder(k - 1, px + last_met * dx, p.down + last_met * ddown));
                     from = between;
                 }
                 last_met = f;
                 if (range <= farthest_ + bin_)
-                    hear_bottom_at(ping, ray, k, range, dx, ddown, p, q, static_cast<float>(f));
+                    add_bottom_echo(ping, ray, k, range, dx, ddown, p, q, static_cast<float>(f));
             }
             if constexpr (Labelled)
-                name(p, q, px, dx, from, 1,
-                     some_target_ ? screen(k > first ? k - 1 : k, px + last_met * dx, p.down + last_met * ddown)
-                                  : labels::is_lit);
+                label(p, q, px, dx, from, 1,
+                      some_target_ ? occluder(k > first ? k - 1 : k, px + last_met * dx, p.down + last_met * ddown)
+                                   : labels::is_lit);
             horizon_x = qx, horizon_down = q.down;
         }
     }
 
-    void hear_bottom_at(const ping_frame& ping, const ping_fan::ray& ray, std::size_t k, double range, double dx,
-                        double ddown, const bottom_point& p, const bottom_point& q, float f) {
-        // Targets that are buried or behind a rise are cut off.
-        const double stopped = some_target_ ? hits_.cut_off(k, range) : 0;
-        if (stopped >= 1) return;
-        const float at = column(ray, range), half = (std::min)(half_length(ray, range, dx, ddown), most);
+    void add_bottom_echo(const ping_frame& ping, const ping_fan::ray& ray, std::size_t k, double range, double dx,
+                         double ddown, const bottom_point& p, const bottom_point& q, float f) {
+        // Removes targets that are buried or behind a rise.
+        const double covered = some_target_ ? hits_.cut_off(k, range) : 0;
+        if (covered >= 1) return;
+        const float at = column(ray, range), half = (std::min)(half_length(ray, range, dx, ddown), widest);
         const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
         const float slope = p.slope + f * (q.slope - p.slope);
         const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
         const auto upright = static_cast<float>(ping.cosine_pitch()), ahead = static_cast<float>(ping.sine_pitch());
         const float facing = (slope * sine + cosine * (upright + slope_along * ahead)) /
                              numeric::square_root(1 + slope * slope + slope_along * slope_along);
-        const float power = static_cast<float>(1 - stopped) * power_of(k, range, facing) *
+        const float power = static_cast<float>(1 - covered) * power_of(k, range, facing) *
                             materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
-        spread(at - half, at + half, [&](std::size_t bin, float share, float) { bins_[bin].bottom += power * share; });
+        distribute(at - half, at + half,
+                   [&](std::size_t bin, float fraction, float) { bins_[bin].bottom += power * fraction; });
     }
 
-    void hear_targets() {
+    void add_target_echoes() {
         hits_.for_each([&](std::size_t k, const target_hit& hit) {
             const double range = numeric::square_root(hit.square_range());
-            const float power = static_cast<float>(hit.share) * power_of(k, range, hit.facing) * hit.reflectivity;
-            const double a = place(hit.x0, hit.down0), b = place(hit.x1, hit.down1);
-            spread(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
-                   [&](std::size_t bin, float share, float) {
-                       bins_[bin].target += power * share;
-                       if constexpr (Labelled) echoing_.add(bin, hit.instance, power * share);
-                   });
+            const float power = static_cast<float>(hit.fraction) * power_of(k, range, hit.facing) * hit.reflectivity;
+            const double a = column(hit.x0, hit.down0), b = column(hit.x1, hit.down1);
+            distribute(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
+                       [&](std::size_t bin, float fraction, float) {
+                           bins_[bin].target += power * fraction;
+                           if constexpr (Labelled) echoing_.add(bin, hit.instance, power * fraction);
+                       });
         });
     }
 
-    /// Gives each bin the names that have most of it.
-    void name_bins() {
+    /// Sets the labels that have most of each bin.
+    void label_bins() {
         if (!types_.empty())
             for (std::size_t b = 0; b < bins_.size(); ++b) {
                 const auto [type, length] = types_.largest(b, labels::no_seabed);
@@ -270,49 +272,50 @@ class ping_listener {
         if (some_target_)
             for (std::size_t b = 0; b < bins_.size(); ++b) {
                 echo_bin& bin = bins_[b];
-                bin.instance = echoing_.largest(b, labels::no_instance).name;
+                bin.instance = echoing_.largest(b, labels::no_instance).label;
                 const auto [caster, length] = casting_.largest(b, labels::by_seabed);
                 bin.caster = length >= bin.dark_by_seabed ? caster : labels::by_seabed;
             }
         echoing_.clear(), casting_.clear(), types_.clear();
     }
 
-    /// The target that stands between the sonar and a point of ray k, or is_lit.
-    std::uint16_t screen(std::size_t k, double x, double down) const {
-        return hits_.screen(k, numeric::square_root(x * x + down * down));
+    /// The target between the sonar and a point of ray k, or is_lit.
+    std::uint16_t occluder(std::size_t k, double x, double down) const {
+        return hits_.occluder(k, numeric::square_root(x * x + down * down));
     }
-    /// What hides bottom below the horizon: a target, if one does, even where the seabed would too.
-    std::uint16_t hider(double x, double down) const {
-        const std::uint16_t target = some_target_ ? screen(fan_.first_over(x, down), x, down) : labels::is_lit;
+    /// The caster of a shadow below the horizon: a target, if one occludes the point, or the seabed.
+    std::uint16_t caster_below_horizon(double x, double down) const {
+        const std::uint16_t target = some_target_ ? occluder(fan_.first_over(x, down), x, down) : labels::is_lit;
         return target == labels::is_lit ? labels::by_seabed : target;
     }
 
-    /// Adds to the labels what keeps the bottom dark between two fractions of the way from p to q.
-    void name(const bottom_point& p, const bottom_point& q, double px, double dx, double from, double to,
-              std::uint16_t caster) {
+    /// Adds a piece of bottom to the labels: between two fractions of the way from p to q, with the caster of its
+    /// shadow or is_lit.
+    void label(const bottom_point& p, const bottom_point& q, double px, double dx, double from, double to,
+               std::uint16_t caster) {
         const double down = q.down - p.down;
-        const double a = place(px + from * dx, p.down + from * down), b = place(px + to * dx, p.down + to * down);
+        const double a = column(px + from * dx, p.down + from * down), b = column(px + to * dx, p.down + to * down);
         const std::uint8_t type = from + to < 1 ? p.type : q.type;
-        spread(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
-               [&](std::size_t number, float, float length) {
-                   echo_bin& bin = bins_[number];
-                   if (caster == labels::is_lit)
-                       bin.lit += length;
-                   else if (caster == labels::by_seabed)
-                       bin.dark_by_seabed += length;
-                   else
-                       bin.dark_by_target += length, casting_.add(number, caster, length);
-                   if (bin.seabed == labels::no_seabed) bin.seabed = type;
-                   if (bin.seabed == type)
-                       bin.of_seabed += length;
-                   else
-                       types_.add(number, type, length);
-               });
+        distribute(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
+                   [&](std::size_t number, float, float length) {
+                       echo_bin& bin = bins_[number];
+                       if (caster == labels::is_lit)
+                           bin.lit += length;
+                       else if (caster == labels::by_seabed)
+                           bin.dark_by_seabed += length;
+                       else
+                           bin.dark_by_target += length, casting_.add(number, caster, length);
+                       if (bin.seabed == labels::no_seabed) bin.seabed = type;
+                       if (bin.seabed == type)
+                           bin.of_seabed += length;
+                       else
+                           types_.add(number, type, length);
+                   });
     }
 
-    /// Calls `visit(number of the bin, share, length)` for the bins from `low` to `high`.
+    /// Calls `visit(bin, fraction, length)` for the bins between two positions.
     template <class Visit>
-    void spread(float low, float high, const Visit& visit) {
+    void distribute(float low, float high, const Visit& visit) {
         if (!(high > 0 && low < static_cast<float>(bins_.size()))) return;
         const auto first = static_cast<std::int64_t>(low > 0 ? low : 0.0f);
         const auto last = (std::min)(static_cast<std::int64_t>(high), static_cast<std::int64_t>(bins_.size()) - 1);
@@ -327,17 +330,17 @@ class ping_listener {
         }
     }
 
-    /// Where an echo is heard, in bins.
+    /// Position of an echo, in bins.
     float column(const ping_fan::ray& ray, double range) const {
         const double r = counts_time ? range : range * ray.sine;
         return static_cast<float>((r - first_range_) / bin_);
     }
-    double place(double x, double down) const {
+    double column(double x, double down) const {
         const double r = counts_time ? numeric::square_root(x * x + down * down) : x;
         return (r - first_range_) / bin_;
     }
 
-    /// Half of the bins between the two edges of a ray on a surface along (dx, ddown).
+    /// Half the number of bins between the edges of a ray on a surface along (dx, ddown).
     float half_length(const ping_fan::ray& ray, double range, double dx, double ddown) const {
         const double outwards = counts_time ? dx * ray.sine + ddown * ray.cosine : dx;
         const double turning = dx * ray.cosine - ddown * ray.sine;
@@ -345,11 +348,11 @@ class ping_listener {
         return static_cast<float>(numeric::magnitude(half));
     }
 
-    /// Power that a surface of reflectivity one returns from a ray: its projected area over the sine of the grazing
+    /// Power that a surface of reflectivity 1 returns from a ray: the ray's cross-section over the sine of the grazing
     /// angle, times the law.
     float power_of(std::size_t k, double range, float facing) const {
         const float sine = (std::min)((std::max)(facing, 1e-3f), 1.0f);
-        return static_cast<float>(range) * carried_[k] * law_(sine) / sine;
+        return static_cast<float>(range) * ray_power_[k] * law_(sine) / sine;
     }
 
     const scene& scene_;
@@ -363,15 +366,15 @@ class ping_listener {
     std::size_t first_point_;
     float spacing_;
     double top_ = -1e30, foot_ = 1e30;         ///< of all targets
-    double lowest_ = 0, highest_ = 0;          ///< of the bottom below the ping
+    double lowest_ = 0, highest_ = 0;          ///< of the bottom below the current ping
     std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
-    std::vector<float> carried_;
+    std::vector<float> ray_power_;
     std::vector<bottom_point> profile_;
     target_hits hits_;
     bool some_target_ = false;
     std::vector<echo_bin> bins_;
-    name_tally echoing_, casting_, types_;
+    label_tally echoing_, casting_, types_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

@@ -1,7 +1,7 @@
-// The rays of a ping, in the vertical plane across the track: nadir first, one after the other outwards.
+// The rays of a ping, in the plane across the track, from nadir outwards.
 //
-// Level ground is met at equal steps. Beyond its end come rays for what stands up there, at equal angles: neighbours
-// are at most a bin apart on an upright wall.
+// Rays that meet level ground within the range have equal steps there. Steeper ones, for objects above it, have equal
+// angles: neighbours are at most a bin apart on a vertical wall at the largest range.
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -17,9 +17,9 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// Parameters of a fan. Heights are rounded so that few different fans serve a whole track.
 struct fan_shape {
-    double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: no rays
-    double above_highest = 1;  ///< over the highest bottom
-    double above_all = 1;      ///< over the highest of targets and bottom; not above 0: rays go up to the zenith
+    double above_lowest = 1;   ///< metres above the lowest seabed; no rays if not above 0
+    double above_highest = 1;  ///< metres above the highest seabed
+    double above_all = 1;      ///< metres above seabed and targets; rays up to the zenith if not above 0
 
     friend bool operator==(const fan_shape&, const fan_shape&) = default;
 
@@ -42,14 +42,13 @@ class ping_fan {
   public:
     struct ray {
         double sine, cosine;  ///< across and down
-        double width;         ///< radians that it stands for
+        double width;         ///< radians
     };
 
     ping_fan() = default;
 
     /// @param step         metres between rays on level ground, and between neighbours on a wall at the largest range
-    /// @param first_range  what is nearer than this need not be seen
-    /// @param range        the same for what is farther, metres
+    /// @param first_range, range  metres; nearer and farther surfaces need no rays
     ping_fan(const fan_shape& shape, double step, double first_range, double range) : shape_(shape) {
         const double low = shape.above_lowest;
         if (!(low > 0)) return;
@@ -85,20 +84,19 @@ class ping_fan {
     std::size_t size() const { return rays_.size(); }
     const ray& operator[](std::size_t i) const { return rays_[i]; }
 
-    /// How far beyond a ray a point lies, times its distance: above 0 where it is farther out.
+    /// Positive for points outwards of a ray: the sine of the angle between them times the point's distance.
     static double beyond(const ray& r, double x, double down) { return x * r.cosine - down * r.sine; }
 
-    /// The first ray that passes through the point or beyond it.
+    /// The first ray through a point or outwards of it.
     std::size_t first_over(double x, double down) const {
         const auto at =
             std::partition_point(rays_.begin(), rays_.end(), [&](const ray& r) { return beyond(r, x, down) > 0; });
         return static_cast<std::size_t>(at - rays_.begin());
     }
 
-    /// Number of the first ray. Rays are numbered from nadir, so that fans that begin farther out agree with others.
+    /// Number of the first ray. Numbers count from nadir, also in fans that begin farther out.
     std::size_t first() const { return static_cast<std::size_t>(first_); }
-    /// Where a point lies among the rays: ray i, whose number is first() + i, covers [number, number + 1). Clamped to
-    /// the rays that there are.
+    /// Position of a point among the rays: ray i covers [first() + i, first() + i + 1). Clamped to the fan.
     double coordinate(double x, double down) const {
         double t = down > 0 ? x / down / spacing_ : wall_first_;
         if (t >= wall_first_) t = wall_first_ + (numeric::atan2(x, down) - wall_from_) / wall_angle_;
@@ -121,8 +119,8 @@ class ping_fan {
   private:
     fan_shape shape_{0, 0, 0};
     std::vector<ray> rays_;
-    double spacing_ = 1, first_ = 0;                          ///< of level ground: tangents per ray, the first number
-    double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond it: the first number, radians
+    double spacing_ = 1, first_ = 0;                          ///< on level ground: step of the tangent, first number
+    double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond: first number, first angle, step
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

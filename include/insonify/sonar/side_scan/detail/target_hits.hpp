@@ -1,8 +1,8 @@
 // First hits of a ping's rays with the targets, with exact fractional coverage of each ray's width.
 //
-// The outline of the targets in a ping's plane is a set of straight pieces. Within each ray's width the pieces' ends
-// divide the width into parts; of each part the nearest piece counts, in proportion to the part. So a bar that is
-// thinner than the spacing of rays is heard in every ping that meets it, and with the energy that it has.
+// The cross-section of the targets with a ping's plane is a set of line segments. Their ends divide each ray's width
+// into parts; in each part the nearest segment is hit, weighted by the part's fraction of the width. A bar that is
+// thinner than the spacing of rays so returns its own energy in every ping that meets it.
 #pragma once
 
 #include <insonify/sonar/labels.hpp>
@@ -21,11 +21,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The part of a ray that a target stops.
+/// The part of a ray that hits a target.
 struct target_hit {
-    double share;                 ///< of the ray's width
-    double x, down;               ///< the middle, metres
-    double x0, down0, x1, down1;  ///< its ends
+    double fraction;              ///< of the ray's width
+    double x, down;               ///< of its middle, metres
+    double x0, down0, x1, down1;  ///< of its ends
     float facing;                 ///< sine of the grazing angle on the surface
     float reflectivity;
     std::uint16_t instance;
@@ -37,16 +37,16 @@ class target_hits {
   public:
     void begin(const ping_fan& fan) {
         fan_ = &fan;
-        pieces_.clear();
+        segments_.clear();
         partial_.clear();
         hits_.clear();
         nearest_.assign(fan.size(), {std::numeric_limits<double>::infinity(), 0});
         first_.assign(fan.size() + 1, 0);
-        screens_.assign(fan.size(), {std::numeric_limits<double>::infinity(), 0});
+        occluders_.assign(fan.size(), {std::numeric_limits<double>::infinity(), 0});
     }
 
-    /// A piece of an outline.
-    void add(outline_piece o, std::uint16_t instance, float reflectivity) {
+    /// Adds a segment of a target.
+    void add(cut_segment o, std::uint16_t instance, float reflectivity) {
         if (o.a.x * o.b.down > o.a.down * o.b.x) std::swap(o.a, o.b);  // b is farther out
         if (!(o.a.x > 0 || o.b.x > 0)) return;
         cut_at_nadir(o.a, o.b);
@@ -54,8 +54,8 @@ class target_hits {
         if (fan_->size() == 0) return;
         const double from = fan_->coordinate(o.a.x, o.a.down), to = fan_->coordinate(o.b.x, o.b.down);
         if (!(from < to)) return;
-        const auto id = static_cast<std::uint32_t>(pieces_.size());
-        pieces_.push_back({o, instance, reflectivity});
+        const auto id = static_cast<std::uint32_t>(segments_.size());
+        segments_.push_back({o, instance, reflectivity});
         const std::size_t first = static_cast<std::size_t>(from) - fan_->first();
         const std::size_t last = (std::min)(static_cast<std::size_t>(to) - fan_->first(), fan_->size() - 1);
         for (std::size_t k = first; k <= last; ++k) {
@@ -72,7 +72,7 @@ class target_hits {
         }
     }
 
-    /// Finds what is nearest, once all pieces are there.
+    /// Finds the hits, after all segments have been added.
     void resolve() {
         std::stable_sort(partial_.begin(), partial_.end(), [](const part& a, const part& b) { return a.ray < b.ray; });
         auto next = partial_.begin();
@@ -84,56 +84,56 @@ class target_hits {
             if (next != end)
                 divide(k, {next, end}, is_met);
             else if (is_met)
-                keep(nearest_[k].piece, number(k), number(k) + 1);
+                add_hit(nearest_[k].segment, number(k), number(k) + 1);
             next = end;
-            find_screen(k, hits_.size());
+            find_occluder(k, hits_.size());
         }
         first_.back() = static_cast<std::uint32_t>(hits_.size());
     }
 
-    /// Removes what lies behind the bottom, which ray k meets at a range; behind everything, if nothing is met.
-    /// @returns the share of the ray that targets stop before
+    /// Removes hits behind the bottom, which ray k meets at a range.
+    /// @returns the fraction of the ray that hits targets in front of it
     double cut_off(std::size_t k, double range) {
-        double stopped = 0;
+        double covered = 0;
         bool is_cut = false;
         for (std::size_t i = first_[k]; i < first_[k + 1]; ++i) {
             if (hits_[i].square_range() < range * range)
-                stopped += hits_[i].share;
-            else if (hits_[i].share > 0)
-                hits_[i].share = 0, is_cut = true;
+                covered += hits_[i].fraction;
+            else if (hits_[i].fraction > 0)
+                hits_[i].fraction = 0, is_cut = true;
         }
-        if (is_cut) find_screen(k, first_[k + 1]);
-        return stopped > 1 - 1e-9 ? 1 : stopped;
+        if (is_cut) find_occluder(k, first_[k + 1]);
+        return covered > 1 - 1e-9 ? 1 : covered;
     }
 
-    /// The target that stops most of ray k before a range, if they stop more than half; else is_lit.
-    std::uint16_t screen(std::size_t k, double range) const {
-        return k < screens_.size() && screens_[k].range < range ? screens_[k].instance : labels::is_lit;
+    /// The target that most of ray k hits in front of a range, if more than half of it hits targets; else is_lit.
+    std::uint16_t occluder(std::size_t k, double range) const {
+        return k < occluders_.size() && occluders_[k].range < range ? occluders_[k].instance : labels::is_lit;
     }
 
-    /// Calls `visit(ray number, hit)` in the order of the rays.
+    /// Calls `visit(ray, hit)` in the order of the rays.
     template <class Visit>
     void for_each(const Visit& visit) const {
         for (std::size_t k = 0; k + 1 < first_.size(); ++k)
             for (std::size_t i = first_[k]; i < first_[k + 1]; ++i)
-                if (hits_[i].share > 0) visit(k, hits_[i]);
+                if (hits_[i].fraction > 0) visit(k, hits_[i]);
     }
 
   private:
-    struct piece {
-        outline_piece outline;
+    struct segment {
+        cut_segment shape;
         std::uint16_t instance;
         float reflectivity;
     };
     struct part {
-        std::uint32_t ray, piece;
+        std::uint32_t ray, segment;
         double low, high;  ///< coordinates of the fan
     };
     struct candidate {
         double range;  ///< squared
-        std::uint32_t piece;
+        std::uint32_t segment;
     };
-    struct screen_of_ray {
+    struct occluder_of_ray {
         double range;
         std::uint16_t instance;
     };
@@ -141,28 +141,28 @@ class target_hits {
     /// The coordinate at which ray k begins.
     double number(std::size_t k) const { return static_cast<double>(fan_->first() + k); }
 
-    static void cut_at_nadir(outline_piece::corner& from, const outline_piece::corner& to) {
+    static void cut_at_nadir(cut_segment::end& from, const cut_segment::end& to) {
         if (from.x > 0) return;
         const double f = from.x / (from.x - to.x);
         from = {0, from.down + f * (to.down - from.down),
                 from.normal + static_cast<float>(f) * (to.normal - from.normal)};
     }
 
-    /// How far along a piece a direction meets it, in [0, 1].
-    static double along(const outline_piece& o, const ping_fan::direction& d) {
+    /// The fraction of a segment at which a direction meets it, in [0, 1].
+    static double along(const cut_segment& o, const ping_fan::direction& d) {
         const double before = o.a.x * d.cosine - o.a.down * d.sine, after = o.b.x * d.cosine - o.b.down * d.sine;
         const double f = before / (before - after);
         return f > 0 ? (f < 1 ? f : 1.0) : 0.0;
     }
-    static glm::dvec2 point(const outline_piece& o, const ping_fan::direction& d) {
+    static glm::dvec2 point(const cut_segment& o, const ping_fan::direction& d) {
         const double f = along(o, d);
         return {o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down)};
     }
 
-    /// Keeps a part of a ray as stopped by a piece.
-    void keep(std::uint32_t id, double low, double high) {
-        const piece& p = pieces_[id];
-        const outline_piece& o = p.outline;
+    /// Adds the hit of a part of a ray on a segment.
+    void add_hit(std::uint32_t id, double low, double high) {
+        const segment& p = segments_[id];
+        const cut_segment& o = p.shape;
         const ping_fan::direction middle = fan_->at(0.5 * (low + high));
         const double f = along(o, middle);
         const glm::dvec2 at(o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down));
@@ -172,9 +172,9 @@ class target_hits {
                          p.reflectivity, p.instance});
     }
 
-    /// Sine of the grazing angle. The facet says which side is heard and decides the sign of normals that contradict
-    /// it, or that are none.
-    static float facing(const outline_piece& o, float f, const ping_fan::direction& d) {
+    /// Sine of the grazing angle. The facet decides which side is insonified, and the sign of the normal; it replaces
+    /// normals that are zero or not finite.
+    static float facing(const cut_segment& o, float f, const ping_fan::direction& d) {
         const auto sine = static_cast<float>(d.sine), cosine = static_cast<float>(d.cosine);
         glm::vec3 n = o.a.normal + f * (o.b.normal - o.a.normal);
         float square = numeric::dot(n, n);
@@ -183,9 +183,9 @@ class target_hits {
         return (is_front == is_along ? 1.0f : -1.0f) * (n.z * cosine - n.x * sine) / numeric::square_root(square);
     }
 
-    /// Divides a ray between the pieces that it meets with parts of its width, and the one with all of it.
+    /// Divides a ray between segments that cover parts of its width and the nearest one that covers all of it.
     void divide(std::size_t k, std::span<const part> parts, bool is_met) {
-        // Very many pieces are sampled at fixed positions instead.
+        // Too many segments are sampled at fixed positions instead.
         ends_.clear();
         ends_.push_back(number(k)), ends_.push_back(number(k) + 1);
         if (parts.size() <= most_parts) {
@@ -201,38 +201,38 @@ class target_hits {
             const ping_fan::direction d = fan_->at(middle);
             candidate best{std::numeric_limits<double>::infinity(), 0};
             const auto offer = [&](std::uint32_t id) {
-                const glm::dvec2 p = point(pieces_[id].outline, d);
+                const glm::dvec2 p = point(segments_[id].shape, d);
                 const double range = p.x * p.x + p.y * p.y;
                 if (range < best.range) best = {range, id};
             };
             for (const part& p : parts)
-                if (p.low <= middle && middle <= p.high) offer(p.piece);
-            if (is_met) offer(nearest_[k].piece);
-            if (best.range < std::numeric_limits<double>::infinity()) keep(best.piece, ends_[i], ends_[i + 1]);
+                if (p.low <= middle && middle <= p.high) offer(p.segment);
+            if (is_met) offer(nearest_[k].segment);
+            if (best.range < std::numeric_limits<double>::infinity()) add_hit(best.segment, ends_[i], ends_[i + 1]);
         }
     }
 
-    void find_screen(std::size_t k, std::size_t end) {
-        screens_[k] = {std::numeric_limits<double>::infinity(), 0};
-        double stopped = 0, largest = 0;
+    void find_occluder(std::size_t k, std::size_t end) {
+        occluders_[k] = {std::numeric_limits<double>::infinity(), 0};
+        double covered = 0, largest = 0;
         for (std::size_t i = first_[k]; i < end; ++i) {
-            stopped += hits_[i].share;
-            if (hits_[i].share <= largest) continue;
-            largest = hits_[i].share;
-            screens_[k] = {numeric::square_root(hits_[i].square_range()), hits_[i].instance};
+            covered += hits_[i].fraction;
+            if (hits_[i].fraction <= largest) continue;
+            largest = hits_[i].fraction;
+            occluders_[k] = {numeric::square_root(hits_[i].square_range()), hits_[i].instance};
         }
-        if (!(stopped > 0.5)) screens_[k].range = std::numeric_limits<double>::infinity();
+        if (!(covered > 0.5)) occluders_[k].range = std::numeric_limits<double>::infinity();
     }
 
     static constexpr std::size_t most_parts = 64;
 
     const ping_fan* fan_ = nullptr;
-    std::vector<piece> pieces_;
+    std::vector<segment> segments_;
     std::vector<part> partial_;
-    std::vector<candidate> nearest_;  ///< by ray: the nearest piece over all of its width
+    std::vector<candidate> nearest_;  ///< by ray: the nearest segment that covers all of its width
     std::vector<target_hit> hits_;
-    std::vector<std::uint32_t> first_;  ///< by ray: its hits begin here
-    std::vector<screen_of_ray> screens_;
+    std::vector<std::uint32_t> first_;  ///< by ray: index of its first hit
+    std::vector<occluder_of_ray> occluders_;
     std::vector<double> ends_;
 };
 

@@ -1,4 +1,4 @@
-// Slices of targets by the plane of a ping.
+// Cross-sections of targets with the plane of a ping.
 #pragma once
 
 #include <insonify/geometry/detail/plane_tree.hpp>
@@ -14,14 +14,14 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A piece of outline in the plane of a ping.
-struct outline_piece {
-    struct corner {
+/// Where the plane of a ping cuts a triangle. Vectors are (x, u, z) of the ping_frame, of any length.
+struct cut_segment {
+    struct end {
         double x, down;    ///< metres from the sonar
-        glm::vec3 normal;  ///< (x, u, z), of any length
+        glm::vec3 normal;  ///< interpolated
     };
-    corner a, b;
-    glm::vec3 facet;  ///< (x, u, z), of any length
+    end a, b;
+    glm::vec3 facet;  ///< normal of the triangle
 };
 
 /// A target in the world, ready to be cut.
@@ -37,7 +37,7 @@ class sliced_target {
         radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
     }
 
-    /// Heights above the datum that it doesn't leave.
+    /// Bounds of its heights above the datum.
     double top() const { return centre_.z + radius_; }
     double foot() const { return radius_ > 0 ? centre_.z - radius_ : 1e30; }
 
@@ -48,11 +48,11 @@ class sliced_target {
                numeric::dot(centre, centre) < (range + radius_) * (range + radius_);
     }
 
-    /// How far out it begins, for a ping that meets it.
+    /// Lower bound of its distance across the track from a ping that meets it.
     double nearest(const ping_frame& p) const { return p(centre_).x - radius_; }
 
-    /// Calls `visit(outline_piece)` for each triangle that the ping's plane cuts. Triangles that share an edge share
-    /// the corner on it to the last bit, so outlines have no gaps.
+    /// Calls `visit(cut_segment)` for each triangle that the ping's plane cuts. Triangles that share an edge share the
+    /// end on it to the last bit, so cross-sections have no gaps.
     template <class Visit>
     void cut(const ping_frame& p, const Visit& visit) const {
         const glm::dvec3 offset = p(to_world_.offset);
@@ -79,19 +79,19 @@ class sliced_target {
         }
         if (behind == 0 || behind == 3 || !numeric::is_finite(v[0].x + v[1].x + v[2].x + v[0].z + v[1].z + v[2].z))
             return;
-        // The corner that is alone on its side, and the edges that leave it.
+        // The vertex that is alone on its side of the plane; two edges leave it.
         int alone = 0;
         while ((v[alone].y < 0) != (behind == 1)) ++alone;
-        const auto corner = [&](int other) {
+        const auto end_on_edge = [&](int other) {
             const int from = behind == 1 ? alone : other,
-                      to = behind == 1 ? other : alone;  // from behind to before
+                      to = behind == 1 ? other : alone;  // from behind the plane to its front
             const double f = v[from].y / (v[from].y - v[to].y);
             const glm::dvec3 at = v[from] + f * (v[to] - v[from]);
             const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
-            return outline_piece::corner{at.x, -at.z, numeric::product(normals, n + static_cast<float>(f) * (m - n))};
+            return cut_segment::end{at.x, -at.z, numeric::product(normals, n + static_cast<float>(f) * (m - n))};
         };
-        visit(outline_piece{corner((alone + 1) % 3), corner((alone + 2) % 3),
-                            glm::vec3(sign * numeric::cross(v[1] - v[0], v[2] - v[0]))});
+        visit(cut_segment{end_on_edge((alone + 1) % 3), end_on_edge((alone + 2) % 3),
+                          glm::vec3(sign * numeric::cross(v[1] - v[0], v[2] - v[0]))});
     }
 
     shared_mesh shape_;
@@ -101,7 +101,7 @@ class sliced_target {
     double radius_ = 0;
 };
 
-/// The targets of a scene; those of one shape share its tree.
+/// The targets of a scene; those with the same mesh share its tree.
 inline std::vector<sliced_target> sliced_targets(const scene& s) {
     std::vector<sliced_target> all;
     std::map<const mesh*, std::shared_ptr<const plane_tree>> trees;

@@ -1,4 +1,4 @@
-// Which of several names has most of a bin: lengths or powers are summed by bin and name.
+// Sums of length or power by range bin and label, to find the label that has most of a bin.
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -13,9 +13,10 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-class name_tally {
+/// A linked list of labels per bin, all in one vector.
+class label_tally {
   public:
-    explicit name_tally(std::size_t bins) : heads_(bins, none) {}
+    explicit label_tally(std::size_t bins) : heads_(bins, none) {}
 
     bool empty() const { return entries_.empty(); }
     void clear() {
@@ -23,25 +24,25 @@ class name_tally {
         heads_.assign(heads_.size(), none);
         entries_.clear();
     }
-    void add(std::size_t bin, std::uint16_t name, float amount) {
+    void add(std::size_t bin, std::uint16_t label, float amount) {
         std::uint32_t* at = &heads_[bin];
-        while (*at != none && entries_[*at].name != name) at = &entries_[*at].next;
+        while (*at != none && entries_[*at].label != label) at = &entries_[*at].next;
         if (*at != none) {
             entries_[*at].amount += amount;
             return;
         }
         *at = static_cast<std::uint32_t>(entries_.size());
-        entries_.push_back({amount, none, name});
+        entries_.push_back({amount, none, label});
     }
-    struct share {
-        std::uint16_t name;
+    struct sum {
+        std::uint16_t label;
         float amount;
     };
-    /// The name that has most; of equal ones the first that was added. `otherwise` where nothing was.
-    share largest(std::size_t bin, std::uint16_t otherwise) const {
-        share best{otherwise, 0};
+    /// The label with the largest sum, of equal ones the first that was added; `fallback` for an empty bin.
+    sum largest(std::size_t bin, std::uint16_t fallback) const {
+        sum best{fallback, 0};
         for (std::uint32_t i = heads_[bin]; i != none; i = entries_[i].next)
-            if (entries_[i].amount > best.amount) best = {entries_[i].name, entries_[i].amount};
+            if (entries_[i].amount > best.amount) best = {entries_[i].label, entries_[i].amount};
         return best;
     }
 
@@ -50,7 +51,7 @@ class name_tally {
     struct entry {
         float amount;
         std::uint32_t next;
-        std::uint16_t name;
+        std::uint16_t label;
     };
     std::vector<std::uint32_t> heads_;
     std::vector<entry> entries_;

@@ -1,0 +1,81 @@
+// Options of a draw, and the counts that it returns.
+#pragma once
+
+#include <insonify/core/simd/dispatch.hpp>
+
+#include <cstdint>
+#include <limits>
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// The side of a triangle that is not drawn. A triangle's front is where its vertices run counter-clockwise.
+enum class cull_mode { none, back, front };
+
+/// The depth test: which of two surfaces a pixel shows.
+enum class keep_depth {
+    smaller,  ///< z = 0 at the camera, growing away from it
+    larger,   ///< reversed z, or heights seen from above
+};
+
+/// Contents of the target before a draw.
+enum class depth_load {
+    keep,   ///< depths of earlier draws, which occlude this one
+    clear,  ///< none: the target is overwritten without being read; see framebuffer for its color
+};
+
+inline namespace INSONIFY_FLAGS {
+
+/// Depth of a pixel without a visible triangle.
+constexpr float empty_depth(keep_depth keep) {
+    return keep == keep_depth::smaller ? std::numeric_limits<float>::infinity()
+                                       : -std::numeric_limits<float>::infinity();
+}
+
+}  // namespace INSONIFY_FLAGS
+
+/// How depth between the vertices is computed.
+enum class depth_precision {
+    exact,  ///< correctly rounded: the float nearest to the plane through the three snapped vertices
+    quick,  ///< in float: within a few units in the last place, clamped to the vertices' depths; a third less time
+};
+
+/// `tile` and `level` never change the result.
+template <depth_precision Depth = depth_precision::exact>
+struct draw_options {
+    cull_mode cull = cull_mode::none;
+    keep_depth keep = keep_depth::smaller;
+    depth_load load = depth_load::keep;
+    int subpixel_bits = 8;   ///< 4 to 16: vertices are rounded to 2^-bits pixels
+    int tile = 64;           ///< pixels, a power of two from 8 to 256
+    isa level = best_isa();  ///< the widest instruction set to use
+};
+
+/// What happened to the triangles of a draw. Each of `triangles` is counted once among drawn, culled, missed,
+/// degenerate and not_finite; one that lies outside of the picture and needs no clipping is always counted as missed.
+struct draw_stats {
+    std::uint64_t triangles = 0;   ///< submitted
+    std::uint64_t drawn = 0;       ///< reached the pixel loop
+    std::uint64_t culled = 0;      ///< faced the wrong way
+    std::uint64_t missed = 0;      ///< covered no pixel centre of the picture
+    std::uint64_t degenerate = 0;  ///< had no area on the sub-pixel grid
+    std::uint64_t not_finite = 0;  ///< had a vertex that is NaN or infinite
+    std::uint64_t clipped = 0;     ///< number of the above that a clipping plane cut
+    std::uint64_t pixels = 0;      ///< shaded; 0 for depth alone
+
+    INSONIFY_TAGGED draw_stats& operator+=(const draw_stats& other) {
+        triangles += other.triangles;
+        drawn += other.drawn;
+        culled += other.culled;
+        missed += other.missed;
+        degenerate += other.degenerate;
+        not_finite += other.not_finite;
+        clipped += other.clipped;
+        pixels += other.pixels;
+        return *this;
+    }
+    friend bool operator==(const draw_stats&, const draw_stats&) = default;
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify

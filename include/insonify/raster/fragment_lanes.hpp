@@ -1,0 +1,72 @@
+// The input of fragment shaders over SIMD lanes: N adjacent pixels of a row.
+#pragma once
+
+#include <insonify/core/simd/lanes.hpp>
+#include <insonify/raster/shader.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+template <class Screen, class Varyings, class Shader>
+struct lane_shading_kernel;
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
+
+/// Values of N pixels. Operators and `mask ? a : b` work lane by lane, for N = 1 on plain numbers.
+template <class T, int N>
+using pixel_lanes = detail::lanes<T, N>;
+
+/// N adjacent pixels of a row, of which some may not be visible. Shaders take it by reference and pass lanes on by
+/// reference only: a wide vector by value means something else to code compiled for another instruction set.
+template <int N, class Varyings>
+class fragment_lanes {
+  public:
+    using ints = pixel_lanes<std::int32_t, N>;  ///< masks: 0 or -1
+    using floats = pixel_lanes<float, N>;
+
+    int x, y;      ///< pixel of the first lane, row 0 at the top
+    ints visible;  ///< mask of the pixels that this draw shades
+    bool all_visible;
+    std::uint32_t triangles[static_cast<unsigned>(N)];  ///< indices into mesh.triangles
+    ints front;                                         ///< mask: seen from the counter-clockwise side
+    floats weights[3];                                  ///< barycentric, perspective-correct
+
+    /// Sets `into` to float k of the varyings, interpolated perspective-correctly. Reversing the triangle's winding
+    /// changes no bit.
+    INSONIFY_INLINE void interpolate(floats& into, int k) const {
+        into = weights[0] * values_[0][k] + (weights[1] * values_[1][k] + weights[2] * values_[2][k]);
+    }
+    /// Sets `into` to z / w at the pixels' centres.
+    INSONIFY_INLINE void depth(floats& into) const {
+        detail::load(into, depth_);
+        into = into * depth_sign_ + 0.0f;
+    }
+    /// Stores one value per visible pixel.
+    template <class Image, class Values>
+    INSONIFY_INLINE void store(Image&& into, const Values& values) const {
+        if (all_visible)
+            detail::store(&into(x, y), values);
+        else
+            for (int k = 0; k < N; ++k)
+                if (detail::lane(visible, k) != 0) into(x + k, y) = detail::lane(values, k);
+    }
+
+  private:
+    template <class Screen, class V, class Shader>
+    friend struct detail::lane_shading_kernel;
+
+    static constexpr int varyings_size = (static_cast<int>(sizeof(Varyings) / sizeof(float)) + 3) / 4 * 4;
+    floats values_[3][static_cast<unsigned>(varyings_size)];  ///< varyings of the vertices
+    const float* depth_;                                      ///< in the tile
+    float depth_sign_;
+};
+
+}  // namespace INSONIFY_FLAGS
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

@@ -1,0 +1,159 @@
+// Fragment shaders over SIMD lanes, written as a user would: they see what a fragment shader sees, in float.
+#include <insonify/core/random.hpp>
+#include <insonify/core/thread_pool.hpp>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "../../catch.hpp"
+#include "pixel_space.hpp"
+
+namespace in = insonify;
+
+namespace {
+
+struct varyings {
+    glm::vec3 position;
+    float height;
+};
+
+/// A pinhole at (0, 0, 3) that looks down, with reversed depth.
+const auto pinhole = [](const in::vertex& v) {
+    const glm::vec3& p = v.position;
+    return in::placed_vertex<varyings>{{p.x, p.y, 0.01f, 3 - p.z}, {p, p.z}};
+};
+
+in::mesh rubble() {
+    in::mesh m;
+    in::random_sequence random(12);
+    for (std::uint32_t i = 0; i < 400; ++i) {
+        const glm::dvec3 at(random.uniform(-4, 4), random.uniform(-4, 4),
+                            random.uniform(-2, 4));  // some behind the eye
+        for (int k = 0; k < 3; ++k)
+            m.positions.emplace_back(at +
+                                     glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+        m.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    }
+    return m;
+}
+
+struct pictures {
+    in::image<float> value{150, 110}, depth{150, 110}, seen_depth{150, 110};
+    in::image<std::uint32_t> triangle{150, 110};
+    in::image<std::int32_t> front{150, 110};
+};
+
+/// Own shader over lanes: stores a function of the varyings and everything else that it is given.
+struct lane_shader {
+    pictures& into;
+
+    void clear(const in::rect& tile) const {
+        for (int y = tile.y0; y < tile.y1; ++y)
+            for (int x = tile.x0; x < tile.x1; ++x) into.value(x, y) += -100;
+    }
+    template <int N>
+    void operator()(const in::fragment_lanes<N, varyings>& f) const {
+        typename in::fragment_lanes<N, varyings>::floats x, height, depth;
+        f.interpolate(x, 0);
+        f.interpolate(height, 3);
+        f.depth(depth);
+        x = x * x + height;
+        f.store(into.value, x);
+        f.store(into.seen_depth, depth);
+        f.store(into.front, f.front);
+        std::uint32_t triangles[static_cast<unsigned>(N)];
+        for (int k = 0; k < N; ++k) triangles[k] = f.triangles[k];
+        in::pixel_lanes<std::uint32_t, N> ids;
+        std::memcpy(&ids, triangles, sizeof ids);
+        f.store(into.triangle, ids);
+    }
+};
+
+template <in::depth_precision Depth>
+pictures drawn(const in::mesh& m, in::isa level, int tile, auto&& ex) {
+    pictures out;
+    const in::draw_options<Depth> options{
+        .keep = in::keep_depth::larger, .load = in::depth_load::clear, .tile = tile, .level = level};
+    const auto stats = in::draw(m, pinhole, lane_shader{out}, in::framebuffer<void>{out.depth}, options, ex);
+    CHECK(stats.pixels > 8000);
+    CHECK(stats.clipped > 10);
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("A shader over lanes sees the pixels, triangles, facing and depth of a fragment shader, and close varyings") {
+    const in::mesh m = rubble();
+    pictures one;
+    in::image<int> covered(150, 110);
+    in::draw(m, pinhole,
+             [&](const in::fragment<varyings>& f) {
+                 const glm::vec3& p = f.varyings.position;
+                 one.value(f.x, f.y) = p.x * p.x + f.varyings.height;
+                 one.triangle(f.x, f.y) = f.triangle;
+                 one.front(f.x, f.y) = f.front ? -1 : 0;
+                 covered(f.x, f.y) = 1;
+             },
+             in::framebuffer<void>{one.depth}, {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
+    const pictures lanes = drawn<in::depth_precision::exact>(m, in::best_isa(), 32, in::serial_executor{});
+    CHECK(lanes.depth == one.depth);
+    CHECK(lanes.triangle == one.triangle);
+    CHECK(lanes.front == one.front);
+    double worst = 0;
+    int shaded = 0;
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+        if (covered.pixels()[i] == 0) {
+            CHECK(lanes.value.pixels()[i] == -100);  // cleared once, not shaded
+            continue;
+        }
+        ++shaded;
+        CHECK(lanes.seen_depth.pixels()[i] == lanes.depth.pixels()[i]);
+        worst = (std::max)(worst, std::abs(static_cast<double>(lanes.value.pixels()[i] - one.value.pixels()[i])));
+    }
+    CHECK(shaded > 8000);
+    CHECK(worst < 1e-3);
+}
+
+TEST_CASE("A shader over lanes gives the same bytes for any instruction set, tile size and thread count") {
+    const in::mesh m = rubble();
+    const auto same = [](const pictures& a, const pictures& b) {
+        return a.value == b.value && a.depth == b.depth && a.triangle == b.triangle && a.front == b.front;
+    };
+    in::thread_pool pool(3);
+    const pictures exact = drawn<in::depth_precision::exact>(m, in::isa::scalar, 64, in::serial_executor{});
+    CHECK(same(exact, drawn<in::depth_precision::exact>(m, in::best_isa(), 16, pool)));
+    const pictures quick = drawn<in::depth_precision::quick>(m, in::isa::scalar, 64, in::serial_executor{});
+    CHECK(same(quick, drawn<in::depth_precision::quick>(m, in::best_isa(), 16, pool)));
+    CHECK(!(quick.depth == exact.depth));
+}
+
+namespace {
+/// Own vertex shader that can shade several vertices at a time.
+struct both_ways {
+    int& lanes;
+    auto operator()(const in::vertex& v) const { return pinhole(v); }
+    template <class Floats>
+    void operator()(Floats (&clip)[4], Floats* out, const Floats (&position)[3], const Floats (&)[3]) const {
+        ++lanes;
+        clip[0] = position[0], clip[1] = position[1], clip[2] = Floats{} + 0.01f, clip[3] = 3 - position[2];
+        out[0] = position[0], out[1] = position[1], out[2] = position[2], out[3] = position[2];
+    }
+};
+}  // namespace
+
+TEST_CASE("A vertex shader over lanes is used where there are lanes, for depth alone too") {
+    const in::mesh m = rubble();
+    int lanes = 0;
+    in::image<float> depth(150, 110), expected(150, 110);
+    const in::draw_options<> options{.keep = in::keep_depth::larger, .load = in::depth_load::clear};
+    in::draw(m, both_ways{lanes}, in::depth_target{depth}, options);
+    in::draw(m, pinhole, in::depth_target{expected}, options);
+    CHECK(depth == expected);
+    if (in::best_isa() >= in::isa::avx2) CHECK(lanes == 300);
+}
+
+TEST_CASE("A picture of more than 2^16 tiles a side is refused") {
+    in::image<float> depth((8 << 16) + 1, 1);
+    CHECK_THROWS_AS(in::draw(rubble(), pinhole, in::depth_target{depth}, {.tile = 8}), in::invalid_input);
+    CHECK_NOTHROW(in::draw(rubble(), pinhole, in::depth_target{depth}, {.tile = 16}));
+}
