@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
                     map.cast(bottom, place, pool);
                 }));
     const auto frame_ms = [&]<class Shadow, class Labels>(in::render_options<Shadow, Labels> options) {
-        options.cells = cells;
+        options.cell = side / cells;
         return median_ms([&] { in::render(scene, rig, options, context); });
     };
     using in::render_options, in::no_labels;

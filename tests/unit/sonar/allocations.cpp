@@ -26,7 +26,7 @@ TEST_CASE("render() survives any failed allocation, with each shadow policy") {
     const in::scene s = mixed_scene();
     const auto drawn = [&](const auto& policy) {
         return failing_new::in_turn([&] {
-            const auto frame = in::render(s, rig, in::render_options<>{.cells = 6}.with(policy));
+            const auto frame = in::render(s, rig, in::render_options<>{.cell = 2.3}.with(policy));
             return std::pair(frame.image, frame.labels.shadow);
         });
     };
@@ -51,7 +51,7 @@ TEST_CASE("record() survives any failed allocation, with looks and speckle") {
 TEST_CASE("Drawing on several threads survives any failed allocation, and the pool goes on") {
     const in::scene s = mixed_scene();
     in::thread_pool pool(3);
-    CHECK(failing_new::in_turn([&] { return in::render(s, rig, {.cells = 6}, pool).image; }) > 50);
+    CHECK(failing_new::in_turn([&] { return in::render(s, rig, {.cell = 2.3}, pool).image; }) > 50);
     CHECK(failing_new::in_turn([&] { return in::render(s, sonar, in::record_options<>{}, pool).image; }) > 20);
 }
 
