@@ -2009,6 +2009,35 @@ class random_sequence {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/core/rect.hpp --------------------------------------------------------------------
+// A rectangle of pixels.
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// The pixels (x, y) with x0 <= x < x1 and y0 <= y < y1; y grows downwards. Empty if either range is.
+struct rect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+    INSONIFY_MEMBER constexpr bool empty() const { return x1 <= x0 || y1 <= y0; }
+    INSONIFY_MEMBER constexpr int width() const { return x1 - x0; }
+    INSONIFY_MEMBER constexpr int height() const { return y1 - y0; }
+    INSONIFY_MEMBER constexpr bool contains(int x, int y) const { return x0 <= x && x < x1 && y0 <= y && y < y1; }
+
+    friend constexpr bool operator==(const rect&, const rect&) = default;
+};
+
+inline namespace INSONIFY_FLAGS {
+
+constexpr rect intersect(const rect& a, const rect& b) {
+    return {(std::max)(a.x0, b.x0), (std::max)(a.y0, b.y0), (std::min)(a.x1, b.x1), (std::min)(a.y1, b.y1)};
+}
+
+}  // namespace INSONIFY_FLAGS
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
 // ------------ insonify/filter/concept.hpp ---------------------------------------------------------------
 // What may stand to the right of an image in `image | filter`.
 //
@@ -7312,23 +7341,64 @@ void write_netpbm(const std::string& path, const image<Pixel>& source) {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/draw_stats.hpp ------------------------------------------------------------
-// What became of the triangles of a draw, as counts.
+// ------------ insonify/raster/draw_options.hpp ----------------------------------------------------------
+// Options of a draw, and the counts that it returns.
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What became of a mesh's triangles. Nothing that a draw meets by the million is an error.
-/// Each of `triangles` is counted once among drawn, culled, missed, degenerate and not_finite. What lies outside of
-/// the picture and needn't be clipped is missed, whatever else it is.
+/// The side of a triangle that is not drawn. A triangle's front is where its vertices run counter-clockwise.
+enum class cull_mode { none, back, front };
+
+/// The depth test: which of two surfaces a pixel shows.
+enum class keep_depth {
+    smaller,  ///< z = 0 at the camera, growing away from it
+    larger,   ///< reversed z, or heights seen from above
+};
+
+/// Contents of the target before a draw.
+enum class depth_load {
+    keep,   ///< depths of earlier draws, which occlude this one
+    clear,  ///< none: the target is overwritten without being read; see framebuffer for its color
+};
+
+inline namespace INSONIFY_FLAGS {
+
+/// Depth of a pixel without a visible triangle.
+constexpr float empty_depth(keep_depth keep) {
+    return keep == keep_depth::smaller ? std::numeric_limits<float>::infinity()
+                                       : -std::numeric_limits<float>::infinity();
+}
+
+}  // namespace INSONIFY_FLAGS
+
+/// How depth between the vertices is computed.
+enum class depth_precision {
+    exact,  ///< correctly rounded: the float nearest to the plane through the three snapped vertices
+    quick,  ///< in float: within a few units in the last place, clamped to the vertices' depths; a third less time
+};
+
+/// `tile` and `level` never change the result.
+template <depth_precision Depth = depth_precision::exact>
+struct draw_options {
+    cull_mode cull = cull_mode::none;
+    keep_depth keep = keep_depth::smaller;
+    depth_load load = depth_load::keep;
+    int subpixel_bits = 8;   ///< 4 to 16: vertices are rounded to 2^-bits pixels
+    int tile = 64;           ///< pixels, a power of two from 8 to 256
+    isa level = best_isa();  ///< the widest instruction set to use
+};
+
+/// What happened to the triangles of a draw. Each of `triangles` is counted once among drawn, culled, missed,
+/// degenerate and not_finite; one that lies outside of the picture and needs no clipping is always counted as missed.
 struct draw_stats {
     std::uint64_t triangles = 0;   ///< submitted
     std::uint64_t drawn = 0;       ///< reached the pixel loop
     std::uint64_t culled = 0;      ///< faced the wrong way
     std::uint64_t missed = 0;      ///< covered no pixel centre of the picture
-    std::uint64_t degenerate = 0;  ///< no area left on the sub-pixel grid
-    std::uint64_t not_finite = 0;  ///< a vertex was NaN or infinite
-    std::uint64_t clipped = 0;     ///< of all these, how many were cut by a clipping plane
+    std::uint64_t degenerate = 0;  ///< had no area on the sub-pixel grid
+    std::uint64_t not_finite = 0;  ///< had a vertex that is NaN or infinite
+    std::uint64_t clipped = 0;     ///< number of the above that a clipping plane cut
     std::uint64_t pixels = 0;      ///< shaded; 0 for depth alone
 
     INSONIFY_TAGGED draw_stats& operator+=(const draw_stats& other) {
@@ -10220,27 +10290,27 @@ concept triangle_occlusion = collective_occlusion<S> &&
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/backscatter.hpp ------------------------------------------------------------
-// How much of the sound comes back from a surface that is met at an angle.
+// Backscatter laws: returned intensity as a function of the grazing angle.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What a surface is made of, as far as a picture shows it.
+/// The material of a surface.
 struct material {
-    float reflectivity = 0.5f;  ///< relative, 0 to 1 and above: tunes highlights as the paper tunes its light
+    float reflectivity = 0.5f;  ///< relative, 0 to 1 and above
 };
 
-/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. One that
-/// has `in_lanes` too computes several pixels at a time, by reference. A `validate(law)` beside it, found by its type,
-/// is called before anything is drawn.
+/// `law(s)` for the sine s of the grazing angle on the surface (the cosine of incidence), s in [0, 1]; linear. A law
+/// may also have `in_lanes(into, s)`, which computes several pixels at a time. A `validate(law)` that is found by its
+/// type is called before anything is drawn.
 template <class L>
 concept backscatter_law = requires(const L& law, float s) {
     { law(s) } -> std::convertible_to<float>;
 };
 
-/// Optical Lambert, s: what the paper's game engine draws.
+/// Optical Lambert, s, as in the game engine of the paper.
 struct lambert {
     INSONIFY_MEMBER float operator()(float s) const { return s; }
     template <class Lanes>
@@ -10443,7 +10513,7 @@ image<T> filled(int width, int height, T value, E& ex) {
 }  // namespace insonify
 
 // ------------ insonify/sonar/sediment.hpp ---------------------------------------------------------------
-// Brightness by label: the registry of seabed/registry.hpp as materials.
+// Materials by label, from the registry (seabed/registry.hpp).
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10454,19 +10524,19 @@ using seabed::sediment;
 
 inline namespace INSONIFY_FLAGS {
 
-/// The backscattering strength of a sediment at normal incidence by Lambert's law, as a factor; for those who compute
-/// levels. Use with `lambert_backscatter`.
+/// The backscattering strength of a sediment at normal incidence by Lambert's law, as a factor. Use with
+/// `lambert_backscatter` to compute levels.
 constexpr material surface_of(sediment s) {
     return {seabed::facts_of(s).strength_at_nadir()};
 }
 
-/// A material per label.
+/// Materials by label.
 using bottom_materials = std::array<material, seabed::label_count>;
 
-/// The reflectivity of labels for which the seabed's own properties count.
+/// Marks labels that take the reflectivity of the seabed's model.
 inline constexpr float by_seabed_model = -1;
 
-/// The registry's materials; users' own labels are as bright as their seabed says.
+/// The registry's materials; labels outside of the registry take those of the seabed's model.
 constexpr bottom_materials default_bottom() {
     bottom_materials bottom{};
     bottom.fill({by_seabed_model});
@@ -10483,14 +10553,14 @@ constexpr bottom_materials default_bottom() {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/scene.hpp ------------------------------------------------------------------
-// The scene: a seabed and targets on it.
+// The scene: a seabed and targets.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// An object with a class of its own. Both sides of its triangles show and block light; it may be open or closed.
+/// An object with a class. Its mesh may be open or closed; both sides of its triangles are visible and cast shadows.
 struct target {
     shared_mesh shape;
     pose placement;
@@ -10498,18 +10568,18 @@ struct target {
     material surface{.reflectivity = 0.9f};
 };
 
-/// The bottom and what lies on it. Heights are metres above the datum z = 0.
+/// Heights are metres above the datum z = 0.
 struct scene {
     insonify::seabed::any seabed = insonify::seabed::flat{};
-    /// Materials by label, seabed::index_of(type). Users' own labels have the reflectivity that their seabed states,
-    /// unless one is set here.
+    /// Materials by label, seabed::index_of(type). Labels of your own have the reflectivity that your seabed states,
+    /// unless it is set here.
     bottom_materials bottom = default_bottom();
     std::vector<target> targets;
 
-    /// Adds a mesh, a shared mesh, or anything that has a `to_mesh`: cube, cylinder, cone, sphere, your own.
-    /// Targets are numbered by instance, 1 for the first. A mesh without normals gets smooth ones, also across sharp
-    /// edges whose triangles share vertices; `with_creases` keeps those sharp.
-    /// Several targets of one shape share it: make a `shared_mesh` once and add it as often as needed.
+    /// Adds a mesh, a shared mesh, or a shape with a `to_mesh`: cube, cylinder, cone, sphere, your own. Instances are
+    /// numbered from 1. A mesh without normals gets smooth ones, also across sharp edges whose triangles share
+    /// vertices; `with_creases` keeps those sharp. To draw one mesh many times, make a `shared_mesh` once and add it
+    /// repeatedly.
     /// @throws invalid_input for a mesh whose indices or normals don't match its positions
     template <class Shape>
     INSONIFY_MEMBER target& add(Shape&& shape, const pose& placement, std::string class_name,
@@ -10529,12 +10599,12 @@ struct scene {
 
 inline namespace INSONIFY_FLAGS {
 
-/// @throws invalid_input for a material whose reflectivity is negative or not finite. Poses, meshes and seabeds are
-///         checked by what draws them
+/// @throws invalid_input for a material whose reflectivity is negative or not finite. Renderers check poses, meshes and
+///         seabeds
 inline void validate(const scene& s) {
     const auto check = [](const material& m, const char* list, std::size_t i, const char* member) {
         if (m.reflectivity >= 0 && numeric::is_finite(m.reflectivity)) return;
-        std::string name = list;  // appended to: at -O3, g++ 12 warns of "[" + to_text(i)
+        std::string name = list;  // appended, because g++ 12 warns of "[" + to_text(i) at -O3
         name += '[';
         name += detail::to_text(i);
         name += member;
@@ -10546,7 +10616,7 @@ inline void validate(const scene& s) {
         check(s.targets[i].surface, "scene.targets", i, "].surface.reflectivity");
 }
 
-/// The material of each label: the scene's, or the seabed's own where the scene leaves it to that.
+/// The material of each label: the scene's, or that of the seabed's model where the scene sets none.
 /// @throws invalid_input for a reflectivity of the seabed that is negative or not finite
 inline bottom_materials resolved_bottom(const scene& s) {
     bottom_materials all = s.bottom;
@@ -10562,8 +10632,7 @@ inline bottom_materials resolved_bottom(const scene& s) {
     return all;
 }
 
-/// The same pose lowered or raised until the shape just touches the seabed: no vertex is below it, one is on it.
-/// `burial` then sinks it from there.
+/// The same pose, lowered or raised so that one vertex touches the seabed and none is below it. `burial` then sinks it.
 /// @param shape  of at least one position
 /// @throws invalid_input for a shape without positions, or a pose that can't be right
 inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose placement) {
@@ -10598,35 +10667,29 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// A rectangle of pixels: left, top, width and height, as COCO writes boxes.
-struct label_box {
-    int x = 0, y = 0, width = 0, height = 0;
-    friend bool operator==(const label_box&, const label_box&) = default;
-};
-
-/// One target, as a picture shows it. Boxes are empty and areas 0 where nothing of it is in the picture.
+/// One target, as a picture shows it. Bounding boxes are empty and areas 0 if it is not visible.
 struct target_label {
     std::string class_name;
     std::uint16_t instance = 0;  ///< as in labels::instance
     pose placement;
-    label_box box;          ///< around its visible pixels
-    label_box shadow_box;   ///< around the pixels of the bottom that it keeps dark
-    std::int64_t area = 0;  ///< visible pixels
-    std::int64_t shadow_area = 0;
+    rect box;                      ///< bounding box of its visible pixels
+    rect shadow_box;               ///< bounding box of its shadow on the seabed
+    std::int64_t area = 0;         ///< visible pixels
+    std::int64_t shadow_area = 0;  ///< pixels of its shadow on the seabed
 };
 
-/// One value per pixel of the picture, each image as large as the picture.
+/// One value per pixel of the picture in each image, and a list of the targets.
 struct labels {
-    static constexpr std::uint16_t no_instance = 0;     ///< bottom, or nothing at all
+    static constexpr std::uint16_t no_instance = 0;     ///< seabed, or neither seabed nor target
     static constexpr std::uint16_t is_lit = 0;          ///< at least half of the light arrives
-    static constexpr std::uint16_t by_seabed = 0xFFFF;  ///< dark by the bottom itself
-    static constexpr std::uint8_t no_seabed = 0xFF;     ///< a target, or nothing at all
+    static constexpr std::uint16_t by_seabed = 0xFFFF;  ///< in the shadow of the seabed
+    static constexpr std::uint8_t no_seabed = 0xFF;     ///< a target, or neither
 
     image<std::uint16_t> instance;  ///< 1 for the scene's first target, 2 for the second, ...
     image<std::uint16_t> shadow;    ///< is_lit, by_seabed, or the instance that casts the shadow
     image<std::uint8_t> seabed;     ///< a seabed::type, or no_seabed
     std::vector<target_label> targets;
-    std::vector<insonify::seabed::type_properties> legend;  ///< what the values of `seabed` mean
+    std::vector<insonify::seabed::type_properties> legend;  ///< of the values of `seabed`
 
     labels() = default;
     template <executor_argument Executor = serial_executor>
@@ -10634,9 +10697,18 @@ struct labels {
         : instance(detail::filled(width, height, no_instance, ex)),
           shadow(detail::filled(width, height, is_lit, ex)),
           seabed(detail::filled(width, height, no_seabed, ex)) {}
+    /// Lists the scene's targets and legend; no pixel is labelled yet.
+    template <executor_argument Executor = serial_executor>
+    INSONIFY_TAGGED labels(const scene& s, int width, int height, Executor&& ex = serial_executor{})
+        : labels(width, height, ex) {
+        legend = s.seabed.legend();
+        for (std::size_t i = 0; i < s.targets.size(); ++i)
+            targets.push_back(
+                {s.targets[i].class_name, static_cast<std::uint16_t>(i + 1), s.targets[i].placement, {}, {}});
+    }
 };
 
-/// Asks for no labels: none are stored or computed.
+/// Requests no labels: none are stored or computed.
 struct no_labels {};
 
 inline namespace INSONIFY_FLAGS {
@@ -10646,7 +10718,7 @@ inline image<std::uint8_t> target_mask(const labels& l, std::uint16_t instance) 
     return map_pixels(l.instance, [=](std::uint16_t i) { return static_cast<std::uint8_t>(i == instance ? 255 : 0); });
 }
 
-/// 255 where a target keeps the bottom dark, 0 elsewhere (on the target's own dark side too).
+/// 255 where the seabed is in a target's shadow, 0 elsewhere, on the target itself too.
 inline image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) {
     image<std::uint8_t> mask(l.shadow.width(), l.shadow.height());
     for (std::size_t i = 0; i < mask.size(); ++i)
@@ -10658,7 +10730,7 @@ inline image<std::uint8_t> shadow_mask(const labels& l, std::uint16_t instance) 
 
 /// The class of every pixel.
 struct class_map {
-    std::vector<std::string> names;  ///< each once, in the order in which the targets bring them
+    std::vector<std::string> names;  ///< each once, in the order of the targets
     image<std::uint16_t> classes;    ///< 0 for no target, 1 for names[0], ...
 };
 
@@ -10680,67 +10752,58 @@ inline class_map classes_of(const labels& l) {
 
 inline namespace INSONIFY_ONCE {
 
-/// Fills in labels::targets from the images.
-INSONIFY_FUNCTION void describe_targets(labels& l, const std::vector<target>& targets);
+/// Sets the bounding boxes and areas of the listed targets from the images.
+INSONIFY_FUNCTION void measure_targets(labels& l);
 
 #if INSONIFY_BODIES
-INSONIFY_FUNCTION void describe_targets(labels& l, const std::vector<target>& targets) {
-    struct extent {
-        int x0 = (std::numeric_limits<int>::max)(), y0 = x0, x1 = -1, y1 = -1;
-        std::int64_t area = 0;
-        void include(int x, int y) {
-            x0 = (std::min)(x0, x), y0 = (std::min)(y0, y);
-            x1 = (std::max)(x1, x), y1 = (std::max)(y1, y);
-            ++area;
-        }
-        label_box box() const { return area == 0 ? label_box{} : label_box{x0, y0, x1 - x0 + 1, y1 - y0 + 1}; }
+INSONIFY_FUNCTION void measure_targets(labels& l) {
+    const auto include = [](rect& box, std::int64_t& area, int x, int y) {
+        if (area++ == 0) box = {x, y, x, y};
+        box = {(std::min)(box.x0, x), (std::min)(box.y0, y), (std::max)(box.x1, x + 1), (std::max)(box.y1, y + 1)};
     };
-    std::vector<extent> visible(targets.size() + 1), dark(targets.size() + 1);
+    for (target_label& t : l.targets) t.area = t.shadow_area = 0, t.box = t.shadow_box = {};
     for (int y = 0; y < l.instance.height(); ++y) {
-        const auto instances = l.instance.row(y);
-        const auto shadows = l.shadow.row(y);
+        const auto instances = l.instance.row(y), shadows = l.shadow.row(y);
         for (int x = 0; x < l.instance.width(); ++x) {
-            const std::uint16_t instance = instances[static_cast<std::size_t>(x)];
-            const std::uint16_t shadow = shadows[static_cast<std::size_t>(x)];
-            if (instance != labels::no_instance)
-                visible[instance].include(x, y);
-            else if (shadow != labels::is_lit && shadow != labels::by_seabed)
-                dark[shadow].include(x, y);
+            const std::uint16_t instance = instances[static_cast<std::size_t>(x)],
+                                shadow = shadows[static_cast<std::size_t>(x)];
+            if (instance != labels::no_instance) {
+                target_label& t = l.targets[instance - 1u];
+                include(t.box, t.area, x, y);
+            } else if (shadow != labels::is_lit && shadow != labels::by_seabed) {
+                target_label& t = l.targets[shadow - 1u];
+                include(t.shadow_box, t.shadow_area, x, y);
+            }
         }
-    }
-    l.targets.clear();
-    for (std::size_t i = 0; i < targets.size(); ++i) {
-        const extent &seen = visible[i + 1], &shaded = dark[i + 1];
-        l.targets.push_back({targets[i].class_name, static_cast<std::uint16_t>(i + 1), targets[i].placement, seen.box(),
-                             shaded.box(), seen.area, shaded.area});
     }
 }
 #endif
 
 }  // namespace INSONIFY_ONCE
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/side_scan.hpp ----------------------------------------------------
-// A side-scan sonar on its way: where each ping is sent from, and which ranges are listened to.
+// The side-scan rig: pings along a track, and the ranges that are recorded.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Which way a channel looks: to the left or to the right of the track.
+/// The side of the track that a channel faces: left or right.
 enum class side : std::uint8_t { port, starboard };
 
-/// What a column of the picture is a step of.
+/// The quantity that columns of the picture count.
 enum class across_track {
-    slant_range,   ///< the time of the echo: water column, layover, front faces folded towards the sonar
-    ground_range,  ///< the place on the bottom: a map, with the shadows of the same source
+    slant_range,   ///< travel time: water column, layover
+    ground_range,  ///< position across the track: a map, with the same shadows
 };
 
-/// One ping: where the sonar is, and its attitude. Rotations apply as for ships: yaw first, then pitch, then roll.
+/// Position and attitude of the sonar at one ping. Rotations apply as for ships: yaw first, then pitch, then roll.
 struct ping {
     glm::dvec3 position{0, 0, 5};  ///< of the sonar in the world, metres; z above the datum, heave included
     double yaw = 0;                ///< radians: 0 travels towards +y, with starboard at +x; counter-clockwise
@@ -10750,7 +10813,7 @@ struct ping {
 
 inline namespace INSONIFY_FLAGS {
 
-/// @throws invalid_input for a value that can't be right
+/// @throws invalid_input for a value out of range
 inline void validate(const ping& p) {
     detail::require_finite("ping.position.x", p.position.x);
     detail::require_finite("ping.position.y", p.position.y);
@@ -10763,23 +10826,22 @@ inline void validate(const ping& p) {
 
 }  // namespace INSONIFY_FLAGS
 
-/// One channel of a side-scan sonar on a straight, level track. Make it a `ground_range` instead of a `side_scan`, and
-/// all else stays the same.
+/// One channel of a side-scan sonar on a straight, level track: `side_scan` for slant range, `ground_range` for ground
+/// range.
 ///
-/// A picture of it has a row per ping and a column per bin. Row i is ping i, the first on top, as in every recording of
-/// range modes (`upside_down` turns it so that up is forward); its left column is the first bin on either side, so that
-/// range grows and shadows fall to the right.
+/// A picture has a row per ping and a column per bin. Row i is ping i, the first on top (`upside_down` flips it so that
+/// up is forward). The left column is the first bin on either side, so that range grows and shadows fall to the right.
 template <across_track Axis>
 struct side_scan_rig {
     static constexpr across_track axis = Axis;
 
     glm::dvec2 position{0, 0};   ///< of the first ping over the datum, metres
     float altitude = 5;          ///< above the datum, metres
-    float yaw = 0;               ///< radians, as a ping's
+    float yaw = 0;               ///< radians, as of a ping
     float ping_spacing = 0.04f;  ///< metres of track from one ping to the next, > 0
     int pings = 1024;            ///< 1 to 2^20
-    float first_range = 0;       ///< where the first bin begins, metres, >= 0
-    float range = 40;            ///< where the last bin ends, metres
+    float first_range = 0;       ///< start of the first bin, metres, >= 0
+    float range = 40;            ///< end of the last bin, metres
     int bins = 2048;             ///< 1 to 2^20
     insonify::side side = insonify::side::starboard;
 
@@ -10793,7 +10855,7 @@ using ground_range = side_scan_rig<across_track::ground_range>;
 
 inline namespace INSONIFY_FLAGS {
 
-/// @throws invalid_input for a value that can't be right
+/// @throws invalid_input for a value out of range
 template <across_track Axis>
 void validate(const side_scan_rig<Axis>& rig) {
     using detail::require;
@@ -10813,7 +10875,7 @@ void validate(const side_scan_rig<Axis>& rig) {
             "port or starboard");
 }
 
-/// A ping of the rig's track; those before the first and after the last are on the same line.
+/// A ping of the rig's track. Numbers below 0 and beyond the last continue the line.
 template <across_track Axis>
 ping ping_of(const side_scan_rig<Axis>& rig, int number) {
     const auto [sine, cosine] = numeric::sin_cos(static_cast<double>(rig.yaw));
@@ -10822,7 +10884,7 @@ ping ping_of(const side_scan_rig<Axis>& rig, int number) {
             static_cast<double>(rig.yaw)};
 }
 
-/// The track of a rig, a ping after the other.
+/// All pings of the rig's track, in order.
 template <across_track Axis>
 std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     validate(rig);
@@ -10832,8 +10894,8 @@ std::vector<ping> track_of(const side_scan_rig<Axis>& rig) {
     return track;
 }
 
-/// A ping's own frame: x away from it on the side it looks to, level; u along the sonar's axis; z up from the sonar.
-/// The fan is the plane u = 0, which a pitch tilts from the vertical.
+/// The frame of a ping: x level and across the track, on the side that it faces; u along the sonar's axis; z up, from
+/// the sonar. The fan is the plane u = 0, which pitch tilts from the vertical.
 class ping_frame {
   public:
     ping_frame(const ping& p, side looks) : position_(p.position) {
@@ -10846,21 +10908,21 @@ class ping_frame {
         sine_roll_ = sign * roll.sine, cosine_roll_ = roll.cosine;
     }
     const glm::dvec3& position() const { return position_; }
-    /// Unit vectors on the ground.
+    /// Horizontal unit vectors.
     const glm::dvec2& across() const { return across_; }
     const glm::dvec2& along() const { return along_; }
     bool is_level() const { return sine_pitch_ == 0; }
     double sine_pitch() const { return sine_pitch_; }
     double cosine_pitch() const { return cosine_pitch_; }
-    /// Of the angle by which the side that is looked to is rolled down.
+    /// Of the angle by which the side that it faces is rolled down.
     double sine_roll() const { return sine_roll_; }
     double cosine_roll() const { return cosine_roll_; }
 
-    /// World coordinates of the datum below (x, u), u along the heading.
+    /// Horizontal world coordinates of (x, u), with u along the heading.
     glm::dvec2 world(double x, double u) const {
         return {position_.x + x * across_.x + u * along_.x, position_.y + x * across_.y + u * along_.y};
     }
-    /// World coordinates below the fan's point at (x, down).
+    /// Horizontal world coordinates of the fan's point (x, down).
     glm::dvec2 below(double x, double down) const { return world(x, down * sine_pitch_); }
     /// (x, u, z) of a world vector.
     glm::dvec3 turned(const glm::dvec3& v) const {
@@ -10885,33 +10947,33 @@ class ping_frame {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/frame.hpp ------------------------------------------------------------------
-// The result of every kind of picture: the image, its labels, which pings its rows are, and what was drawn.
+// The result of every renderer: the image, its labels, statistics, and the order of its rows.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What became of the triangles, and how large the intermediate things were. Range modes draw no triangles.
+/// Counts of triangles and of samples. Range modes draw no triangles.
 struct render_stats {
     draw_stats seabed, targets;
-    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled, of which the mesh may leave some out
-    std::uint64_t seabed_samples = 0;         ///< points at which the seabed was evaluated
+    int seabed_columns = 0, seabed_rows = 0;  ///< vertices sampled; the mesh may have fewer
+    std::uint64_t seabed_samples = 0;         ///< positions at which the seabed was evaluated
     double cell = 0;                          ///< metres between them
 };
 
-/// Which pings the rows of a picture are, and which side its columns hear.
+/// The order of a picture's rows and columns: ping numbers and sides.
 struct ping_numbers {
-    std::int64_t first = 0;  ///< of the top row
-    int step = 1;            ///< from row to row: 1, or -1; 0 for overhead pictures, whose rows are not pings
+    std::int64_t first = 0;  ///< ping of the top row
+    int step = 1;            ///< from row to row: 1 or -1; 0 for overhead pictures, whose rows are not pings
     insonify::side side = insonify::side::starboard;
-    int port_columns = 0;  ///< at the left, of another channel: port, its range growing to the left
+    int port_columns = 0;  ///< columns at the left that show the port channel, with range growing to the left
 };
 
-/// A picture with all that is known about it.
+/// A picture and its ground truth.
 ///
-/// Of `overhead`, up is forward and pixels are in [0, 1]. Of range modes, row i is ping i, column j is bin j, and
-/// pixels are intensities, 0 and above: see sonar_equation.hpp for their unit.
+/// In overhead pictures up is forward, and pixels are in [0, 1]. In range modes row i is ping i, column j is bin j, and
+/// pixels are intensities, 0 and above; see sonar_equation.hpp for their unit.
 template <class Labels = labels>
 struct frame {
     insonify::image<float> image;  ///< linear
@@ -10926,18 +10988,18 @@ struct frame {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/overhead/rig.hpp -----------------------------------------------------------
-// The paper's rig: a camera that looks straight down, and a parallel light low over the sea floor that turns with it.
+// The overhead rig: a camera that looks straight down, and a light at a low grazing angle that rotates with it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Camera and light over a point of the sea floor. Image up is forward, image right is starboard; the light comes from
-/// the left, so ranges and shadows grow to the right, as on a starboard channel.
+/// Camera and light above a position on the seabed. Image up is forward, image right is starboard. The light comes from
+/// the left, so shadows fall to the right, as in a starboard channel.
 ///
-/// A pixel means linear radiance: reflectivity x (intensity x law(grazing on the surface) x lit + sky x share of the
-/// sky that the surface looks at + ambient), cut at 1.
+/// A pixel is linear radiance: reflectivity x (intensity x law(sine of the grazing angle on the surface) x lit fraction
+/// + sky x fraction of the sky that the surface faces + ambient), clamped to 1.
 struct overhead {
     glm::dvec2 position{0, 0};                                      ///< of the camera over the datum, metres
     float altitude = 10;                                            ///< above the datum, metres
@@ -10945,19 +11007,18 @@ struct overhead {
     float field_of_view = static_cast<float>(2 * numeric::pi / 3);  ///< across the picture, radians
     glm::ivec2 size{2048, 2048};                           ///< pixels: width (across track), height (along track)
     float grazing = static_cast<float>(numeric::pi / 30);  ///< of the light on level ground, radians
-    float light_azimuth = 0;  ///< where the light travels, from image right towards image up, radians
-    /// Of the light from the datum below the camera, to which grazing and azimuth belong, metres. Infinitely far, its
-    /// rays are parallel; from nearby they spread, and only `shadow::exact` and `penumbra` can say where they end. They
-    /// don't weaken on their way.
+    float light_azimuth = 0;  ///< direction of travel of the light, from image right towards image up, radians
+    /// Distance of the light from the datum below the camera, where grazing and azimuth apply, metres. Rays of an
+    /// infinitely distant light are parallel. Near lights need `shadow::exact` or `penumbra`, and have no falloff.
     float light_distance = std::numeric_limits<float>::infinity();
     float intensity = 4;  ///< of the light on a surface that faces it
-    float sky = 0.05f;    ///< light from everywhere, which no shadow stops; 0 for none
-    float ambient = 0;    ///< light that reaches every surface alike, whatever its slope; 0 for none
+    float sky = 0.05f;    ///< light from the upper hemisphere, without shadows
+    float ambient = 0;    ///< light on every surface alike, without shadows
 };
 
 inline namespace INSONIFY_FLAGS {
 
-/// @throws invalid_input for a value that can't be right
+/// @throws invalid_input for a value out of range
 inline void validate(const overhead& rig) {
     using detail::require;
     detail::require_finite("overhead.position.x", rig.position.x);
@@ -10977,8 +11038,8 @@ inline void validate(const overhead& rig) {
     require(rig.ambient >= 0 && numeric::is_finite(rig.ambient), "overhead.ambient", rig.ambient, "0 or more");
 }
 
-/// What follows from a rig. Everything is drawn in the rig's own frame (origin on the datum below the camera, x to the
-/// right, y forward, z up), so coordinates stay small however far the rig is from the world's origin.
+/// The projection and the light of a rig. Everything is drawn in the rig's frame (origin on the datum below the camera,
+/// x to the right, y forward, z up), so that coordinates stay small at any distance from the world's origin.
 class overhead_geometry {
   public:
     /// @throws invalid_input as validate does
@@ -10995,35 +11056,36 @@ class overhead_geometry {
 
     const overhead& rig() const { return rig_; }
     const shadow::light_frame& light() const { return light_; }
-    /// From the datum below the camera to a point of the light, over the distance to its middle; `beside` that, across
-    /// and up, in the same measure.
+    /// Direction from the datum below the camera to a point of the light, in units of the distance to its centre;
+    /// `beside` is the offset from the centre, across and up, in the same unit.
     glm::dvec3 toward_light(const glm::dvec2& beside) const {
         const glm::dvec3& middle = light_.to_light();
         const glm::dvec3 across(-light_.travel().y, light_.travel().x, 0), up = numeric::cross(middle, across);
         return middle + beside.x * across + beside.y * up;
     }
     bool has_near_light() const { return numeric::is_finite(rig_.light_distance); }
-    /// Where a point of a light that isn't infinitely far stands.
+    /// Position of a point of a near light.
     glm::dvec3 light_position(const glm::dvec2& beside = {0, 0}) const {
         return static_cast<double>(rig_.light_distance) * toward_light(beside);
     }
 
-    /// From world to rig frame. Applied to an object's own map first, it takes large coordinates away exactly.
+    /// From an object's frame to the rig's. Subtracts the rig's position before it rotates, so that large coordinates
+    /// cancel exactly.
     affine rig_from(const affine& world_from_object) const {
         const glm::dvec3 relative = world_from_object.offset - glm::dvec3(rig_.position, 0);
         return {numeric::product(rig_from_world_.linear, world_from_object.linear),
                 numeric::product(rig_from_world_.linear, relative)};
     }
 
-    /// Half of what the picture shows at a height above the datum, metres.
+    /// Half the size of the picture's footprint at a height above the datum, metres.
     glm::dvec2 half_extent(double height) const {
         const double half_width = (static_cast<double>(rig_.altitude) - height) * tangent_;
         return {half_width, half_width * rig_.size.y / rig_.size.x};
     }
-    /// Metres on level ground at the datum from one pixel to the next.
+    /// Metres per pixel on level ground at the datum.
     double ground_sampling() const { return 2 * half_extent(0).x / rig_.size.x; }
 
-    /// The picture's corners at a height, from the rig's position and along the world's axes.
+    /// A corner of the picture's footprint at a height, relative to the rig's position, along the world's axes.
     glm::dvec2 corner(double height, int right, int up) const {
         const glm::dvec2 half = half_extent(height);
         const glm::dvec2 p{right * half.x, up * half.y};
@@ -11034,7 +11096,7 @@ class overhead_geometry {
     glm::vec4 clip(const glm::vec3& p) const {
         return {p.x * clip_scale_.x, p.y * clip_scale_.y, 1e-3f * rig_.altitude, rig_.altitude - p.z};
     }
-    /// The same of three coordinates in lanes.
+    /// The same for coordinates in SIMD lanes.
     template <class Floats>
     INSONIFY_INLINE void clip(Floats (&into)[4], const Floats* p) const {
         into[0] = p[0] * clip_scale_.x;
@@ -11044,15 +11106,15 @@ class overhead_geometry {
     }
 
     glm::dvec3 eye() const { return {0, 0, rig_.altitude}; }
-    /// Metres from one pixel to the next, 1 m below the camera.
+    /// Metres per pixel, 1 m below the camera.
     double ray_step() const { return 2 * tangent_ / rig_.size.x; }
-    /// From the camera through a pixel's centre to 1 m below it.
+    /// Vector from the camera through a pixel's centre, to 1 m below it.
     glm::dvec3 ray(int x, int y) const {
         const double step = ray_step();
         return {step * (x + 0.5 - 0.5 * rig_.size.x), step * (0.5 * rig_.size.y - y - 0.5), -1};
     }
 
-    /// Where a point of the rig frame appears, in continuous pixels.
+    /// Projection of a point of the rig's frame, in continuous pixels.
     glm::dvec2 pixel(const glm::dvec3& p) const {
         const double scale = 0.5 * rig_.size.x / (tangent_ * (static_cast<double>(rig_.altitude) - p.z));
         return {0.5 * rig_.size.x + scale * p.x, 0.5 * rig_.size.y - scale * p.y};
@@ -11075,60 +11137,72 @@ class overhead_geometry {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/overhead/picture.hpp -------------------------------------------------------
-// One overhead picture: its options and the functions that draw it. render.hpp has the code behind them.
+// Overhead pictures: their options, and the functions that draw them. Their bodies are in render.hpp.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// How to draw a picture; the types say what is in it. Shadow is a shadow::policy, Labels are `labels` or `no_labels`.
-template <class Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert>
+/// Options of an overhead picture. The types select what is computed: Shadow is a shadow::policy, Labels are `labels`
+/// or `no_labels`, and Depth is how depths between vertices are rounded.
+template <class Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert,
+          depth_precision Depth = depth_precision::quick>
 struct render_options {
     Shadow shadow{};
     Law law{};
-    int cells = 0;  ///< of the seabed, along the picture's longer side; 0: one for every two pixels
-    /// How far up the light the seabed may cast from, at most, in lengths of the picture; it is sampled no farther than
-    /// its heights can throw a shadow anyway. Light below 1 degree over rock comes from farther, and passes there.
+    double cell = 0;  ///< metres between the vertices at which the seabed is sampled; 0: two pixels on level ground
+    /// How far towards the light the seabed may cast from, at most, in lengths of the picture. Less is sampled if its
+    /// heights throw no shadow that far; light below 1 degree over rock comes from farther.
     float reach = 8;
-    /// Pixels: by how much the seabed's mesh may displace what is seen, and on level ground the edge of a shadow. 0
-    /// draws every cell; more draws fewer triangles the smoother the bottom, and costs the time to find out.
+    /// Tolerance for the seabed's mesh, in pixels: how far it may displace the seabed in the picture or, on level
+    /// ground, the edge of a shadow. 0 draws every cell. More draws fewer triangles on smooth seabeds, and takes time
+    /// to choose them.
     float edge_error = 0;
-    float slope_error = 0.02f;  ///< by how much its slopes may then be off, metres per metre
-    /// See draw_options. Which triangle a pixel shows decides whether it faces the light, too.
+    float slope_error = 0.02f;  ///< tolerance for its slopes, metres per metre, if edge_error is not 0
+    /// See draw_options. Whether a pixel faces the light follows from the triangle that it shows.
     int subpixel_bits = std::is_same_v<Shadow, shadow::none> ? 8 : 12;
     int tile = 64;  ///< see draw_options
     isa level = best_isa();
 
-    /// The same options with another shadow policy, another law, or without labels.
+    /// The same options with another shadow policy, another law, without labels, or with correctly rounded depths.
     template <shadow::policy Other>
-    INSONIFY_MEMBER render_options<Other, Labels, Law> with(const Other& other) const {
-        return {other, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    INSONIFY_MEMBER render_options<Other, Labels, Law, Depth> with(const Other& other) const {
+        return retyped<Other, Labels, Law, Depth>(other, law);
     }
     template <backscatter_law Other>
-    INSONIFY_MEMBER render_options<Shadow, Labels, Other> with(const Other& other) const {
-        return {shadow, other, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    INSONIFY_MEMBER render_options<Shadow, Labels, Other, Depth> with(const Other& other) const {
+        return retyped<Shadow, Labels, Other, Depth>(shadow, other);
     }
-    INSONIFY_MEMBER render_options<Shadow, no_labels, Law> without_labels() const {
-        return {shadow, law, cells, reach, edge_error, slope_error, subpixel_bits, tile, level};
+    INSONIFY_MEMBER render_options<Shadow, no_labels, Law, Depth> without_labels() const {
+        return retyped<Shadow, no_labels, Law, Depth>(shadow, law);
+    }
+    INSONIFY_MEMBER render_options<Shadow, Labels, Law, depth_precision::exact> with_exact_depth() const {
+        return retyped<Shadow, Labels, Law, depth_precision::exact>(shadow, law);
+    }
+
+  private:
+    template <class S, class L, class B, depth_precision D>
+    INSONIFY_MEMBER render_options<S, L, B, D> retyped(const S& policy, const B& backscatter) const {
+        return {policy, backscatter, cell, reach, edge_error, slope_error, subpixel_bits, tile, level};
     }
 };
 
-/// Which triangle each pixel of a picture shows.
+/// The triangle that each pixel of a picture shows.
 struct visibility {
     static constexpr std::uint32_t no_triangle = shadow::invalid_id;
 
     image<std::uint16_t> instance;  ///< as in labels::instance
-    image<std::uint32_t> triangle;  ///< of the target's mesh, or of the bottom's; no_triangle where nothing is shown
+    image<std::uint32_t> triangle;  ///< of the target's mesh, or of the seabed's; no_triangle where neither is visible
 };
 
 namespace detail::inline INSONIFY_FLAGS {
 
-template <class Shadow, class Labels, class Law>
-frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options,
+template <class Shadow, class Labels, class Law, depth_precision Depth>
+frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                     executor_ref ex);
-template <class Law>
-visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law>& options,
+template <class Law, depth_precision Depth>
+visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law, Depth>& options,
                executor_ref ex);
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -11151,35 +11225,35 @@ visibility see(const scene& s, const overhead& rig, built_in<shadow::none, label
 
 inline namespace INSONIFY_FLAGS {
 
-/// Draws a scene as the paper's rig sees it.
+/// Draws a scene from above.
 ///
 /// @param s        the seabed and its targets
-/// @param rig      camera and light; see there for what a pixel means
-/// @param options  types of shadow, labels and backscatter law, and how finely the seabed is sampled
-/// @param ex       who runs it; the result is the same bytes for any executor
-/// @returns a picture of rig.size pixels, linear in [0, 1], with labels of the same size and what was drawn
-/// @throws invalid_input for a rig, a seabed, a material, a pose or an option that can't be right
+/// @param rig      camera and light; see there for the unit of pixels
+/// @param options  shadow policy, labels, backscatter law and depth by type; sampling of the seabed
+/// @param ex       runs it; the result is the same bytes for any executor
+/// @returns a picture of rig.size pixels, linear in [0, 1], with labels of the same size and statistics
+/// @throws invalid_input for a rig, a seabed, a material, a pose or an option out of range
 template <class Shadow = shadow::exact, class Labels = labels, backscatter_law Law = lambert,
-          executor_argument E = serial_executor>
-frame<Labels> render(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options = {},
-                     E&& ex = {}) {
+          depth_precision Depth = depth_precision::quick, executor_argument E = serial_executor>
+frame<Labels> render(const scene& s, const overhead& rig,
+                     const render_options<Shadow, Labels, Law, Depth>& options = {}, E&& ex = {}) {
     return detail::paint(s, rig, options, executor_ref(ex));
 }
 
 /// The triangles that `render` shows with the same options.
 /// @throws invalid_input as `render` does
 template <class Shadow = shadow::exact, class Labels = labels, class Law = lambert,
-          executor_argument E = serial_executor>
+          depth_precision Depth = depth_precision::quick, executor_argument E = serial_executor>
 visibility visible_triangles(const scene& s, const overhead& rig,
-                             const render_options<Shadow, Labels, Law>& options = {}, E&& ex = {}) {
-    const render_options<shadow::none, labels, Law> seen{.law = options.law,
-                                                         .cells = options.cells,
-                                                         .reach = options.reach,
-                                                         .edge_error = options.edge_error,
-                                                         .slope_error = options.slope_error,
-                                                         .subpixel_bits = options.subpixel_bits,
-                                                         .tile = options.tile,
-                                                         .level = options.level};
+                             const render_options<Shadow, Labels, Law, Depth>& options = {}, E&& ex = {}) {
+    const render_options<shadow::none, labels, Law, Depth> seen{.law = options.law,
+                                                                .cell = options.cell,
+                                                                .reach = options.reach,
+                                                                .edge_error = options.edge_error,
+                                                                .slope_error = options.slope_error,
+                                                                .subpixel_bits = options.subpixel_bits,
+                                                                .tile = options.tile,
+                                                                .level = options.level};
     return detail::see(s, rig, seen, executor_ref(ex));
 }
 
@@ -11193,10 +11267,10 @@ INSONIFY_ARITHMETIC_END
 #if INSONIFY_BODIES
 
 // ------------ insonify/accuracy/metrics.hpp -------------------------------------------------------------
-// How far an image or a mask is from the truth.
+// Differences between an image or a mask and its ground truth.
 //
-// Means hide one broken tile, so the largest difference stands beside them; the ratio of two tiny masks explodes, so
-// the displacement of their border stands beside it.
+// A mean hides one broken tile, so the largest difference is reported beside it. Intersection over union is unstable
+// for tiny masks, so the displacement of their boundary is reported beside it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11218,8 +11292,8 @@ struct mask_difference {
         const std::size_t joined = common + wrong_pixels();
         return joined == 0 ? 1.0 : static_cast<double>(common) / static_cast<double>(joined);
     }
-    /// How many pixels the border has moved, on average along it: wrong pixels over boundary pixels. Infinite if there
-    /// are wrong pixels but no border.
+    /// Mean displacement of the boundary along its length, pixels: wrong pixels over boundary pixels. Infinite if there
+    /// are wrong pixels but no boundary.
     INSONIFY_TAGGED double mean_boundary_displacement() const {
         if (wrong_pixels() == 0) return 0;
         if (boundary_pixels == 0) return std::numeric_limits<double>::infinity();
@@ -11227,8 +11301,7 @@ struct mask_difference {
     }
 };
 
-/// Differences of pixel values, in the values' unit; NaN if any pixel is NaN in one of the images: a broken
-/// pixel shows in every figure.
+/// Differences of pixel values, in their unit. All are NaN if a pixel is NaN in either image.
 struct pixel_difference {
     std::size_t pixels = 0;
     double mean_square = 0;
@@ -11268,11 +11341,11 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
     accuracy::pixel_difference out{.pixels = truth.size()};
     double sum = 0;
     for (int y = 0; y < truth.height(); ++y) {
-        // Rows are summed on their own, so that small differences survive in large images.
+        // Row by row, so that small differences are not rounded away in large images.
         double row_sum = 0;
         const auto a = result.row(y), b = truth.row(y);
         for (std::size_t x = 0; x < b.size(); ++x) {
-            if (a[x] == b[x]) continue;  // two equal infinities among them
+            if (a[x] == b[x]) continue;  // equal infinities too
             const double difference = numeric::magnitude(static_cast<double>(a[x]) - static_cast<double>(b[x]));
             row_sum += difference * difference;
             if (!(difference <= out.largest) && out.largest == out.largest) out.largest = difference;  // keeps a NaN
@@ -11388,6 +11461,198 @@ void require_indices(const mesh_view& m, E& ex) {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/raster/detail/binning.hpp --------------------------------------------------------
+// Sorts triangles into tiles, in submission order.
+//
+// Triangles are binned in chunks, in parallel. Neighbours in a mesh are mostly neighbours on the screen, so a chunk
+// stores runs: consecutive triangles that touch the same tiles. Counting the runs of every chunk and tile gives each
+// its position, and a second parallel pass copies them there: an order-preserving counting sort, whose result does not
+// depend on which thread ran which chunk.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// The first and the last tile of a rectangle of tiles, column and row in 16 bits each: one comparison for both.
+struct tile_range {
+    std::uint32_t first, last;
+
+    static std::uint32_t pack(int column, int row) {
+        return static_cast<std::uint32_t>(column) | static_cast<std::uint32_t>(row) << 16;
+    }
+    rect tiles() const {
+        const auto column = [](std::uint32_t tile) { return static_cast<int>(tile & 0xFFFFu); };
+        const auto row = [](std::uint32_t tile) { return static_cast<int>(tile >> 16); };
+        return {column(first), row(first), column(last) + 1, row(last) + 1};
+    }
+    friend bool operator==(const tile_range&, const tile_range&) = default;
+};
+
+/// The image divided into square tiles of 2^log2_size pixels.
+struct tile_grid {
+    int log2_size;
+    int columns, rows;
+
+    tile_grid(int width, int height, int log2_tile)
+        : log2_size(log2_tile),
+          columns((width + (1 << log2_tile) - 1) >> log2_tile),
+          rows((height + (1 << log2_tile) - 1) >> log2_tile) {}
+
+    std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+    /// The pixels of a tile, clipped to the image.
+    rect pixels(std::size_t tile, int width, int height) const {
+        const int x = static_cast<int>(tile % static_cast<std::size_t>(columns)) << log2_size;
+        const int y = static_cast<int>(tile / static_cast<std::size_t>(columns)) << log2_size;
+        return intersect({x, y, x + (1 << log2_size), y + (1 << log2_size)}, {0, 0, width, height});
+    }
+    /// The tiles that a rectangle of pixels touches; it must not be empty.
+    tile_range touched(const rect& pixels) const {
+        return {tile_range::pack(pixels.x0 >> log2_size, pixels.y0 >> log2_size),
+                tile_range::pack((pixels.x1 - 1) >> log2_size, (pixels.y1 - 1) >> log2_size)};
+    }
+};
+
+/// Triangles with consecutive ids.
+struct triangle_run {
+    std::uint32_t first, count;
+    bool is_small;  ///< see small_setup.hpp
+};
+
+/// Reads the triangles of a tile's runs in order; small ones in groups across runs.
+class run_reader {
+  public:
+    explicit run_reader(std::span<const triangle_run> runs) : runs_(runs) {}
+
+    bool empty() const { return runs_.empty(); }
+
+    /// Sets the ids of the next small triangles, at most N and up to the next one that isn't small. The rest of the
+    /// first N ids repeats the first; the second half of the array is scratch.
+    /// @returns their number
+    template <int N>
+    INSONIFY_INLINE int take_small(std::uint32_t (&ids)[static_cast<unsigned>(2 * N)]) {
+        lanes<std::uint32_t, N> number;
+        count_up<std::uint32_t, N>(number);
+        int count = 0;
+        while (count < N && !runs_.empty() && runs_.front().is_small) {
+            const triangle_run& run = runs_.front();
+            const std::uint32_t some = (std::min)(run.count - taken_, static_cast<std::uint32_t>(N - count));
+            store(ids + count, lanes<std::uint32_t, N>(number + (run.first + taken_)));
+            count += static_cast<int>(some);
+            taken_ += some;
+            if (taken_ == run.count) advance();
+        }
+        for (int i = count; count > 0 && i < N; ++i) ids[i] = ids[0];
+        return count;
+    }
+    /// The next run.
+    triangle_run take_run() {
+        const triangle_run run = runs_.front();
+        advance();
+        return run;
+    }
+
+  private:
+    void advance() {
+        runs_ = runs_.subspan(1);
+        taken_ = 0;
+    }
+
+    std::span<const triangle_run> runs_;
+    std::uint32_t taken_ = 0;  ///< of the first of them
+};
+
+/// The runs of one chunk.
+class tile_runs {
+  public:
+    /// Appends `count` triangles, each of which touches these tiles.
+    void add(std::uint32_t first, std::uint32_t count, const tile_range& tiles, bool is_small) {
+        if (!entries_.empty()) {
+            entry& last = entries_.back();
+            if (last.run.first + last.run.count == first && last.tiles == tiles && last.run.is_small == is_small) {
+                last.run.count += count;
+                return;
+            }
+        }
+        entries_.push_back({tiles, {first, count, is_small}});
+    }
+
+    /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.
+    template <class Visit>
+    void for_each(const tile_grid& grid, const Visit& visit) const {
+        for (const entry& e : entries_) {
+            const rect tiles = e.tiles.tiles();
+            for (int row = tiles.y0; row < tiles.y1; ++row)
+                for (int column = tiles.x0; column < tiles.x1; ++column)
+                    visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
+                              static_cast<std::size_t>(column),
+                          e.run);
+        }
+    }
+
+    /// Adds `offset` to all ids from `first` on; no run may contain ids on either side of it.
+    void shift_ids(std::uint32_t first, std::uint32_t offset) {
+        for (entry& e : entries_)
+            if (e.run.first >= first) e.run.first += offset;
+    }
+
+  private:
+    struct entry {
+        tile_range tiles;
+        triangle_run run;
+    };
+    std::vector<entry> entries_;
+};
+
+/// Runs by tile.
+class tile_bins {
+  public:
+    tile_bins() = default;
+
+    /// @param chunks  the runs of all chunks, in submission order
+    template <executor E>
+    tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
+        // Counts, then their prefix sums: by tile first, by chunk within a tile.
+        const std::size_t tiles = grid.count();
+        std::vector<std::uint32_t> positions(chunks.size() * tiles, 0);
+        const auto of_chunk = [&](std::size_t chunk) { return std::span(positions).subspan(chunk * tiles, tiles); };
+        ex.bulk(chunks.size(), [&](std::size_t chunk) {
+            chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
+        });
+        std::uint32_t sum = 0;
+        for (std::size_t tile = 0; tile < tiles; ++tile) {
+            first_[tile] = sum;
+            for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
+                const std::uint32_t count = of_chunk(chunk)[tile];
+                of_chunk(chunk)[tile] = sum;
+                sum += count;
+            }
+        }
+        first_[tiles] = sum;
+
+        runs_ = uninitialized_vector<triangle_run>(sum, memory_of(ex));
+        ex.bulk(chunks.size(), [&](std::size_t chunk) {
+            chunks[chunk].for_each(
+                grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });
+        });
+    }
+
+    std::span<const triangle_run> operator[](std::size_t tile) const {
+        return std::span(runs_).subspan(first_[tile], first_[tile + 1] - first_[tile]);
+    }
+
+  private:
+    std::vector<std::uint32_t> first_;
+    uninitialized_vector<triangle_run> runs_;
+};
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/core/detail/int128.hpp -----------------------------------------------------------
 // Integers of 128 bits, as far as exact geometry far from the picture needs them: products of two 64-bit numbers, their
 // sums, and what can be asked of those. Two's complement in two halves, so that every compiler has them.
@@ -11447,414 +11712,6 @@ struct int128 {
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
-
-// ------------ insonify/raster/framebuffer.hpp -----------------------------------------------------------
-// Where a draw leaves its results. The type says which attachments there are; what is absent is not compiled.
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-
-/// Which of two surfaces a pixel shows.
-enum class keep_depth {
-    smaller,  ///< z = 0 at the camera, growing away from it
-    larger,   ///< reversed z, or heights seen from above
-};
-
-/// What depth a draw finds in the target.
-enum class depth_load {
-    keep,   ///< what is there: earlier draws occlude this one
-    clear,  ///< nothing: the target's depth is overwritten, without being read; see framebuffer for its color
-};
-
-inline namespace INSONIFY_FLAGS {
-
-/// The depth of an empty pixel.
-constexpr float empty_depth(keep_depth keep) {
-    return keep == keep_depth::smaller ? std::numeric_limits<float>::infinity()
-                                       : -std::numeric_limits<float>::infinity();
-}
-
-}  // namespace INSONIFY_FLAGS
-
-/// Depth alone, correctly rounded: takes no fragment callable and compiles no shading.
-struct depth_target {
-    image_view<float> depth;
-};
-
-/// Depth alone, computed in float: off by a few units in the last place, at a third less time. For maps that are
-/// looked up with a tolerance anyway.
-struct quick_depth_target {
-    image_view<float> depth;
-};
-
-/// Depth and one value per pixel. With Pixel = void the fragment callable stores what it wants by itself.
-template <class Pixel>
-struct framebuffer {
-    image_view<Pixel> color;
-    image_view<float> depth;
-    bool clears_color = false;  ///< whether draws that clear depths write `background` where they show nothing
-    Pixel background{};
-};
-template <>
-struct framebuffer<void> {
-    image_view<float> depth;
-};
-
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-// ------------ insonify/raster/detail/setup.hpp ----------------------------------------------------------
-// From three snapped vertices to what the pixel loop needs: three edge functions, and the pixels to try.
-//
-// Positions are snapped to fixed point first; everything after is decided with integers, so two triangles that share
-// an edge agree about every pixel on it. Fixed-point numbers count 2^-s pixels, s = subpixel bits (8 by default), from
-// the image's top left corner; pixel (i, j) has its centre at (i + 1/2, j + 1/2).
-//
-// Fill rule: top-left, as in the Direct3D 11.3 functional specification, 3.4.2.1: a centre exactly on an edge belongs
-// to the triangle if that edge is a top edge (horizontal, above the interior) or a left edge.
-//
-// This work is based on:
-// Juan Pineda. A Parallel Algorithm for Polygon Rasterization. SIGGRAPH 1988
-// Nicolas Capens. Advanced Rasterization. 2004
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// A vertex on the screen: position in fixed point, z / w and 1 / w.
-struct screen_vertex {
-    std::int64_t x, y;
-    double z;
-    double inverse_w;
-};
-
-/// A vertex's place on the grid, as millions of them are kept.
-struct grid_place {
-    std::int32_t x, y;
-
-    /// Not compact: has to be placed and clipped triangle by triangle.
-    static constexpr std::int32_t no_x = (std::numeric_limits<std::int32_t>::min)();
-    static constexpr grid_place off_grid() { return {no_x, 0}; }
-    bool is_off_grid() const { return x == no_x; }
-};
-
-/// A pixel rectangle, ends included; empty if last < first.
-struct pixel_box {
-    int x0, y0, x1, y1;
-    bool empty() const { return x1 < x0 || y1 < y0; }
-    int width() const { return x1 - x0 + 1; }
-    int height() const { return y1 - y0 + 1; }
-};
-
-inline pixel_box intersect(const pixel_box& a, const pixel_box& b) {
-    return {(std::max)(a.x0, b.x0), (std::max)(a.y0, b.y0), (std::min)(a.x1, b.x1), (std::min)(a.y1, b.y1)};
-}
-
-/// The fixed-point grid of an image.
-struct pixel_grid {
-    int subpixel_bits;
-    int width, height;
-
-    /// Coordinates within 2^29 of the image's centre are compact: 32 bits hold them and 64 bits an edge function.
-    /// Beyond 2^50 nothing is held, and triangles are clipped; between the two, 128 bits decide.
-    static constexpr int compact_bits = 29, widest_bits = 50;
-
-    std::int64_t unit() const { return std::int64_t{1} << subpixel_bits; }
-    std::int64_t half() const { return std::int64_t{1} << (subpixel_bits - 1); }
-    std::int64_t center(int pixel) const { return pixel * unit() + half(); }
-    /// First and last pixel of an axis whose centre is within [low, high), as far as it is one of [-1, extent]: by the
-    /// fill rule no centre at the high end belongs.
-    int first_center(std::int64_t low, int extent) const {
-        return static_cast<int>(std::clamp<std::int64_t>((low + half() - 1) >> subpixel_bits, -1, extent));
-    }
-    int last_center(std::int64_t high, int extent) const {
-        return static_cast<int>(std::clamp<std::int64_t>((high - half() - 1) >> subpixel_bits, -1, extent));
-    }
-    /// Pixels from the image's centre to where coordinates of so many bits end.
-    double reach(int bits) const { return static_cast<double>(std::int64_t{1} << bits) / static_cast<double>(unit()); }
-
-    /// Added to a number below 2^51, it leaves the rounded integer in the low bits of the sum.
-    static constexpr double magic = 0x1.8p52;
-
-    /// Rounds a distance in pixels from the centre of an axis, to nearest, ties to even; |pixels| < reach(51).
-    std::int64_t snap(double pixels, int extent) const {
-        const double scaled = pixels * static_cast<double>(unit());
-        const auto rounded = numeric::bit_cast<std::int64_t>(scaled + magic) - numeric::bit_cast<std::int64_t>(magic);
-        return rounded + extent * half();
-    }
-    bool is_compact(const screen_vertex& v) const {
-        constexpr std::int64_t most = std::int64_t{1} << compact_bits;
-        const std::int64_t x = v.x - width * half(), y = v.y - height * half();
-        return -most <= x && x <= most && -most <= y && y <= most;
-    }
-};
-
-/// run * down - rise * right: positive for what lies on the inner side of an edge of a clockwise triangle.
-/// Compact differences stay within 2^30, so 64 bits hold the result.
-inline std::int64_t compact_side(std::int64_t run, std::int64_t rise, std::int64_t right, std::int64_t down) {
-    return run * down - rise * right;
-}
-inline int128 wide_side(std::int64_t run, std::int64_t rise, std::int64_t right, std::int64_t down) {
-    return int128::product(run, down) - int128::product(rise, right);
-}
-
-/// Twice the signed area in squared fixed-point units; positive for triangles that run clockwise on the screen.
-inline std::int64_t compact_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
-    return compact_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
-}
-inline int128 wide_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
-    return wide_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
-}
-
-/// Whether a triangle's bounding box lies beyond all centres of the picture on one side of it.
-inline bool is_outside(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, const pixel_grid& grid) {
-    return grid.first_center((std::min)({a.x, b.x, c.x}), grid.width) == grid.width ||
-           grid.first_center((std::min)({a.y, b.y, c.y}), grid.height) == grid.height ||
-           grid.last_center((std::max)({a.x, b.x, c.x}), grid.width) == -1 ||
-           grid.last_center((std::max)({a.y, b.y, c.y}), grid.height) == -1;
-}
-
-/// The pixels of an image whose centres a triangle's bounding box holds.
-inline pixel_box center_box(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
-                            const pixel_grid& grid) {
-    const pixel_box box{grid.first_center((std::min)({a.x, b.x, c.x}), grid.width),
-                        grid.first_center((std::min)({a.y, b.y, c.y}), grid.height),
-                        grid.last_center((std::max)({a.x, b.x, c.x}), grid.width),
-                        grid.last_center((std::max)({a.y, b.y, c.y}), grid.height)};
-    return intersect(box, {0, 0, grid.width - 1, grid.height - 1});
-}
-
-/// E(x, y) >= 0 at the centre of pixel (x, y) exactly if the pixel is on the inner side, fill rule included.
-struct edge_function {
-    std::int64_t origin;  ///< E at the first pixel of the box it was set up for
-    std::int64_t dx, dy;  ///< per pixel to the right and down
-
-    /// The edge from a to b of a clockwise triangle, at the pixels right of and below (x, y).
-    static edge_function through(const screen_vertex& a, const screen_vertex& b, const pixel_grid& grid, int x, int y,
-                                 bool compact) {
-        const std::int64_t run = b.x - a.x, rise = b.y - a.y;
-        const std::int64_t right = grid.center(x) - a.x, down = grid.center(y) - a.y;
-        const bool top_left = rise < 0 || (rise == 0 && run > 0);
-        const std::int64_t inner = top_left ? 0 : -1;
-        // A pixel is 2^s units wide, so E changes by multiples of 2^s and its sign survives the shift.
-        if (compact) return {(compact_side(run, rise, right, down) + inner) >> grid.subpixel_bits, -rise, run};
-        return {(wide_side(run, rise, right, down) + int128::from(inner)).shifted_down(grid.subpixel_bits), -rise, run};
-    }
-
-    /// Whether E fits 32 bits everywhere in a box of that size.
-    bool is_narrow(int width, int height) const {
-        constexpr std::int64_t most = std::int64_t{1} << 31;
-        return numeric::magnitude(dx) < most && numeric::magnitude(dy) < most && -most < origin && origin < most &&
-               numeric::magnitude(origin) + numeric::magnitude(dx) * width + numeric::magnitude(dy) * height < most;
-    }
-
-    /// The same decision for the pixels of a box of that size, in numbers as small as they can be: where E has one
-    /// sign, only the sign is kept. Else E is below 2^62 all over a tile, however far away the edge's ends are.
-    edge_function simplified(int width, int height) const {
-        const std::int64_t across = dx * (width - 1), along = dy * (height - 1);
-        constexpr std::int64_t none = 0;
-        const std::int64_t falls = (std::min)(across, none) + (std::min)(along, none);
-        const std::int64_t rises = (std::max)(across, none) + (std::max)(along, none);
-        if (origin >= -falls) return {0, 0, 0};
-        if (origin < -rises) return {-1, 0, 0};
-        return *this;
-    }
-};
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/raster/detail/binning.hpp --------------------------------------------------------
-// Which triangles each tile has to look at, in the order in which they were submitted.
-//
-// Triangles go through in chunks, in parallel. Neighbours in a mesh are mostly neighbours on the screen, so a chunk
-// notes runs: triangles that follow one another and touch the same tiles. Counting the runs of every chunk and tile
-// gives each its place, and a second parallel pass puts them there: an order-preserving counting sort whose result
-// doesn't depend on who ran which chunk.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// The image cut into square tiles of 2^log2_size pixels.
-struct tile_grid {
-    int log2_size;
-    int columns, rows;
-
-    tile_grid(int width, int height, int log2_tile)
-        : log2_size(log2_tile),
-          columns((width + (1 << log2_tile) - 1) >> log2_tile),
-          rows((height + (1 << log2_tile) - 1) >> log2_tile) {}
-
-    std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
-    /// The tiles that a box of pixels touches.
-    pixel_box touched(const pixel_box& box) const {
-        return {box.x0 >> log2_size, box.y0 >> log2_size, box.x1 >> log2_size, box.y1 >> log2_size};
-    }
-};
-
-/// The first and the last tile of a rectangle of tiles, each with its column and row in 16 bits: soon compared.
-struct tile_range {
-    std::uint32_t first, last;
-
-    static tile_range of(const pixel_box& tiles) {
-        const auto pack = [](int column, int row) {
-            return static_cast<std::uint32_t>(column) | static_cast<std::uint32_t>(row) << 16;
-        };
-        return {pack(tiles.x0, tiles.y0), pack(tiles.x1, tiles.y1)};
-    }
-    pixel_box box() const {
-        const auto unpack = [](std::uint32_t half) { return static_cast<int>(half & 0xFFFFu); };
-        return {unpack(first), unpack(first >> 16), unpack(last), unpack(last >> 16)};
-    }
-    friend bool operator==(const tile_range&, const tile_range&) = default;
-};
-
-/// Triangles whose names follow one another, all drawn the same way.
-struct triangle_run {
-    std::uint32_t first, count;
-    bool is_small;  ///< eight go through the set-up at a time
-};
-
-/// Reads the triangles of some runs in order, small ones as many at a time as are wanted, whatever their runs.
-class run_reader {
-  public:
-    explicit run_reader(std::span<const triangle_run> runs) : runs_(runs) {}
-
-    bool empty() const { return runs_.empty(); }
-
-    /// Sets the names of the next small triangles, Most of them or as many as come before one that isn't small; behind
-    /// those stands the first again, and the second half is scratch.
-    /// @returns how many
-    template <int Most>
-    INSONIFY_INLINE int take_small(std::uint32_t (&names)[static_cast<unsigned>(2 * Most)]) {
-        lanes<std::uint32_t, Most> number;
-        count_up<std::uint32_t, Most>(number);
-        int count = 0;
-        while (count < Most && !runs_.empty() && runs_.front().is_small) {
-            const triangle_run& run = runs_.front();
-            const std::uint32_t some = (std::min)(run.count - taken_, static_cast<std::uint32_t>(Most - count));
-            store(names + count, lanes<std::uint32_t, Most>(number + (run.first + taken_)));
-            count += static_cast<int>(some);
-            taken_ += some;
-            if (taken_ == run.count) advance();
-        }
-        for (int i = count; count > 0 && i < Most; ++i) names[i] = names[0];
-        return count;
-    }
-    /// The next run.
-    triangle_run take_run() {
-        const triangle_run run = runs_.front();
-        advance();
-        return run;
-    }
-
-  private:
-    void advance() {
-        runs_ = runs_.subspan(1);
-        taken_ = 0;
-    }
-
-    std::span<const triangle_run> runs_;
-    std::uint32_t taken_ = 0;  ///< of the first of them
-};
-
-/// The runs of one chunk.
-class tile_runs {
-  public:
-    /// The next triangles, `count` of them from `first` on, and the tiles that each of them touches.
-    void add(std::uint32_t first, std::uint32_t count, const tile_range& tiles, bool is_small) {
-        if (!runs_.empty()) {
-            noted& last = runs_.back();
-            if (last.run.first + last.run.count == first && last.tiles == tiles && last.run.is_small == is_small) {
-                last.run.count += count;
-                return;
-            }
-        }
-        runs_.push_back({tiles, {first, count, is_small}});
-    }
-
-    /// Calls `visit(tile, run)` for every run and each tile that it touches, in order.
-    template <class Visit>
-    void for_each(const tile_grid& grid, const Visit& visit) const {
-        for (const noted& n : runs_) {
-            const pixel_box tiles = n.tiles.box();
-            for (int row = tiles.y0; row <= tiles.y1; ++row)
-                for (int column = tiles.x0; column <= tiles.x1; ++column)
-                    visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
-                              static_cast<std::size_t>(column),
-                          n.run);
-        }
-    }
-
-    /// Adds `offset` to all names from `first` on; no run may go across it.
-    void rename(std::uint32_t first, std::uint32_t offset) {
-        for (noted& n : runs_)
-            if (n.run.first >= first) n.run.first += offset;
-    }
-
-  private:
-    struct noted {
-        tile_range tiles;
-        triangle_run run;
-    };
-    std::vector<noted> runs_;
-};
-
-/// Runs by tile.
-class tile_bins {
-  public:
-    tile_bins() = default;
-
-    /// @param chunks  the runs of all chunks, in submission order
-    template <executor E>
-    tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
-        // Count, then turn the counts into places: by tile first, by chunk within a tile.
-        const std::size_t tiles = grid.count();
-        std::vector<std::uint32_t> places(chunks.size() * tiles, 0);
-        const auto of_chunk = [&](std::size_t chunk) { return std::span(places).subspan(chunk * tiles, tiles); };
-        ex.bulk(chunks.size(), [&](std::size_t chunk) {
-            chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
-        });
-        std::uint32_t place = 0;
-        for (std::size_t tile = 0; tile < tiles; ++tile) {
-            first_[tile] = place;
-            for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
-                const std::uint32_t count = of_chunk(chunk)[tile];
-                of_chunk(chunk)[tile] = place;
-                place += count;
-            }
-        }
-        first_[tiles] = place;
-
-        runs_ = uninitialized_vector<triangle_run>(place, memory_of(ex));
-        ex.bulk(chunks.size(), [&](std::size_t chunk) {
-            chunks[chunk].for_each(
-                grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });
-        });
-    }
-
-    std::span<const triangle_run> operator[](std::size_t tile) const {
-        return std::span(runs_).subspan(first_[tile], first_[tile + 1] - first_[tile]);
-    }
-
-  private:
-    std::vector<std::uint32_t> first_;
-    uninitialized_vector<triangle_run> runs_;
-};
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/detail/double_double.hpp ----------------------------------------------------
 // Numbers of twice a double's precision, as the unevaluated sum of two: for the few pixels whose depth a double can't
@@ -11940,15 +11797,23 @@ struct double_double {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/detail/depth.hpp ----------------------------------------------------------
-// Depth between the vertices, correctly rounded: the float nearest to the plane through the three snapped corners.
+// ------------ insonify/raster/detail/setup.hpp ----------------------------------------------------------
+// Triangle setup: edge functions and a depth plane from three snapped vertices.
 //
-// The plane is computed in double and goes with a bound of its error. Where that leaves two floats to choose from (near
-// the middle between them, or on slivers, whose gradients are differences of almost equal numbers) the shares of the
-// corners decide: they are integers, so the quotient is known to a hundred bits. That a pixel's depth doesn't depend on
-// how it was reached follows from that.
+// Vertices are snapped to fixed point first. Everything after is decided with integers, so two triangles that share an
+// edge agree about every pixel on it. Fixed-point numbers count 2^-s pixels, s = subpixel bits (8 by default), from the
+// image's top left corner; pixel (i, j) has its centre at (i + 1/2, j + 1/2).
 //
-// This work is based on:
+// Fill rule: top-left, as in the Direct3D 11.3 functional specification, 3.4.2.1: a centre exactly on an edge belongs
+// to the triangle if that edge is a top edge (horizontal, above the interior) or a left edge.
+//
+// Exact depth is correctly rounded: the plane is evaluated in double, with a bound of its error. Where the bound leaves
+// two floats to choose from (close to the midpoint between them, or on slivers, whose gradients are differences of
+// almost equal numbers), the barycentric weights decide: they are integers, so the quotient is known to a hundred bits.
+//
+// Based on:
+// Juan Pineda. A Parallel Algorithm for Polygon Rasterization. SIGGRAPH 1988
+// Nicolas Capens. Advanced Rasterization. 2004
 // Abraham Ziv. Fast Evaluation of Elementary Mathematical Functions with Correctly Rounded Last Bit. 1991
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -11957,12 +11822,133 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// z(x, y) at pixel centres of a triangle's own box.
+/// A vertex on the screen: its snapped position, z / w and 1 / w.
+struct screen_vertex {
+    std::int64_t x, y;
+    double z;
+    double inverse_w;
+};
+
+/// A snapped position in 32 bits.
+struct grid_position {
+    std::int32_t x, y;
+
+    /// Marks vertices that are not compact; their triangles are transformed and clipped one by one.
+    static constexpr std::int32_t off_grid = (std::numeric_limits<std::int32_t>::min)();
+    bool is_off_grid() const { return x == off_grid; }
+};
+
+/// The fixed-point grid of an image.
+struct pixel_grid {
+    int subpixel_bits;
+    int width, height;
+
+    /// Coordinates within 2^29 of the image's centre are compact: 32 bits hold them, and 64 bits an edge function.
+    /// Triangles are clipped at 2^50; between the two, edge functions take 128 bits.
+    static constexpr int compact_bits = 29, widest_bits = 50;
+
+    rect pixels() const { return {0, 0, width, height}; }
+    std::int64_t unit() const { return std::int64_t{1} << subpixel_bits; }
+    std::int64_t half() const { return std::int64_t{1} << (subpixel_bits - 1); }
+    std::int64_t center(int pixel) const { return pixel * unit() + half(); }
+    /// The first pixel of an axis whose centre is at a coordinate or beyond, clamped to [0, extent]. By the fill rule
+    /// this is also the end of the pixels in front of a high coordinate.
+    int first_center(std::int64_t coordinate, int extent) const {
+        return static_cast<int>(std::clamp<std::int64_t>((coordinate + half() - 1) >> subpixel_bits, 0, extent));
+    }
+    /// Pixels from the image's centre to the end of coordinates of so many bits.
+    double reach(int bits) const { return static_cast<double>(std::int64_t{1} << bits) / static_cast<double>(unit()); }
+
+    /// Added to a number below 2^51, it leaves the rounded integer in the low bits of the sum.
+    static constexpr double magic = 0x1.8p52;
+
+    /// Rounds a distance in pixels from the centre of an axis, to nearest, ties to even; |pixels| < reach(51).
+    std::int64_t snap(double pixels, int extent) const {
+        const double scaled = pixels * static_cast<double>(unit());
+        const auto rounded = numeric::bit_cast<std::int64_t>(scaled + magic) - numeric::bit_cast<std::int64_t>(magic);
+        return rounded + extent * half();
+    }
+    bool is_compact(const screen_vertex& v) const {
+        constexpr std::int64_t limit = std::int64_t{1} << compact_bits;
+        const std::int64_t x = v.x - width * half(), y = v.y - height * half();
+        return -limit <= x && x <= limit && -limit <= y && y <= limit;
+    }
+};
+
+/// run * down - rise * right: positive on the inner side of an edge of a clockwise triangle. Compact differences stay
+/// within 2^30, so 64 bits hold the result.
+inline std::int64_t compact_side(std::int64_t run, std::int64_t rise, std::int64_t right, std::int64_t down) {
+    return run * down - rise * right;
+}
+inline int128 wide_side(std::int64_t run, std::int64_t rise, std::int64_t right, std::int64_t down) {
+    return int128::product(run, down) - int128::product(rise, right);
+}
+
+/// Twice the signed area in squared fixed-point units; positive for triangles that run clockwise on the screen.
+inline std::int64_t compact_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
+    return compact_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
+}
+inline int128 wide_area(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c) {
+    return wide_side(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y);
+}
+
+/// The pixels of an image whose centres lie in a triangle's bounding box.
+inline rect center_rect(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
+                        const pixel_grid& grid) {
+    return {grid.first_center((std::min)({a.x, b.x, c.x}), grid.width),
+            grid.first_center((std::min)({a.y, b.y, c.y}), grid.height),
+            grid.first_center((std::max)({a.x, b.x, c.x}), grid.width),
+            grid.first_center((std::max)({a.y, b.y, c.y}), grid.height)};
+}
+
+/// Whether the centres in a triangle's bounding box all lie beyond the same side of the image.
+inline bool is_outside(const rect& centers, const pixel_grid& grid) {
+    return centers.x0 == grid.width || centers.y0 == grid.height || centers.x1 == 0 || centers.y1 == 0;
+}
+
+/// E(x, y) >= 0 at the centre of pixel (x, y) exactly if the pixel is on the inner side, fill rule included.
+struct edge_function {
+    std::int64_t origin;  ///< E at the first pixel of the rectangle that it was set up for
+    std::int64_t dx, dy;  ///< per pixel to the right and down
+
+    /// The edge from a to b of a clockwise triangle, for the pixels right of and below (x, y).
+    static edge_function through(const screen_vertex& a, const screen_vertex& b, const pixel_grid& grid, int x, int y,
+                                 bool compact) {
+        const std::int64_t run = b.x - a.x, rise = b.y - a.y;
+        const std::int64_t right = grid.center(x) - a.x, down = grid.center(y) - a.y;
+        const bool top_left = rise < 0 || (rise == 0 && run > 0);
+        const std::int64_t inner = top_left ? 0 : -1;
+        // A pixel is 2^s units wide, so E changes by multiples of 2^s and its sign survives the shift.
+        if (compact) return {(compact_side(run, rise, right, down) + inner) >> grid.subpixel_bits, -rise, run};
+        return {(wide_side(run, rise, right, down) + int128::from(inner)).shifted_down(grid.subpixel_bits), -rise, run};
+    }
+
+    /// Whether E fits 32 bits everywhere in a rectangle of that size.
+    bool is_narrow(int width, int height) const {
+        constexpr std::int64_t limit = std::int64_t{1} << 31;
+        return numeric::magnitude(dx) < limit && numeric::magnitude(dy) < limit && -limit < origin && origin < limit &&
+               numeric::magnitude(origin) + numeric::magnitude(dx) * width + numeric::magnitude(dy) * height < limit;
+    }
+
+    /// An equivalent function for a rectangle of that size. Where E has the same sign at all pixels, it is replaced by
+    /// a constant; otherwise E is below 2^62 all over a tile, however far away the ends of the edge are.
+    edge_function simplified(int width, int height) const {
+        const std::int64_t across = dx * (width - 1), along = dy * (height - 1);
+        constexpr std::int64_t none = 0;
+        const std::int64_t falls = (std::min)(across, none) + (std::min)(along, none);
+        const std::int64_t rises = (std::max)(across, none) + (std::max)(along, none);
+        if (origin >= -falls) return {0, 0, 0};
+        if (origin < -rises) return {-1, 0, 0};
+        return *this;
+    }
+};
+
+/// z(x, y) at pixel centres.
 struct depth_plane {
-    double x, y, z;         ///< the vertex it is anchored at, in pixels from the first pixel's centre
+    double x, y, z;         ///< the vertex that the plane is anchored at, in pixels from the first pixel's centre
     double dx, dy;          ///< per pixel
-    float lowest, highest;  ///< of the corners: nothing between them reaches out
-    double error;           ///< bound of what the plane is off by, anywhere in the triangle's box
+    float lowest, highest;  ///< of the vertices; depths are clamped to these
+    double error;           ///< bound of the plane's error within the triangle's bounding box
 
     /// @param area  twice the triangle's area in squared fixed-point units, positive
     static depth_plane through(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, double area,
@@ -11982,7 +11968,7 @@ struct depth_plane {
         plane.lowest = static_cast<float>(lowest);
         plane.highest = static_cast<float>(highest);
 
-        // A gradient's two products are off by 2^-53 of themselves, and count as many times as the box is wide or high.
+        // Each product of a gradient has a relative error of 2^-53, multiplied by the box's width or height.
         const auto span = [](double u, double v) { return (std::max)({u, v, 0.0}) - (std::min)({u, v, 0.0}); };
         const double swing = 4 * (highest - lowest) * span(bx, cx) * span(by, cy);
         const double largest = (std::max)(numeric::magnitude(lowest), numeric::magnitude(highest)) * area;
@@ -11990,31 +11976,66 @@ struct depth_plane {
         return plane;
     }
 
-    /// The plane at the start of a pixel row, and along it: the same operations in every kernel, hence the same bits.
+    /// The plane at the start of a pixel row. Every kernel uses the same operations, hence gets the same bits.
     double row(int py) const { return z + dy * (static_cast<double>(py) - y); }
 };
 
-/// Which share each corner has in a pixel's centre, times twice the area: exact.
-struct corner_shares {
-    int128 a, b, c;
+/// The float nearest to the plane through three vertices, at a pixel that they cover.
+inline float rounded_depth(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, int px, int py,
+                           const pixel_grid& grid) {
+    // Barycentric weights times twice the area, exact.
+    const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
+        return wide_side(to.x - from.x, to.y - from.y, grid.center(px) - from.x, grid.center(py) - from.y);
+    };
+    const int128 weights[3] = {opposite(b, c), opposite(c, a), opposite(a, b)};
+    const auto wide = [](const int128& v) { return double_double::from(v); };
+    const double_double sum = wide(weights[0]) * a.z + wide(weights[1]) * b.z + wide(weights[2]) * c.z;
+    return (sum / wide(weights[0] + weights[1] + weights[2])).to_float();
+}
 
-    static corner_shares at(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, int px, int py,
-                            const pixel_grid& grid) {
-        const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
-            return wide_side(to.x - from.x, to.y - from.y, grid.center(px) - from.x, grid.center(py) - from.y);
-        };
-        return {opposite(b, c), opposite(c, a), opposite(a, b)};
+/// A triangle of any size, ready for the pixels of a rectangle. The vertices run clockwise on the screen; edges are
+/// named by their ends.
+struct triangle_setup {
+    edge_function bc, ca, ab;
+    depth_plane depth;
+    rect pixels;
+    bool narrow;  ///< the edge functions fit 32 bits all over the rectangle
+
+    /// The vertices must not be collinear.
+    /// @param slack  pixels beyond the end of a row that the pixel loop may evaluate
+    static triangle_setup of(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
+                             const pixel_grid& grid, const rect& pixels, int slack) {
+        const bool compact = grid.is_compact(a) && grid.is_compact(b) && grid.is_compact(c);
+        const double area =
+            compact ? static_cast<double>(compact_area(a, b, c)) : double_double::from(wide_area(a, b, c)).high;
+        triangle_setup t{edge_function::through(b, c, grid, pixels.x0, pixels.y0, compact),
+                         edge_function::through(c, a, grid, pixels.x0, pixels.y0, compact),
+                         edge_function::through(a, b, grid, pixels.x0, pixels.y0, compact),
+                         depth_plane::through(a, b, c, area, grid),
+                         pixels,
+                         true};
+        if (t.is_narrow(slack)) return t;
+        const int width = pixels.width() + slack, height = pixels.height();
+        t.bc = t.bc.simplified(width, height);
+        t.ca = t.ca.simplified(width, height);
+        t.ab = t.ab.simplified(width, height);
+        t.narrow = t.is_narrow(slack);
+        return t;
+    }
+
+    /// Covers all pixels of the rectangle, and none to its right.
+    void cover_all() {
+        bc = ca = {0, 0, 0};
+        ab = {pixels.width() - 1, -1, 0};
+        narrow = true;
+    }
+
+  private:
+    bool is_narrow(int slack) const {
+        const int width = pixels.width() + slack, height = pixels.height();
+        return bc.is_narrow(width, height) && ca.is_narrow(width, height) && ab.is_narrow(width, height);
     }
 };
-
-/// The float nearest to the plane through three corners at a pixel that they cover.
-inline float nearest_depth(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c, int px, int py,
-                           const pixel_grid& grid) {
-    const corner_shares share = corner_shares::at(a, b, c, px, py, grid);
-    const auto wide = [](const int128& v) { return double_double::from(v); };
-    const double_double sum = wide(share.a) * a.z + wide(share.b) * b.z + wide(share.c) * c.z;
-    return (sum / wide(share.a + share.b + share.c)).to_float();
-}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
@@ -12023,11 +12044,15 @@ inline float nearest_depth(const screen_vertex& a, const screen_vertex& b, const
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/detail/clip.hpp -----------------------------------------------------------
-// Clipping of the few triangles that need it: in front of the camera plane, beyond the depth range, or 2^50 sub-pixels
-// outside the picture. Everything else is left to the rectangle of the image.
+// Clipping, and clipped triangles on the pixel grid.
 //
-// Where an edge crosses a plane, the new vertex is the same to the bit from whichever end it is computed. Both
-// triangles that share the edge get it: no crack opens, however many planes cut.
+// Only triangles that reach behind the camera plane, out of the depth range, or 2^50 sub-pixels out of the picture are
+// clipped; the image's rectangle cuts off the rest. Where an edge crosses a plane, the new vertex has the same bits
+// from whichever end it is computed, and both triangles at the edge get it: no crack opens, however many planes cut.
+//
+// Snapping can fold a thin polygon over itself: a vertex that lands on the wrong side of an edge flips one of the
+// triangles that the polygon is divided into, and pixels beside the polygon would be hit. The winding number then
+// decides pixel by pixel, by the same top-left rule.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -12035,25 +12060,26 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A corner of a clipped piece: where it is, and what share each vertex of the whole triangle has in it.
+/// A corner of a clipped triangle: its clip position and its barycentric weights in the whole triangle.
 struct clip_corner {
     glm::dvec4 position;
-    glm::dvec3 shares;
+    glm::dvec3 weights;
 };
 
-/// A convex piece of a triangle: three corners and at most one more for each plane.
+/// The part of a triangle inside all planes, convex: three corners and at most one more for each plane.
 struct clip_polygon {
     static constexpr int planes = 7;
     std::array<clip_corner, 3 + planes> corners;
     int count = 0;
-    bool cut = false;  ///< by any plane
+    bool was_cut = false;  ///< by any plane
 };
 
 /// From clip space to the fixed-point grid.
 class projection {
   public:
-    /// @param exact  divides by w; else multiplies by 1 / w, which is as good but for the last bit. Exact places are
-    ///               the nearest on the grid up to 2^27 sub-pixels from its middle; beyond, but for 2^-52 of the way
+    /// @param exact  whether to divide by w rather than multiply by 1 / w, which may be off in the last bit. Exact
+    ///               positions are the nearest on the grid up to 2^27 sub-pixels from its centre, and within 2^-52 of
+    ///               the distance beyond that
     projection(const pixel_grid& grid, keep_depth keep, bool exact = true)
         : grid_(grid),
           half_width_(0.5 * grid.width),
@@ -12067,7 +12093,7 @@ class projection {
           sign_(keep == keep_depth::smaller ? 1.0 : -1.0),
           exact_(exact) {}
 
-    /// Distance to each clipping plane in clip space, >= 0 inside. The first keeps w away from zero.
+    /// Distance to a clipping plane in clip space, >= 0 inside. The first plane keeps w away from zero.
     double distance(int plane, const glm::dvec4& p) const {
         switch (plane) {
             case 0: return p.w - smallest_w;
@@ -12080,14 +12106,7 @@ class projection {
         }
     }
 
-    /// Inside all planes and compact on the grid; false for NaN and infinity too.
-    bool is_compact(const glm::dvec4& p) const {
-        const double x = numeric::magnitude(p.x), y = numeric::magnitude(p.y);
-        return p.w >= smallest_w && p.z >= 0 && p.z <= p.w && x <= compact_x_ * p.w && y <= compact_y_ * p.w &&
-               p.w <= static_cast<double>((std::numeric_limits<float>::max)());
-    }
-
-    /// Internally smaller depth always wins; a target that keeps the larger one sees it negated.
+    /// Depth is negated where the larger one is kept: in a tile, smaller is always nearer.
     screen_vertex to_screen(const glm::dvec4& p) const {
         const double inverse_w = 1 / p.w;
         const glm::dvec3 over_w = exact_ ? glm::dvec3(p.x / p.w, p.y / p.w, p.z / p.w)
@@ -12096,7 +12115,7 @@ class projection {
                 sign_ * over_w.z, inverse_w};
     }
 
-    /// The same for N positions, by axis. What isn't compact gets the place of what is off the grid.
+    /// The same for N positions, by axis. Vertices that are not compact (or NaN) are marked as off the grid.
     template <int N>
     INSONIFY_INLINE void to_screen(const lanes<double, N> (&p)[4], lanes<std::int64_t, N>& x, lanes<std::int64_t, N>& y,
                                    lanes<double, N>& z, lanes<double, N>& inverse_w) const {
@@ -12121,31 +12140,30 @@ class projection {
         z = z * sign_;
         snap<N>(x, right * right_.units, right_.origin);
         snap<N>(y, down * down_.units, down_.origin);
-        x = compact ? x : masks{} + std::int64_t{grid_place::no_x};
+        x = compact ? x : masks{} + std::int64_t{grid_position::off_grid};
         y = compact ? y : masks{};
     }
 
-    /// The part of a triangle that lies inside all planes (Sutherland and Hodgman, 1974).
+    /// Clips a triangle by all planes (Sutherland and Hodgman, 1974).
     clip_polygon clip(const std::array<glm::dvec4, 3>& triangle) const {
-        clip_polygon piece;
+        clip_polygon polygon;
         for (int i = 0; i < 3; ++i) {
-            const glm::dvec3 share{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
-            piece.corners[static_cast<std::size_t>(i)] = {triangle[static_cast<std::size_t>(i)], share};
+            const glm::dvec3 weights{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
+            polygon.corners[static_cast<std::size_t>(i)] = {triangle[static_cast<std::size_t>(i)], weights};
         }
-        piece.count = 3;
-        for (int plane = 0; plane < clip_polygon::planes && piece.count > 0; ++plane) piece = cut(piece, plane);
-        for (int i = 0; i < piece.count; ++i) move_inside(piece.corners[static_cast<std::size_t>(i)].position);
-        return piece;
+        polygon.count = 3;
+        for (int plane = 0; plane < clip_polygon::planes && polygon.count > 0; ++plane) polygon = cut(polygon, plane);
+        for (int i = 0; i < polygon.count; ++i) move_inside(polygon.corners[static_cast<std::size_t>(i)].position);
+        return polygon;
     }
 
   private:
     static constexpr double smallest_w = 1e-30;
 
-    /// An axis of the way from clip space over w to the grid, as pixel_grid::snap goes it: to scale by a power of two
-    /// at once changes no rounding.
+    /// One axis of pixel_grid::snap; scaling by the width and the power of two at once changes no rounding.
     struct axis {
-        double units;          ///< sub-pixels
-        std::uint64_t origin;  ///< of the picture, less what the magic number leaves
+        double units;          ///< half the picture in sub-pixels
+        std::uint64_t origin;  ///< of the picture, less the bits that the magic number leaves
         axis(const pixel_grid& grid, int extent, double half)
             : units(half * static_cast<double>(grid.unit())),
               origin(static_cast<std::uint64_t>(extent * grid.half() -
@@ -12155,14 +12173,14 @@ class projection {
     INSONIFY_INLINE static void snap(lanes<std::int64_t, N>& into, const lanes<double, N>& units,
                                      std::uint64_t origin) {
         const lanes<double, N> sum = units + pixel_grid::magic;
-        lanes<std::uint64_t, N> bits;  // what isn't compact may wrap around
+        lanes<std::uint64_t, N> bits;  // unsigned: vertices that are not compact may wrap around
         std::memcpy(&bits, &sum, sizeof bits);
         bits = bits + origin;
         std::memcpy(&into, &bits, sizeof into);
     }
 
-    /// What rounding has left outside of a plane, by a little or, next to the eye, by a lot. It depends on the position
-    /// alone, so neighbours go on sharing their corners.
+    /// Clamps a corner that rounding left outside of a plane: by little, or next to the eye by a lot. The result
+    /// depends on the position alone, so triangles that share a corner still do.
     void move_inside(glm::dvec4& p) const {
         p.w = (std::max)(p.w, smallest_w);
         p.x = std::clamp(p.x, -widest_x_ * p.w, widest_x_ * p.w);
@@ -12172,7 +12190,7 @@ class projection {
 
     clip_polygon cut(const clip_polygon& whole, int plane) const {
         clip_polygon kept;
-        kept.cut = whole.cut;
+        kept.was_cut = whole.was_cut;
         const auto keep = [&](const clip_corner& corner) {
             kept.corners[static_cast<std::size_t>(kept.count++)] = corner;
         };
@@ -12182,7 +12200,7 @@ class projection {
             const double d_here = distance(plane, here.position), d_next = distance(plane, next.position);
             const bool here_inside = d_here >= 0, next_inside = d_next >= 0;
             if (here_inside) keep(here);
-            kept.cut |= !here_inside;
+            kept.was_cut |= !here_inside;
             if (here_inside == next_inside) continue;
             clip_corner crossed = crossing(here, d_here, next, d_next);
             if (plane == 0) crossed.position = next_to_eye(here.position, next.position);
@@ -12191,21 +12209,21 @@ class projection {
         return kept;
     }
 
-    /// Where the edge between two corners on either side of a plane meets it. Both shares are positive, so a crossing
-    /// next to the eye doesn't cancel out beside an end that is far away; and exchanging the corners changes no bit.
+    /// Where the edge between two corners on either side of a plane meets it. Both weights are positive, so that a
+    /// crossing next to the eye does not cancel out against a distant end. Exchanging the corners changes no bit.
     static clip_corner crossing(const clip_corner& a, double d_a, const clip_corner& b, double d_b) {
-        const double share_a = d_b / (d_b - d_a), share_b = d_a / (d_a - d_b);
-        return {share_a * a.position + share_b * b.position, share_a * a.shares + share_b * b.shares};
+        const double weight_a = d_b / (d_b - d_a), weight_b = d_a / (d_a - d_b);
+        return {weight_a * a.position + weight_b * b.position, weight_a * a.weights + weight_b * b.weights};
     }
 
-    /// Where an edge crosses w = smallest_w. Interpolated, x, y and z would be what rounding leaves of two large
-    /// numbers, and nothing beside it. Products of floats are exact in doubles, so here an edge with z = w, or one
-    /// through the eye, keeps its proportions. Exchanging the ends changes no bit.
+    /// Where an edge crosses w = smallest_w. Interpolation would cancel: x, y and z are tiny beside those of the ends.
+    /// Products of floats are exact in double, so that here an edge with z = w, or one through the eye, keeps its
+    /// proportions. Exchanging the ends changes no bit.
     static glm::dvec4 next_to_eye(const glm::dvec4& a, const glm::dvec4& b) {
         const double run = b.w - a.w;
         glm::dvec4 p(0, 0, 0, smallest_w);
         for (int i = 0; i < 3; ++i) p[i] = ((a[i] * b.w - b[i] * a.w) + smallest_w * (b[i] - a[i])) / run;
-        // What both ends are inside of, everything between them is.
+        // A plane with both ends inside has everything between them inside.
         if (a.z >= 0 && b.z >= 0) p.z = (std::max)(p.z, 0.0);
         if (a.z <= a.w && b.z <= b.w) p.z = (std::min)(p.z, smallest_w);
         return p;
@@ -12220,23 +12238,7 @@ class projection {
     bool exact_;
 };
 
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/raster/detail/fold.hpp -----------------------------------------------------------
-// A clipped triangle on the pixel grid. Rounding can fold a thin polygon over itself: a corner that lands on the wrong
-// side of an edge turns one of the triangles it is cut into around, and pixels beside the polygon would be hit. So the
-// winding number decides there, pixel by pixel, by the same top-left rule.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
+/// A clipped triangle, snapped.
 class screen_polygon {
   public:
     screen_polygon(const clip_polygon& polygon, const projection& p) : count_(polygon.count) {
@@ -12257,18 +12259,18 @@ class screen_polygon {
     }
 
     const screen_vertex& at(int corner) const { return corners_[static_cast<std::size_t>(corner)]; }
-    /// 1 for clockwise on the screen, -1 for counter-clockwise, 0 for nothing.
+    /// 1 for clockwise on the screen, -1 for counter-clockwise, 0 for no area.
     int area_sign() const { return area_sign_; }
 
-    /// Calls `part(corners, box, is_run)` for disjoint parts that cover what the polygon covers: triangles of three of
-    /// its corners; or, of a folded one, runs of pixels in the plane of three of its corners.
+    /// Calls `part(corners, pixels, is_run)` for disjoint parts of the polygon: triangles of three of its corners; or,
+    /// if it is folded, runs of covered pixels in the plane of three of its corners.
     template <class Part>
     void for_each_part(const pixel_grid& grid, const Part& part) const {
         if (turns_[0] && turns_[2]) return for_each_run(grid, part);
         for (int i = 1; i + 1 < count_; ++i) {
-            const pixel_box box = center_box(at(0), at(i), at(i + 1), grid);
-            if (!box.empty() && wide_area(at(0), at(i), at(i + 1)).sign() != 0)
-                part(std::array<int, 3>{0, i, i + 1}, box, false);
+            const rect pixels = center_rect(at(0), at(i), at(i + 1), grid);
+            if (!pixels.empty() && wide_area(at(0), at(i), at(i + 1)).sign() != 0)
+                part(std::array<int, 3>{0, i, i + 1}, pixels, false);
         }
     }
 
@@ -12276,24 +12278,24 @@ class screen_polygon {
     template <class Part>
     void for_each_run(const pixel_grid& grid, const Part& part) const {
         const std::array<int, 3> plane{0, largest_part_, largest_part_ + 1};
-        pixel_box all{grid.width, grid.height, -1, -1};
+        rect all{grid.width, grid.height, 0, 0};
         for (int i = 1; i + 1 < count_; ++i) {
-            const pixel_box box = center_box(at(0), at(i), at(i + 1), grid);
-            if (box.empty()) continue;
-            all = {(std::min)(all.x0, box.x0), (std::min)(all.y0, box.y0), (std::max)(all.x1, box.x1),
-                   (std::max)(all.y1, box.y1)};
+            const rect r = center_rect(at(0), at(i), at(i + 1), grid);
+            if (r.empty()) continue;
+            all = {(std::min)(all.x0, r.x0), (std::min)(all.y0, r.y0), (std::max)(all.x1, r.x1),
+                   (std::max)(all.y1, r.y1)};
         }
-        for (int y = all.y0; y <= all.y1; ++y)
-            for (int x = all.x0; x <= all.x1; ++x) {
+        for (int y = all.y0; y < all.y1; ++y)
+            for (int x = all.x0; x < all.x1; ++x) {
                 if (winding(x, y, grid) * area_sign_ <= 0) continue;
                 const int first = x;
-                while (x < all.x1 && winding(x + 1, y, grid) * area_sign_ > 0) ++x;
-                part(plane, pixel_box{first, y, x, y}, true);
+                while (x < all.x1 && winding(x, y, grid) * area_sign_ > 0) ++x;
+                part(plane, rect{first, y, x, y + 1}, true);
             }
     }
 
-    /// How often the outline runs clockwise around a pixel's centre, which the fill rule puts a hair to the right of
-    /// where it is, and by a hair of that hair lower.
+    /// The winding number of the outline around a pixel's centre, clockwise. The fill rule shifts the centre to the
+    /// right by an infinitesimal amount, and downwards by one of second order.
     int winding(int px, int py, const pixel_grid& grid) const {
         const std::int64_t x = grid.center(px), y = grid.center(py);
         int sum = 0;
@@ -12310,7 +12312,7 @@ class screen_polygon {
 
     std::array<screen_vertex, 3 + clip_polygon::planes> corners_;
     int count_;
-    bool turns_[3] = {};  ///< whether a part runs counter-clockwise, has no area, runs clockwise
+    bool turns_[3] = {};  ///< whether a part runs counter-clockwise, is degenerate, runs clockwise
     int128 largest_{};
     int largest_part_ = 1;
     int area_sign_ = 0;
@@ -12322,12 +12324,15 @@ class screen_polygon {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/detail/small.hpp ----------------------------------------------------------
-// Small triangles, of which a fine mesh is made: several go through the set-up at a time, one per lane, in 32 bits.
+// ------------ insonify/raster/detail/small_setup.hpp ----------------------------------------------------
+// Setup of small triangles, of which a fine mesh is made: N at a time, one per lane, in 32 bits.
 //
-// A triangle is small if it extends less than 2^15 sub-pixels, 8 pixels at 12 sub-pixel bits: then edge functions are
-// sums of two products of less than 2^30 each, and fit 32 bits. What is decided here is what setup.hpp decides for
-// triangles of any size, in the same integers.
+// A triangle is small if it extends less than 2^15 sub-pixels (8 pixels at 12 sub-pixel bits): then edge functions are
+// sums of two products of less than 2^30 each, and fit 32 bits. The integers are those of setup.hpp, and so are all
+// decisions.
+//
+// Exact depths are the planes of setup.hpp, in double with a bound of the error. Quick depths are in float. Either way
+// a pixel gets the same depth whichever tile evaluates it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -12335,18 +12340,18 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// N boxes of pixels.
+/// N rectangles of pixels, half open.
 template <int N>
-struct box_lanes {
+struct rect_lanes {
     using ints = lanes<std::int32_t, N>;
     ints x0, y0, x1, y1;
 
-    INSONIFY_INLINE void is_empty(ints& into) const { into = ints((x1 < x0) | (y1 < y0)); }
-    /// Which share no column or no row with another, each being a box.
-    INSONIFY_INLINE void is_beside(const box_lanes& other, ints& into) const {
-        into = ints((x0 > other.x1) | (x1 < other.x0) | (y0 > other.y1) | (y1 < other.y0));
+    INSONIFY_INLINE void is_empty(ints& into) const { into = ints((x1 <= x0) | (y1 <= y0)); }
+    /// Whether two rectangles have no column or no row in common.
+    INSONIFY_INLINE void is_disjoint(const rect_lanes& other, ints& into) const {
+        into = ints((x0 >= other.x1) | (x1 <= other.x0) | (y0 >= other.y1) | (y1 <= other.y0));
     }
-    INSONIFY_INLINE void cut_to(const box_lanes& other) {
+    INSONIFY_INLINE void intersect(const rect_lanes& other) {
         x0 = x0 > other.x0 ? x0 : other.x0;
         y0 = y0 > other.y0 ? y0 : other.y0;
         x1 = x1 < other.x1 ? x1 : other.x1;
@@ -12354,33 +12359,31 @@ struct box_lanes {
     }
 };
 
-/// Where triangles are looked for: what is the same for all of them, ready to be compared with.
+/// The rectangle that triangles are drawn into, with its grid, broadcast to all lanes.
 template <int N>
 struct drawn_area {
     using ints = lanes<std::int32_t, N>;
-    box_lanes<N> box;
-    ints half;           ///< of a pixel, in sub-pixels
-    ints before, after;  ///< a sub-pixel less and more
-    int bits;            ///< of sub-pixels
+    rect_lanes<N> pixels;
+    ints half, before;  ///< half a pixel in sub-pixels, and one sub-pixel less
+    int bits;           ///< of sub-pixels
 
-    INSONIFY_INLINE drawn_area(const pixel_grid& grid, const pixel_box& pixels)
-        : box{ints{} + pixels.x0, ints{} + pixels.y0, ints{} + pixels.x1, ints{} + pixels.y1},
+    INSONIFY_INLINE drawn_area(const pixel_grid& grid, const rect& r)
+        : pixels{ints{} + r.x0, ints{} + r.y0, ints{} + r.x1, ints{} + r.y1},
           half(ints{} + static_cast<std::int32_t>(grid.half())),
           before(half - 1),
-          after(half + 1),
           bits(grid.subpixel_bits) {}
 };
 
-/// Where the corners of N triangles lie, and how far they extend.
+/// The vertices of N triangles and their bounding boxes.
 template <int N>
-struct corner_lanes {
+struct triangle_lanes {
     using ints = lanes<std::int32_t, N>;
     ints ax, ay, bx, by, cx, cy;
     ints west, north, east, south;
 
-    /// @param read  read(i, x, y): sets where corner i of each triangle lies
+    /// @param read  read(i, x, y) sets the position of vertex i of each triangle
     template <class Read>
-    INSONIFY_INLINE explicit corner_lanes(const Read& read) {
+    INSONIFY_INLINE explicit triangle_lanes(const Read& read) {
         read(0, ax, ay);
         read(1, bx, by);
         read(2, cx, cy);
@@ -12388,21 +12391,21 @@ struct corner_lanes {
         extend(north, south, ay, by, cy);
     }
 
-    INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_place::no_x)); }
-    /// Whether all of them are small; of those on the grid.
+    INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_position::off_grid)); }
+    /// Whether all of them are small; they must be on the grid.
     INSONIFY_INLINE bool are_small() const {
-        constexpr std::int32_t most = (1 << 15) - 1;
-        return !any(ints(((east - west) | (south - north)) >= most));
+        constexpr std::int32_t limit = (1 << 15) - 1;
+        return !any(ints(((east - west) | (south - north)) >= limit));
     }
-    /// Twice the area, positive for clockwise on the screen; of small ones.
+    /// Twice the areas, positive for clockwise on the screen; only of small triangles.
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }
 
-    /// The pixels whose centres the triangles' bounding boxes hold, see pixel_grid::first_center.
-    INSONIFY_INLINE void centers(const drawn_area<N>& area, box_lanes<N>& into) const {
+    /// The pixels whose centres lie in the bounding boxes, see pixel_grid::first_center.
+    INSONIFY_INLINE void centers(const drawn_area<N>& area, rect_lanes<N>& into) const {
         into.x0 = (west + area.before) >> area.bits;
         into.y0 = (north + area.before) >> area.bits;
-        into.x1 = (east - area.after) >> area.bits;
-        into.y1 = (south - area.after) >> area.bits;
+        into.x1 = (east + area.before) >> area.bits;
+        into.y1 = (south + area.before) >> area.bits;
     }
 
   private:
@@ -12414,7 +12417,7 @@ struct corner_lanes {
     }
 };
 
-/// Edge functions and pixels of N small triangles, in memory: the pixel loop takes them one by one.
+/// Edge functions and pixels of N small triangles, in memory: the pixel loop reads them one by one.
 template <int N>
 struct small_setup {
     using ints = lanes<std::int32_t, N>;
@@ -12424,23 +12427,23 @@ struct small_setup {
     edge_lanes bc, ca, ab;
     std::int32_t x0[static_cast<unsigned>(N)], y0[static_cast<unsigned>(N)], x1[static_cast<unsigned>(N)],
         y1[static_cast<unsigned>(N)];
-    std::int32_t right[static_cast<unsigned>(N)], down[static_cast<unsigned>(N)];  ///< from a to the first pixel
+    std::int32_t right[static_cast<unsigned>(N)], down[static_cast<unsigned>(N)];  ///< from a to the first centre
 
-    /// @param at  corners in clockwise order
-    INSONIFY_INLINE small_setup(const corner_lanes<N>& at, const drawn_area<N>& area) {
-        box_lanes<N> box;
-        at.centers(area, box);
-        box.cut_to(area.box);
-        store(x0, box.x0);
-        store(y0, box.y0);
-        store(x1, box.x1);
-        store(y1, box.y1);
-        const ints x = (box.x0 << area.bits) + area.half, y = (box.y0 << area.bits) + area.half;
-        store(right, ints(x - at.ax));
-        store(down, ints(y - at.ay));
-        edge(bc, at.bx, at.by, at.cx, at.cy, x, y, area.bits);
-        edge(ca, at.cx, at.cy, at.ax, at.ay, x, y, area.bits);
-        edge(ab, at.ax, at.ay, at.bx, at.by, x, y, area.bits);
+    /// @param t  vertices in clockwise order
+    INSONIFY_INLINE small_setup(const triangle_lanes<N>& t, const drawn_area<N>& area) {
+        rect_lanes<N> pixels;
+        t.centers(area, pixels);
+        pixels.intersect(area.pixels);
+        store(x0, pixels.x0);
+        store(y0, pixels.y0);
+        store(x1, pixels.x1);
+        store(y1, pixels.y1);
+        const ints x = (pixels.x0 << area.bits) + area.half, y = (pixels.y0 << area.bits) + area.half;
+        store(right, ints(x - t.ax));
+        store(down, ints(y - t.ay));
+        edge(bc, t.bx, t.by, t.cx, t.cy, x, y, area.bits);
+        edge(ca, t.cx, t.cy, t.ax, t.ay, x, y, area.bits);
+        edge(ab, t.ax, t.ay, t.bx, t.by, x, y, area.bits);
     }
 
   private:
@@ -12455,6 +12458,54 @@ struct small_setup {
     }
 };
 
+/// Depth planes of N small triangles, in memory. Real is double for exact depths and float for quick ones.
+template <int N, class Real>
+struct small_planes {
+    static constexpr bool exact = std::is_same_v<Real, double>;
+    using reals = lanes<Real, N>;
+    static constexpr auto count = static_cast<std::size_t>(N);
+
+    Real z[count];              ///< at vertex a
+    Real dx[count], dy[count];  ///< per sub-pixel
+    Real error[count];          ///< bound, see depth_plane; only of exact planes
+    float lowest[count], highest[count];
+
+    /// @param t     vertices in clockwise order
+    /// @param area  twice the triangles' areas in squared sub-pixels; planes of triangles without area are not read
+    INSONIFY_INLINE small_planes(const triangle_lanes<N>& t, const lanes<std::int32_t, N>& area, const reals& az,
+                                 const reals& bz, const reals& cz) {
+        reals bx, by, cx, cy, scale;
+        convert(bx, t.bx - t.ax);
+        convert(by, t.by - t.ay);
+        convert(cx, t.cx - t.ax);
+        convert(cy, t.cy - t.ay);
+        convert(scale, area);
+        scale = Real{1} / scale;
+        const reals b_rise = bz - az, c_rise = cz - az;
+        store(z, az);
+        store(dx, reals(scale * (b_rise * cy - c_rise * by)));
+        store(dy, reals(scale * (c_rise * bx - b_rise * cx)));
+
+        reals low = az < bz ? az : bz, high = az > bz ? az : bz;
+        low = low < cz ? low : cz;
+        high = high > cz ? high : cz;
+        lanes<float, N> narrow;
+        convert(narrow, low);
+        store(lowest, narrow);
+        convert(narrow, high);
+        store(highest, narrow);
+        if constexpr (exact) {
+            // See depth_plane::through.
+            reals wide, tall;
+            convert(wide, t.east - t.west);
+            convert(tall, t.south - t.north);
+            const reals above = high < 0.0 ? 0.0 - high : high, below = low < 0.0 ? 0.0 - low : low;
+            const reals largest = above > below ? above : below;
+            store(error, reals(0x1p-49 * (4 * (high - low) * wide * tall * scale + largest)));
+        }
+    }
+};
+
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -12462,16 +12513,16 @@ struct small_setup {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/interpolatable.hpp --------------------------------------------------------
-// Whether a type consists of floats alone: what can be interpolated between the vertices of a triangle.
+// Whether a type consists of floats alone, so that it can be interpolated between the vertices of a triangle.
 //
-// An aggregate is looked into: it is initialized from values that convert to float, to vectors of float and to
-// aggregates of those, and from values that convert to any other scalar or class, too. If as many of the first kind fit
-// as of the second, all members are made of floats.
+// Aggregates are examined by how many values initialize them: first with values that convert to float, to vectors of
+// float and to aggregates of those, then with values that convert to every other scalar and class as well. If the two
+// counts are equal, all members are made of floats.
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// For classes that are no aggregates: specialize it as true for your own vector of floats.
+/// Specialize as true for a vector of floats that is not an aggregate and has no `value_type`.
 template <class V>
 inline constexpr bool is_vector_of_floats = requires {
     requires std::is_same_v<typename V::value_type, float>;
@@ -12498,20 +12549,20 @@ struct converts_to_members {
 template <class Value, std::size_t>
 using repeated = Value;
 template <class V, class Value, std::size_t... I>
-constexpr bool takes(std::index_sequence<I...>) {
+constexpr bool is_initialized_by(std::index_sequence<I...>) {
     return requires {
         V{repeated<Value, I>{}...};
     };
 }
-/// The largest number of values that initialize an aggregate.
+/// The largest number of values that initialize an aggregate, at most Count.
 template <class V, class Value, std::size_t Count>
-constexpr std::size_t most_members() {
+constexpr std::size_t member_count() {
     if constexpr (Count == 0)
         return 0;
-    else if constexpr (takes<V, Value>(std::make_index_sequence<Count>{}))
+    else if constexpr (is_initialized_by<V, Value>(std::make_index_sequence<Count>{}))
         return Count;
     else
-        return most_members<V, Value, Count - 1>();
+        return member_count<V, Value, Count - 1>();
 }
 
 template <class V>
@@ -12524,13 +12575,13 @@ constexpr bool consists_of_floats() {
         return false;
     } else {
         constexpr std::size_t floats = sizeof(V) / sizeof(float);
-        return most_members<V, converts_to_floats, floats>() == most_members<V, converts_to_members, floats>();
+        return member_count<V, converts_to_floats, floats>() == member_count<V, converts_to_members, floats>();
     }
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// Made of floats alone: float, glm::vec2..4, arrays and aggregates of those.
+/// Made of floats alone: float, glm::vec2..4, and arrays and aggregates of those.
 template <class V>
 concept interpolatable = std::is_trivially_copyable_v<V> && detail::consists_of_floats<V>();
 
@@ -12538,36 +12589,37 @@ concept interpolatable = std::is_trivially_copyable_v<V> && detail::consists_of_
 }  // namespace insonify
 
 // ------------ insonify/raster/shader.hpp ----------------------------------------------------------------
-// What people bring to a draw: a callable that places vertices, and one that is asked for each visible pixel.
+// Shaders: callables that the rasterizer inlines into its loops.
 //
-// Both are plain callables, inlined into the loops. They must be pure: a vertex may be placed several times, and pixels
-// are asked for in any order and on any thread.
+// A vertex shader maps a vertex to clip space; a fragment shader is called once for every visible pixel. Either may be
+// written for one vertex or pixel, or over SIMD lanes for several at a time. Both must be pure: vertices may be shaded
+// more than once, and pixels in any order and on any thread.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What a vertex callable receives.
+/// Input of a vertex shader.
 struct vertex {
     glm::vec3 position;
     glm::vec3 normal;  ///< zero where the mesh has none
     std::uint32_t index;
 };
 
-/// A vertex placed in clip space, with the values that pixels between the vertices shall see interpolated.
-/// Visible is -w <= x <= w, -w <= y <= w (y up), 0 <= z <= w.
+/// Output of a vertex shader that has varyings. Visible is -w <= x <= w, -w <= y <= w (y up), 0 <= z <= w.
 template <class Varyings>
 struct placed_vertex {
     glm::vec4 clip;
-    Varyings varyings;
+    Varyings varyings;  ///< interpolated between the vertices for fragment shaders
 };
 
-/// `shader(vertex)` gives a clip position, alone (glm::vec4) or with varyings (placed_vertex).
+/// `shader(vertex)` returns a clip position.
 template <class S>
 concept position_shader = requires(const S& shader, const vertex& v) {
     { shader(v) } -> std::convertible_to<glm::vec4>;
 };
+/// `shader(vertex)` returns a placed_vertex.
 template <class S>
 concept varying_shader = requires(const S& shader, const vertex& v) {
     { shader(v).clip } -> std::convertible_to<glm::vec4>;
@@ -12576,7 +12628,16 @@ concept varying_shader = requires(const S& shader, const vertex& v) {
 template <class S>
 concept vertex_shader = position_shader<S> || varying_shader<S>;
 
-/// Stands for the varyings of a shader that has none.
+/// A vertex shader that can also shade several vertices at a time: `shader(clip, varyings, position, normal)` takes
+/// arrays of SIMD values, one array element per float, and sets the first two to the same bits that `shader(vertex)`
+/// returns. Normals are zero if the mesh has none, or if only depth is drawn.
+template <class S, class Floats>
+concept vertex_lane_shader = vertex_shader<S> &&
+    requires(const S& shader, Floats (&four)[4], const Floats (&three)[3]) {
+    shader(four, &four[0], three, three);
+};
+
+/// The varyings of a shader that has none.
 struct no_varyings {};
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -12598,18 +12659,6 @@ INSONIFY_INLINE glm::vec4 position_of(const placed_vertex<Varyings>& placed) {
     return placed.clip;
 }
 
-/// A vertex callable that takes several vertices at a time, too: `shader(clip, varyings, position, normal)` sets the
-/// first two, float by float, and they are the same bits that `shader(vertex)` gives.
-template <class S, class Floats>
-concept lane_shader = vertex_shader<S> && requires(const S& shader, Floats (&four)[4], const Floats (&three)[3]) {
-    shader(four, &four[0], three, three);
-};
-
-template <vertex_shader S>
-INSONIFY_INLINE glm::vec4 clip_position(const S& shader, const vertex& v) {
-    return position_of(shader(v));
-}
-
 template <vertex_shader S>
 INSONIFY_INLINE auto varyings_at(const S& shader, const vertex& v) {
     if constexpr (position_shader<S>)
@@ -12618,7 +12667,7 @@ INSONIFY_INLINE auto varyings_at(const S& shader, const vertex& v) {
         return shader(v).varyings;
 }
 
-/// The mean of three values by weights, float by float, each rounded once.
+/// The weighted mean of three values, computed in double and rounded once per float.
 template <class V>
 INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3& weights) {
     if constexpr (std::is_empty_v<V>) {
@@ -12642,22 +12691,41 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
 template <vertex_shader S>
 using varyings_of = typename detail::shader_varyings<S>::type;
 
-/// What a fragment callable receives: one visible pixel of one triangle.
+/// Input of a fragment shader: one visible pixel of one triangle.
 template <class Varyings>
 struct fragment {
     int x, y;                ///< pixel, row 0 at the top
     float depth;             ///< z / w at the pixel's centre
     std::uint32_t triangle;  ///< index into mesh.triangles
-    glm::vec3 weights;       ///< of the triangle's three vertices, perspective-correct, sum 1
+    glm::vec3 weights;       ///< barycentric, perspective-correct
     bool front;              ///< seen from its counter-clockwise side
     Varyings varyings;       ///< interpolated perspective-correctly
 };
 
-/// `shader(fragment)` gives the pixel's new value, or nothing if it stores what it wants by itself: every visible pixel
-/// is asked for exactly once per draw, after all of the draw's triangles have been resolved against each other.
+/// `shader(fragment)` returns the pixel's new value, or nothing if it stores its results itself. It is called exactly
+/// once for every visible pixel, after all triangles of the draw have been tested against each other.
 template <class S, class Varyings, class Pixel>
 concept fragment_shader = requires(const S& shader, const fragment<Varyings>& f) {
+    shader(f);
     requires std::is_void_v<Pixel> || std::is_convertible_v<decltype(shader(f)), Pixel>;
+};
+
+inline namespace INSONIFY_FLAGS {
+
+template <int N, class Varyings>
+class fragment_lanes;
+
+}  // namespace INSONIFY_FLAGS
+
+/// `shader(fragment_lanes<N, Varyings>)` shades N adjacent pixels of a row and stores its results itself, for every N
+/// that the build dispatches to (1, 4, 8). Weights and varyings are computed in float; those of a fragment_shader are
+/// rounded once from doubles.
+///
+/// If it has a member `clear(rect)`, draws that clear the depth call it for each tile before the tile's pixels are
+/// shaded.
+template <class S, class Varyings>
+concept fragment_lane_shader = requires(const S& shader, const fragment_lanes<INSONIFY_SIMD ? 4 : 1, Varyings>& f) {
+    shader(f);
 };
 
 }  // namespace INSONIFY_ABI
@@ -12665,9 +12733,8 @@ concept fragment_shader = requires(const S& shader, const fragment<Varyings>& f)
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/detail/placement.hpp ------------------------------------------------------
-// Vertices on the screen: placed by the vertex callable one by one, divided by w and rounded to the grid several at a
-// time.
+// ------------ insonify/raster/detail/vertices.hpp -------------------------------------------------------
+// The vertex stage: calls the vertex shader, divides by w, and snaps positions to the grid, several at a time.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -12675,49 +12742,49 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A vertex on the screen, as millions of them are kept: sixteen bytes, which a lane takes in one load.
+/// A vertex on the screen in sixteen bytes, which a lane loads at once. Depth is double where it is to be exact.
 template <class Real>
-struct kept_vertex;
+struct packed_vertex;
 template <>
-struct kept_vertex<float> {
-    grid_place place;
+struct packed_vertex<float> {
+    grid_position position;
     float depth;
     float inverse_w;
 };
 template <>
-struct kept_vertex<double> {
-    grid_place place;
+struct packed_vertex<double> {
+    grid_position position;
     double depth;
 };
 
-/// Vertices on the screen. Those that aren't compact are marked and seen to triangle by triangle.
-/// They are left as memory comes until they are set, every one.
+/// The vertices of a mesh on the screen, uninitialized until the vertex stage has set every one. Those that are not
+/// compact are marked as off the grid.
 template <class Real>
 struct screen_vertices {
-    uninitialized_vector<kept_vertex<Real>> kept;
-    uninitialized_vector<double> inverse_w;  ///< where weights_at will be asked for
+    uninitialized_vector<packed_vertex<Real>> packed;
+    uninitialized_vector<double> inverse_w;  ///< empty if no weights in double are needed
 
-    screen_vertices(std::size_t count, bool weighed, const shared_pool& memory)
-        : kept(count, memory), inverse_w(weighed ? count : 0, memory) {}
+    screen_vertices(std::size_t count, bool has_inverse_w, const shared_pool& memory)
+        : packed(count, memory), inverse_w(has_inverse_w ? count : 0, memory) {}
 
     screen_vertex operator[](std::size_t i) const {
-        const kept_vertex<Real>& v = kept[i];
-        return {v.place.x, v.place.y, static_cast<double>(v.depth), inverse_w.empty() ? 1 : inverse_w[i]};
+        const packed_vertex<Real>& v = packed[i];
+        return {v.position.x, v.position.y, static_cast<double>(v.depth), inverse_w.empty() ? 1 : inverse_w[i]};
     }
 };
 
 /// N vertices on the screen, one per lane.
 template <int N, class Real>
-struct kept_lanes {
+struct vertex_lanes {
     lanes<std::int32_t, N> x, y;
     lanes<Real, N> depth;
-    lanes<float, N> inverse_w;  ///< of quick depths
+    lanes<float, N> inverse_w;  ///< only of packed_vertex<float>
 
-    /// @param vertex  vertex(k): the kept vertex of lane k
+    /// @param vertex  vertex(k) returns the packed vertex of lane k
     template <class Vertex>
-    INSONIFY_INLINE explicit kept_lanes(const Vertex& vertex) {
+    INSONIFY_INLINE explicit vertex_lanes(const Vertex& vertex) {
         if constexpr (std::is_same_v<Real, float>) {
-            static_assert(sizeof(kept_vertex<float>) == 4 * sizeof(float));
+            static_assert(sizeof(packed_vertex<float>) == 4 * sizeof(float));
             lanes<float, N> column[4];
             transpose<N>(column, [&](int k) { return reinterpret_cast<const float*>(&vertex(k)); });
             std::memcpy(&x, &column[0], sizeof x);
@@ -12725,7 +12792,7 @@ struct kept_lanes {
             depth = column[2];
             inverse_w = column[3];
         } else {
-            gather_pairs<N>(x, y, [&](int k) { return &vertex(k).place.x; });
+            gather_pairs<N>(x, y, [&](int k) { return &vertex(k).position.x; });
             gather<N>(depth, [&](int k) { return vertex(k).depth; });
         }
     }
@@ -12735,22 +12802,22 @@ inline vertex mesh_vertex(const mesh_view& m, std::uint32_t index) {
     return {m.positions[index], m.normals.empty() ? glm::vec3(0) : m.normals[index], index};
 }
 
-/// What pixels read of a vertex: its varyings, float by float, filled up to whole vectors of four.
+/// The varyings of a vertex for shading over lanes, padded to whole vectors of four floats.
 template <class Varyings>
-struct alignas((sizeof(Varyings) + 15) / 16 == 2 ? 32 : 16) vertex_record {
+struct alignas((sizeof(Varyings) + 15) / 16 == 2 ? 32 : 16) varyings_record {
     static constexpr int blocks = (static_cast<int>(sizeof(Varyings) / sizeof(float)) + 3) / 4;
     float values[static_cast<unsigned>(4 * blocks)];
 
     void set(const Varyings& varyings) { std::memcpy(values, &varyings, sizeof varyings); }
 };
 
-/// Nothing of that.
+/// For draws that keep no varyings.
 struct no_record {};
 inline constexpr no_record* no_records = nullptr;
 
-/// Places a range of a mesh's vertices; what the vertex callable gives beside the place goes into the records.
+/// Shades and snaps a range of a mesh's vertices; their varyings go into the records.
 template <class Shader, class Record, class Real>
-struct placement_kernel {
+struct vertex_kernel {
     const mesh_view& m;
     const Shader& shader;
     Record* records;
@@ -12761,41 +12828,41 @@ struct placement_kernel {
     template <int Width>
     INSONIFY_INLINE void run() const {
         constexpr int N = Width > 1 ? Width / 2 : 1;
-        for (std::size_t i = first; i < last; i += N) place<N>(i, (std::min)(last - i, std::size_t{N}));
+        for (std::size_t i = first; i < last; i += N) transform<N>(i, (std::min)(last - i, std::size_t{N}));
     }
 
   private:
     static constexpr bool quick = std::is_same_v<Real, float>, recorded = !std::is_same_v<Record, no_record>;
 
     template <int N>
-    INSONIFY_INLINE void place(std::size_t start, std::size_t count) const {
+    INSONIFY_INLINE void transform(std::size_t start, std::size_t count) const {
         lanes<float, N> clip[4];
-        bool asked = false;
-        if constexpr (N == 4 && lane_shader<Shader, lanes<float, N>>) {
-            asked = count == N;
-            if (asked) ask_in_lanes(clip, start);
+        bool shaded = false;
+        if constexpr (N == 4 && vertex_lane_shader<Shader, lanes<float, N>>) {
+            shaded = count == N;
+            if (shaded) shade_lanes(clip, start);
         }
-        if (!asked) ask_one_by_one<N>(clip, start, count);
+        if (!shaded) shade_one_by_one<N>(clip, start, count);
 
         lanes<double, N> p[4], z, inverse_w;
         for (int axis = 0; axis < 4; ++axis) convert(p[axis], clip[axis]);
         lanes<std::int64_t, N> x, y;
         screen.template to_screen<N>(p, x, y, z, inverse_w);
         if constexpr (N == 4 && quick) {
-            if (count == N) return keep_four(start, x, y, z, inverse_w);
+            if (count == N && vertices.inverse_w.empty()) return store_four(start, x, y, z, inverse_w);
         }
         for (std::size_t k = 0; k < count; ++k) {
             const int i = static_cast<int>(k);
-            kept_vertex<Real>& kept = vertices.kept[start + k];
-            kept.place = {static_cast<std::int32_t>(lane(x, i)), static_cast<std::int32_t>(lane(y, i))};
-            kept.depth = static_cast<Real>(lane(z, i));
-            if constexpr (quick) kept.inverse_w = static_cast<float>(lane(inverse_w, i));
+            packed_vertex<Real>& packed = vertices.packed[start + k];
+            packed.position = {static_cast<std::int32_t>(lane(x, i)), static_cast<std::int32_t>(lane(y, i))};
+            packed.depth = static_cast<Real>(lane(z, i));
+            if constexpr (quick) packed.inverse_w = static_cast<float>(lane(inverse_w, i));
             if (!vertices.inverse_w.empty()) vertices.inverse_w[start + k] = lane(inverse_w, i);
         }
     }
 
     template <int N>
-    INSONIFY_INLINE void ask_one_by_one(lanes<float, N> (&clip)[4], std::size_t start, std::size_t count) const {
+    INSONIFY_INLINE void shade_one_by_one(lanes<float, N> (&clip)[4], std::size_t start, std::size_t count) const {
         float values[4][static_cast<unsigned>(N)];
         for (std::size_t k = 0; k < std::size_t{N}; ++k) {
             const std::size_t i = start + (k < count ? k : 0);
@@ -12810,16 +12877,13 @@ struct placement_kernel {
 #if INSONIFY_SIMD
     using floats = lanes<float, 4>;
 
-    INSONIFY_INLINE void ask_in_lanes(floats (&clip)[4], std::size_t start) const {
-        floats position[3], normal[3] = {};
+    INSONIFY_INLINE void shade_lanes(floats (&clip)[4], std::size_t start) const {
+        constexpr int blocks = varyings_record<varyings_of<Shader>>::blocks;
+        floats position[3], normal[3] = {}, varyings[static_cast<unsigned>(4 * blocks + 1)] = {};
         transpose_threes(position, &m.positions[start].x);
-        if constexpr (!recorded) {
-            floats none;
-            shader(clip, &none, position, normal);
-        } else {
-            if (!m.normals.empty()) transpose_threes(normal, &m.normals[start].x);
-            floats varyings[static_cast<unsigned>(4 * Record::blocks)] = {};
-            shader(clip, varyings, position, normal);
+        if (recorded && !m.normals.empty()) transpose_threes(normal, &m.normals[start].x);
+        shader(clip, varyings, position, normal);
+        if constexpr (recorded) {
             unroll<Record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
                 floats rows[4];
                 transpose_fours<4>(rows, reinterpret_cast<const floats(&)[4]>(varyings[4 * block]));
@@ -12830,24 +12894,24 @@ struct placement_kernel {
         }
     }
 
-    /// Two halves of a kept vertex at a time: its place, and what goes with it.
-    INSONIFY_INLINE void keep_four(std::size_t start, const lanes<std::int64_t, 4>& x, const lanes<std::int64_t, 4>& y,
-                                   const lanes<double, 4>& z, const lanes<double, 4>& inverse_w) const {
+    /// Stores four packed vertices, each as two halves: the position, then depth and 1 / w.
+    INSONIFY_INLINE void store_four(std::size_t start, const lanes<std::int64_t, 4>& x, const lanes<std::int64_t, 4>& y,
+                                    const lanes<double, 4>& z, const lanes<double, 4>& inverse_w) const {
         using pairs = lanes<std::uint64_t, 4>;
         pairs right, down;
         std::memcpy(&right, &x, sizeof right);
         std::memcpy(&down, &y, sizeof down);
         const pairs both = (down << 32) | (right & 0xFFFFFFFFu);
-        floats place[2], depth, nearness;
-        std::memcpy(&place, &both, sizeof place);
+        floats position[2], depth, over_w;
+        std::memcpy(&position, &both, sizeof position);
         convert(depth, z);
-        convert(nearness, inverse_w);
-        const floats rest[2] = {__builtin_shufflevector(depth, nearness, 0, 4, 1, 5),
-                                __builtin_shufflevector(depth, nearness, 2, 6, 3, 7)};
+        convert(over_w, inverse_w);
+        const floats rest[2] = {__builtin_shufflevector(depth, over_w, 0, 4, 1, 5),
+                                __builtin_shufflevector(depth, over_w, 2, 6, 3, 7)};
         unroll<2>([&](int i) INSONIFY_INLINE_LAMBDA {
-            auto* const two = reinterpret_cast<float*>(&vertices.kept[start + 2 * static_cast<std::size_t>(i)]);
-            store(two, floats(__builtin_shufflevector(place[i], rest[i], 0, 1, 4, 5)));
-            store(two + 4, floats(__builtin_shufflevector(place[i], rest[i], 2, 3, 6, 7)));
+            auto* const two = reinterpret_cast<float*>(&vertices.packed[start + 2 * static_cast<std::size_t>(i)]);
+            store(two, floats(__builtin_shufflevector(position[i], rest[i], 0, 1, 4, 5)));
+            store(two + 4, floats(__builtin_shufflevector(position[i], rest[i], 2, 3, 6, 7)));
         });
     }
 #endif
@@ -12860,70 +12924,56 @@ struct placement_kernel {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/detail/assembly.hpp -------------------------------------------------------
-// From mesh to screen: vertices placed and snapped, triangles culled, the few that need it clipped, all put into bins.
+// Primitive assembly: from a mesh to triangles on the screen, culled, clipped where needed, and binned.
 //
-// Almost all triangles are compact: 32-bit coordinates, 64-bit decisions. The others go a slower way that no distance
-// and no number of clipping planes makes less exact.
+// Almost all triangles are compact: 32-bit coordinates, 64-bit edge functions. The others are wide: vertices beyond the
+// compact grid, or pieces of clipped triangles. They go a slower way that stays exact at any distance.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-
-/// Which side of a triangle is not drawn; its front is where its vertices run counter-clockwise.
-enum class cull_mode { none, back, front };
-
-/// How to draw. `tile` and `level` never change a bit of the result.
-struct draw_options {
-    cull_mode cull = cull_mode::none;
-    keep_depth keep = keep_depth::smaller;
-    depth_load load = depth_load::keep;
-    int subpixel_bits = 8;   ///< 4 to 16: vertices are rounded to 2^-bits pixels
-    int tile = 64;           ///< pixels, a power of two from 8 to 256
-    isa level = best_isa();  ///< the widest instruction set to use
-};
-
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A triangle with a vertex that isn't compact, or a piece of one that was clipped.
+/// A triangle with a vertex that isn't compact, or a piece of a clipped one.
 struct wide_triangle {
     std::array<screen_vertex, 3> corners;
-    std::array<glm::dvec3, 3> shares;  ///< of the mesh triangle's vertices in each corner
+    std::array<glm::dvec3, 3> weights;  ///< barycentric, of each corner in the mesh's triangle
     std::uint32_t triangle;
-    pixel_box run;  ///< if not empty, the pixels it covers, whatever the corners say
+    rect run;  ///< if not empty, exactly the pixels that it covers
 };
 
-/// A triangle as bins refer to it: its corners in clockwise order on the screen.
+/// A triangle as looked up by its id: its corners in clockwise order on the screen.
 struct screen_triangle {
     screen_vertex a, b, c;
     bool front;
-    std::uint32_t triangle;     ///< of the mesh
+    std::uint32_t triangle;     ///< index into the mesh
     const wide_triangle* wide;  ///< null for a compact one
 
-    /// Its pixels are listed, not computed.
     bool is_run() const { return wide != nullptr && !wide->run.empty(); }
 
-    /// Perspective-correct shares of the mesh triangle's three vertices at a pixel's centre; they sum to one.
+    /// Perspective-correct barycentric weights of the mesh triangle's vertices at a pixel's centre.
     glm::dvec3 weights_at(int x, int y, const pixel_grid& grid) const {
         const auto opposite = [&](const screen_vertex& from, const screen_vertex& to) {
             const std::int64_t run = to.x - from.x, rise = to.y - from.y;
             const std::int64_t right = grid.center(x) - from.x, down = grid.center(y) - from.y;
             if (wide == nullptr) return static_cast<double>(compact_side(run, rise, right, down));
-            // A run may reach out of the corners' plane by a hair, where a share would be negative.
-            const double share = double_double::from(wide_side(run, rise, right, down)).high;
-            return share > 0 ? share : 0.0;
+            // Pixels of a run may lie just outside of the corners, where a weight would be negative.
+            const double weight = double_double::from(wide_side(run, rise, right, down)).high;
+            return weight > 0 ? weight : 0.0;
         };
         const double wa = opposite(b, c) * a.inverse_w;
         const double wb = opposite(c, a) * b.inverse_w;
         const double wc = opposite(a, b) * c.inverse_w;
         const double scale = 1.0 / (wa + wb + wc);
         glm::dvec3 w(wa * scale, wb * scale, wc * scale);
-        if (front) std::swap(w.y, w.z);  // b and c stand in the mesh's other order
-        return wide == nullptr ? w : numeric::product(glm::dmat3(wide->shares[0], wide->shares[1], wide->shares[2]), w);
+        if (front) std::swap(w.y, w.z);  // b and c are exchanged in the mesh
+        if (wide == nullptr) return w;
+        return numeric::product(glm::dmat3(wide->weights[0], wide->weights[1], wide->weights[2]), w);
     }
 };
 
-/// Names the triangles of a chunk that can be seen, and counts the others.
+/// The visible triangles of a chunk, and the counts of all.
 struct assembled_chunk {
     tile_runs runs;
     std::vector<wide_triangle> wide;
@@ -12934,25 +12984,28 @@ struct assembled_chunk {
 template <class Screen, class Shader>
 struct assembly_kernel;
 
-/// A mesh on the screen: its vertices, the triangles that need more room, and the bins that refer to both.
-/// Depths are kept as Real: double where they are to be exact.
+/// A mesh on the screen: vertices, wide triangles, and bins that refer to triangles by id. The id of a compact triangle
+/// is its index in the mesh; those of wide triangles follow, in submission order.
+/// @param Real  of depths: double for exact ones, float for quick ones
 template <class Real>
 class screen_mesh {
   public:
-    /// @param weighed  whether weights_at will be asked for
-    /// @param records  one for each vertex, to be set; or null and no_record
-    template <vertex_shader Shader, class Record, executor E>
+    using real = Real;
+
+    /// @param has_weights  whether weights_at will be called, or inverse_w of exact vertices
+    /// @param records      one for each vertex, set here; or no_records
+    template <vertex_shader Shader, class Record, depth_precision Depth, executor E>
     screen_mesh(const mesh_view& m, const Shader& shader, const pixel_grid& grid, const tile_grid& tiles,
-                const draw_options& options, bool weighed, Record* records, E& ex)
+                const draw_options<Depth>& options, bool has_weights, Record* records, E& ex)
         : mesh_(m),
           indices_(m.triangles.data()),
-          whole_(static_cast<std::uint32_t>(m.triangles.size())),
+          compact_count_(static_cast<std::uint32_t>(m.triangles.size())),
           grid_(grid),
           projection_(grid, options.keep, std::is_same_v<Real, double>),
           cull_(options.cull),
-          vertices_(m.positions.size(), weighed, memory_of(ex)) {
+          vertices_(m.positions.size(), has_weights && std::is_same_v<Real, double>, memory_of(ex)) {
         bulk_ranges(ex, m.positions.size(), 8192, [&](std::size_t first, std::size_t last) {
-            dispatch(placement_kernel<Shader, Record, Real>{m, shader, records, projection_, vertices_, first, last},
+            dispatch(vertex_kernel<Shader, Record, Real>{m, shader, records, projection_, vertices_, first, last},
                      options.level);
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (m.triangles.size() / 64 + 16) / 16 * 16);
@@ -12969,12 +13022,11 @@ class screen_mesh {
         for (const assembled_chunk& c : chunks)
             if (c.bad_index) detail::refuse("mesh.triangles", *c.bad_index, "an index of a position");
 
-        // Wide triangles get names behind those of compact ones, in submission order.
         std::vector<tile_runs> runs;
         runs.reserve(chunks.size());
         for (assembled_chunk& c : chunks) {
             const auto offset = static_cast<std::uint32_t>(wide_.size());
-            if (offset > 0 && !c.wide.empty()) c.runs.rename(whole(), offset);
+            if (offset > 0 && !c.wide.empty()) c.runs.shift_ids(compact_count_, offset);
             wide_.insert(wide_.end(), c.wide.begin(), c.wide.end());
             runs.push_back(std::move(c.runs));
             stats_ += c.stats;
@@ -12986,14 +13038,14 @@ class screen_mesh {
     const pixel_grid& grid() const { return grid_; }
     std::span<const triangle_run> bin(std::size_t tile) const { return bins_[tile]; }
 
-    screen_triangle operator[](std::uint32_t name) const {
+    screen_triangle operator[](std::uint32_t id) const {
         screen_triangle t{};
-        if (name < whole()) {
-            const glm::uvec3& index = mesh_.triangles[name];
-            t = {vertices_[index.x], vertices_[index.y], vertices_[index.z], false, name, nullptr};
-            t.front = compact_area(t.a, t.b, t.c) < 0;  // counter-clockwise as seen, y being down
+        if (is_compact(id)) {
+            const glm::uvec3& index = mesh_.triangles[id];
+            t = {vertices_[index.x], vertices_[index.y], vertices_[index.z], false, id, nullptr};
+            t.front = compact_area(t.a, t.b, t.c) < 0;  // counter-clockwise as seen: y is down
         } else {
-            const wide_triangle& wide = wide_[name - whole()];
+            const wide_triangle& wide = wide_[id - compact_count_];
             t = {wide.corners[0], wide.corners[1], wide.corners[2], false, wide.triangle, &wide};
             t.front = wide_area(t.a, t.b, t.c).sign() < 0;
         }
@@ -13001,37 +13053,32 @@ class screen_mesh {
         return t;
     }
 
-    bool has_wide() const { return !wide_.empty(); }
-    bool is_compact(std::uint32_t name) const { return name < whole(); }
-    /// The mesh's triangle that goes by a name, and its vertices.
-    std::uint32_t triangle(std::uint32_t name) const {
-        return is_compact(name) ? name : wide_[name - whole()].triangle;
-    }
+    bool is_compact(std::uint32_t id) const { return id < compact_count_; }
+    std::uint32_t compact_count() const { return compact_count_; }
+    /// The index in the mesh of a triangle.
+    std::uint32_t triangle(std::uint32_t id) const { return is_compact(id) ? id : wide_[id - compact_count_].triangle; }
     const glm::uvec3& indices(std::uint32_t triangle) const { return indices_[triangle]; }
-    const kept_vertex<Real>* vertices() const { return vertices_.kept.data(); }
-    std::uint32_t compact_names() const { return whole_; }
+    const screen_vertices<Real>& vertices() const { return vertices_; }
 
-    /// Of a triangle that isn't wide, corner by corner in the mesh's order.
-    INSONIFY_INLINE const kept_vertex<Real>& corner(std::size_t triangle, int i) const {
-        return vertices_.kept[indices_[triangle][i]];
+    /// Vertex i of a compact triangle, in the mesh's order.
+    INSONIFY_INLINE const packed_vertex<Real>& vertex(std::size_t triangle, int i) const {
+        return vertices_.packed[indices_[triangle][i]];
     }
 
   private:
     template <class Screen, class Shader>
     friend struct assembly_kernel;
 
-    std::uint32_t whole() const { return whole_; }
+    /// The counters of draw_stats.
+    enum class outcome { drawn, culled, missed, degenerate, not_finite };
 
-    /// Counted in draw_stats under these names.
-    enum class fate { drawn, culled, missed, degenerate, not_finite };
-
-    static void count(draw_stats& stats, fate f) {
-        switch (f) {
-            case fate::drawn: ++stats.drawn; break;
-            case fate::culled: ++stats.culled; break;
-            case fate::missed: break;  // what is left
-            case fate::degenerate: ++stats.degenerate; break;
-            case fate::not_finite: ++stats.not_finite; break;
+    static void count(draw_stats& stats, outcome o) {
+        switch (o) {
+            case outcome::drawn: ++stats.drawn; break;
+            case outcome::culled: ++stats.culled; break;
+            case outcome::missed: break;  // the remainder
+            case outcome::degenerate: ++stats.degenerate; break;
+            case outcome::not_finite: ++stats.not_finite; break;
         }
     }
 
@@ -13039,63 +13086,62 @@ class screen_mesh {
         return (cull_ == cull_mode::back && !front) || (cull_ == cull_mode::front && front);
     }
 
-    /// Notes one triangle in the runs, unless it can't be seen.
+    /// Appends one triangle to the runs, if it is visible.
     template <vertex_shader Shader>
-    fate assemble(const Shader& shader, std::size_t triangle, const tile_grid& tiles, assembled_chunk& out) const {
-        const auto name = static_cast<std::uint32_t>(triangle);
-        for (int corner = 0; corner < 3; ++corner)
-            if (this->corner(triangle, corner).place.is_off_grid()) return assemble_wide(shader, name, tiles, out);
+    outcome assemble(const Shader& shader, std::size_t triangle, const tile_grid& tiles, assembled_chunk& out) const {
+        const auto id = static_cast<std::uint32_t>(triangle);
+        for (int i = 0; i < 3; ++i)
+            if (vertex(triangle, i).position.is_off_grid()) return assemble_wide(shader, id, tiles, out);
         const glm::uvec3& index = mesh_.triangles[triangle];
         const screen_vertex a = vertices_[index.x], b = vertices_[index.y], c = vertices_[index.z];
-        if (is_outside(a, b, c, grid_)) return fate::missed;
+        const rect pixels = center_rect(a, b, c, grid_);
+        if (is_outside(pixels, grid_)) return outcome::missed;
         const std::int64_t area = compact_area(a, b, c);
-        if (area == 0) return fate::degenerate;
-        if (is_culled(area < 0)) return fate::culled;
-        const pixel_box box = center_box(a, b, c, grid_);
-        if (box.empty()) return fate::missed;
-        out.runs.add(name, 1, tile_range::of(tiles.touched(box)), false);
-        return fate::drawn;
+        if (area == 0) return outcome::degenerate;
+        if (is_culled(area < 0)) return outcome::culled;
+        if (pixels.empty()) return outcome::missed;
+        out.runs.add(id, 1, tiles.touched(pixels), false);
+        return outcome::drawn;
     }
 
-    /// The same for a triangle that may have to be clipped, or whose vertices only 128 bits can compare.
+    /// The same for a triangle that may have to be clipped, or that takes 128 bits.
     template <vertex_shader Shader>
-    fate assemble_wide(const Shader& shader, std::uint32_t triangle, const tile_grid& tiles,
-                       assembled_chunk& out) const {
+    outcome assemble_wide(const Shader& shader, std::uint32_t triangle, const tile_grid& tiles,
+                          assembled_chunk& out) const {
         std::array<glm::dvec4, 3> clip;
         for (int i = 0; i < 3; ++i) {
-            const glm::dvec4 p(clip_position(shader, mesh_vertex(mesh_, mesh_.triangles[triangle][i])));
+            const glm::dvec4 p(position_of(shader(mesh_vertex(mesh_, mesh_.triangles[triangle][i]))));
             if (!(numeric::is_finite(p.x) && numeric::is_finite(p.y) && numeric::is_finite(p.z) &&
                   numeric::is_finite(p.w)))
-                return fate::not_finite;
+                return outcome::not_finite;
             clip[static_cast<std::size_t>(i)] = p;
         }
         const clip_polygon polygon = projection_.clip(clip);
-        if (polygon.cut) ++out.stats.clipped;
-        if (polygon.count < 3) return fate::missed;
+        if (polygon.was_cut) ++out.stats.clipped;
+        if (polygon.count < 3) return outcome::missed;
 
         const screen_polygon on_screen(polygon, projection_);
-        if (on_screen.area_sign() == 0) return fate::degenerate;
-        if (is_culled(on_screen.area_sign() < 0)) return fate::culled;
-        fate f = fate::missed;
-        on_screen.for_each_part(grid_, [&](std::array<int, 3> corners, const pixel_box& box, bool is_run) {
+        if (on_screen.area_sign() == 0) return outcome::degenerate;
+        if (is_culled(on_screen.area_sign() < 0)) return outcome::culled;
+        outcome result = outcome::missed;
+        on_screen.for_each_part(grid_, [&](std::array<int, 3> corners, const rect& pixels, bool is_run) {
             wide_triangle part{};
             for (std::size_t k = 0; k < 3; ++k) {
                 part.corners[k] = on_screen.at(corners[k]);
-                part.shares[k] = polygon.corners[static_cast<std::size_t>(corners[k])].shares;
+                part.weights[k] = polygon.corners[static_cast<std::size_t>(corners[k])].weights;
             }
             part.triangle = triangle;
-            part.run = is_run ? box : pixel_box{0, 0, -1, -1};
-            out.runs.add(whole() + static_cast<std::uint32_t>(out.wide.size()), 1, tile_range::of(tiles.touched(box)),
-                         false);
+            if (is_run) part.run = pixels;
+            out.runs.add(compact_count_ + static_cast<std::uint32_t>(out.wide.size()), 1, tiles.touched(pixels), false);
             out.wide.push_back(part);
-            f = fate::drawn;
+            result = outcome::drawn;
         });
-        return f;
+        return result;
     }
 
     mesh_view mesh_;
     const glm::uvec3* indices_;
-    std::uint32_t whole_;  ///< names below this are triangles of the mesh, the others wide ones
+    std::uint32_t compact_count_;  ///< ids below this are indices into the mesh, the others wide triangles
     pixel_grid grid_;
     projection projection_;
     cull_mode cull_;
@@ -13105,7 +13151,7 @@ class screen_mesh {
     draw_stats stats_;
 };
 
-/// Goes through the triangles of a chunk, as many small ones at a time as there are lanes.
+/// Assembles the triangles of a chunk, small ones as many at a time as there are lanes.
 template <class Screen, class Shader>
 struct assembly_kernel {
     const Screen& screen;
@@ -13116,7 +13162,7 @@ struct assembly_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        const drawn_area<N> picture(screen.grid_, {0, 0, screen.grid_.width - 1, screen.grid_.height - 1});
+        const drawn_area<N> picture(screen.grid_, screen.grid_.pixels());
         std::size_t i = first;
         for (; i + N <= last; i += N)
             if (!assemble_small<N>(i, picture))
@@ -13129,44 +13175,44 @@ struct assembly_kernel {
         Screen::count(out.stats, screen.assemble(shader, triangle, tiles, out));
     }
 
-    /// Gives up if one of them isn't small, unless all lie outside of the picture: seen from close by, most of a
-    /// surface's triangles do, and are large.
+    /// @returns false if one of the triangles isn't small, unless all lie outside of the picture: in a close-up, most
+    ///          triangles of a surface do, and are large
     template <int N>
     INSONIFY_INLINE bool assemble_small(std::size_t triangle, const drawn_area<N>& picture) const {
         using ints = lanes<std::int32_t, N>;
-        const corner_lanes<N> at([&](int corner, ints& x, ints& y) INSONIFY_INLINE_LAMBDA {
+        const triangle_lanes<N> t([&](int i, ints& x, ints& y) INSONIFY_INLINE_LAMBDA {
             gather_pairs<N>(
-                x, y, [&](int k) { return &screen.corner(triangle + static_cast<std::size_t>(k), corner).place.x; });
+                x, y, [&](int k) { return &screen.vertex(triangle + static_cast<std::size_t>(k), i).position.x; });
         });
-        if (!at.are_on_grid()) return false;
+        if (!t.are_on_grid()) return false;
         constexpr unsigned all = (1u << N) - 1;
-        box_lanes<N> box;
-        at.centers(picture, box);
-        ints outside;
-        box.is_beside(picture.box, outside);
-        const unsigned far_off = set_lanes<N>(outside);
-        if (far_off == all) return true;
-        if (!at.are_small()) return false;
+        rect_lanes<N> pixels;
+        t.centers(picture, pixels);
+        ints disjoint;
+        pixels.is_disjoint(picture.pixels, disjoint);
+        const unsigned outside = set_lanes<N>(disjoint);
+        if (outside == all) return true;
+        if (!t.are_small()) return false;
         ints area, empty, culled = ints{};
-        at.area(area);
+        t.area(area);
         if (screen.cull_ == cull_mode::back) culled = ints(area > 0);
         if (screen.cull_ == cull_mode::front) culled = ints(area < 0);
-        box.cut_to(picture.box);
-        box.is_empty(empty);
+        pixels.intersect(picture.pixels);
+        pixels.is_empty(empty);
 
-        const auto name = static_cast<std::uint32_t>(triangle);
-        const ints first_tile =
-                       ints((box.x0 >> tiles.log2_size) | (box.y0 >> tiles.log2_size << 16)),  // see tile_range
-            last_tile = ints((box.x1 >> tiles.log2_size) | (box.y1 >> tiles.log2_size << 16));
-        const unsigned flat = set_lanes<N>(ints(area == 0)) & ~far_off, turned = set_lanes<N>(culled) & ~far_off,
-                       drawn = all & ~(set_lanes<N>(empty) | flat | turned);
-        out.stats.degenerate += static_cast<unsigned>(std::popcount(flat));
+        const auto id = static_cast<std::uint32_t>(triangle);
+        const int size = tiles.log2_size;  // see tile_range::pack
+        const ints first_tile = ints((pixels.x0 >> size) | (pixels.y0 >> size << 16)),
+                   last_tile = ints(((pixels.x1 - 1) >> size) | ((pixels.y1 - 1) >> size << 16));
+        const unsigned degenerate = set_lanes<N>(ints(area == 0)) & ~outside, turned = set_lanes<N>(culled) & ~outside,
+                       drawn = all & ~(set_lanes<N>(empty) | degenerate | turned);
+        out.stats.degenerate += static_cast<unsigned>(std::popcount(degenerate));
         out.stats.culled += static_cast<unsigned>(std::popcount(turned));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));
-        // Most of the time they all go the same way.
+        // Mostly all of them touch the same tiles.
         const std::int32_t one_first = lane(first_tile, 0), one_last = lane(last_tile, 0);
         if (drawn == all && !any(ints(((first_tile ^ one_first) | (last_tile ^ one_last)) != 0))) {
-            out.runs.add(name, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
+            out.runs.add(id, N, {static_cast<std::uint32_t>(one_first), static_cast<std::uint32_t>(one_last)}, true);
             return true;
         }
         std::uint32_t firsts[static_cast<unsigned>(N)], lasts[static_cast<unsigned>(N)];
@@ -13174,7 +13220,7 @@ struct assembly_kernel {
         store(lasts, last_tile);
         for (unsigned left = drawn; left != 0; left &= left - 1) {
             const auto k = static_cast<unsigned>(std::countr_zero(left));
-            out.runs.add(name + k, 1, {firsts[k], lasts[k]}, true);
+            out.runs.add(id + k, 1, {firsts[k], lasts[k]}, true);
         }
         return true;
     }
@@ -13186,78 +13232,10 @@ struct assembly_kernel {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/detail/small_depth.hpp ----------------------------------------------------
-// Depths of small triangles: the set-up of several planes at a time, one per lane, and their values along a row.
-//
-// In double they are depth.hpp's planes, with a bound of the error, so that depths come out correctly rounded. In float
-// they are off by a few units in the last place of the largest corner's depth, held between the corners' depths, and
-// cost a third less. Both give a pixel the same depth whichever tile asks.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// Planes through the corners of N small triangles, in memory.
-template <int N, class Real>
-struct small_planes {
-    static constexpr bool exact = std::is_same_v<Real, double>;
-    using reals = lanes<Real, N>;
-    static constexpr auto count = static_cast<std::size_t>(N);
-
-    Real z[count];              ///< at corner a
-    Real dx[count], dy[count];  ///< per sub-pixel
-    Real error[count];          ///< bound of what a value is off by; only of exact ones
-    float lowest[count], highest[count];
-
-    /// @param at    corners in clockwise order
-    /// @param area  twice the triangles' areas in squared sub-pixels; what has none is never asked for
-    INSONIFY_INLINE small_planes(const corner_lanes<N>& at, const lanes<std::int32_t, N>& area, const reals& az,
-                                 const reals& bz, const reals& cz) {
-        reals bx, by, cx, cy, scale;
-        convert(bx, at.bx - at.ax);
-        convert(by, at.by - at.ay);
-        convert(cx, at.cx - at.ax);
-        convert(cy, at.cy - at.ay);
-        convert(scale, area);
-        scale = Real{1} / scale;
-        const reals b_rise = bz - az, c_rise = cz - az;
-        store(z, az);
-        store(dx, reals(scale * (b_rise * cy - c_rise * by)));
-        store(dy, reals(scale * (c_rise * bx - b_rise * cx)));
-
-        reals low = az < bz ? az : bz, high = az > bz ? az : bz;
-        low = low < cz ? low : cz;
-        high = high > cz ? high : cz;
-        lanes<float, N> narrow;
-        convert(narrow, low);
-        store(lowest, narrow);
-        convert(narrow, high);
-        store(highest, narrow);
-        if constexpr (exact) {
-            // See depth_plane::through.
-            reals wide, tall;
-            convert(wide, at.east - at.west);
-            convert(tall, at.south - at.north);
-            const reals above = high < 0.0 ? 0.0 - high : high, below = low < 0.0 ? 0.0 - low : low;
-            const reals largest = above > below ? above : below;
-            store(error, reals(0x1p-49 * (4 * (high - low) * wide * tall * scale + largest)));
-        }
-    }
-};
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/raster/detail/tile_buffer.hpp ----------------------------------------------------
-// What one tile shows so far.
+// The depth and visibility buffer of one tile.
 //
-// A tile resolves visibility in buffers of its own that stay in the first-level cache; who won is known before anything
-// is shaded, and shading happens once per pixel.
+// Visibility is resolved here, in the first-level cache, before anything is shaded: every pixel is shaded once.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -13265,23 +13243,24 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Depth of a tile's pixels and, where Winners, the name of the triangle that each shows.
-template <bool Winners>
+/// Depth of a tile's pixels and, if HasIds, the id of the triangle that each shows.
+template <bool HasIds>
 class tile_buffer {
   public:
-    static constexpr std::uint32_t nobody = 0xFFFFFFFFu;
-    static constexpr int slack = 16;  // whole vectors may reach past the end of a row
-    static constexpr int block = 4;   // pixels a side, see in_block
+    static constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
+    static constexpr int slack = 16;  ///< whole vectors may reach past the end of a row
+    static constexpr int block = 4;   ///< pixels a side, see block_offsets
 
     explicit tile_buffer(int size)
         : stride_(size + slack),
           count_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(size)),
           depth_(new float[count_]),
-          winner_(Winners ? new std::uint32_t[count_] : nullptr) {
-        for (int i = 0; i < block * block; ++i) block_[i] = static_cast<std::uint32_t>(i / block * stride_ + i % block);
+          ids_(HasIds ? new std::uint32_t[count_] : nullptr) {
+        for (int i = 0; i < block * block; ++i)
+            block_offsets_[i] = static_cast<std::uint32_t>(i / block * stride_ + i % block);
     }
 
-    /// Puts the tile where its first pixel is (x, y) of the image.
+    /// Moves the tile's first pixel to (x, y) of the image.
     void restart(int x, int y) {
         x_ = x;
         y_ = y;
@@ -13290,17 +13269,17 @@ class tile_buffer {
     template <int N>
     INSONIFY_INLINE void clear() {
         const lanes<float, N> farthest = lanes<float, N>{} + std::numeric_limits<float>::infinity();
-        const lanes<std::uint32_t, N> none = lanes<std::uint32_t, N>{} + nobody;
+        const lanes<std::uint32_t, N> none = lanes<std::uint32_t, N>{} + invalid_id;
         for (std::size_t i = 0; i < count_; i += N) {
             store(depth_.get() + i, farthest);
-            if constexpr (Winners) store(winner_.get() + i, none);
+            if constexpr (HasIds) store(ids_.get() + i, none);
         }
     }
 
     std::ptrdiff_t stride() const { return stride_; }
-    /// From a pixel to number 4 row + column of the 4 x 4 pixels that start with it.
-    const std::uint32_t* in_block() const { return block_; }
-    /// Where pixels lie in the tile's memory, counted from depths() and winners().
+    /// Offsets of the pixels of a block from its first, row by row.
+    const std::uint32_t* block_offsets() const { return block_offsets_; }
+    /// Indices of pixels into depths() and ids().
     template <int N>
     INSONIFY_INLINE void index(lanes<std::int32_t, N>& into, const lanes<std::int32_t, N>& x,
                                const lanes<std::int32_t, N>& y) const {
@@ -13308,34 +13287,32 @@ class tile_buffer {
     }
     std::ptrdiff_t index(int x, int y) const { return static_cast<std::ptrdiff_t>(y - y_) * stride_ + (x - x_); }
     float* depths() { return depth_.get(); }
-    std::uint32_t* winners() { return winner_.get(); }
-    float* depth(int x, int y) { return depth_.get() + index(x, y); }
-    std::uint32_t* winner(int x, int y) { return Winners ? winner_.get() + index(x, y) : nullptr; }
+    std::uint32_t* ids() { return ids_.get(); }
+    float* depth_at(int x, int y) { return depth_.get() + index(x, y); }
+    std::uint32_t* id_at(int x, int y) { return HasIds ? ids_.get() + index(x, y) : nullptr; }
 
   private:
     int stride_;
-    std::uint32_t block_[static_cast<unsigned>(block * block)];
+    std::uint32_t block_offsets_[static_cast<unsigned>(block * block)];
     int x_ = 0, y_ = 0;
     std::size_t count_;
     std::unique_ptr<float[]> depth_;
-    std::unique_ptr<std::uint32_t[]> winner_;
+    std::unique_ptr<std::uint32_t[]> ids_;
 };
 
-/// Keeps the nearer of what is there and what comes; a tie stays with whoever came first. `winner` may be null if
-/// nobody's name is kept.
-template <int N, bool Winners>
-INSONIFY_INLINE void keep_nearer(float* depth, std::uint32_t* winner, const lanes<std::int32_t, N>& covered,
-                                 const lanes<float, N>& z, const lanes<std::uint32_t, N>& name) {
-    using floats = lanes<float, N>;
-    using names = lanes<std::uint32_t, N>;
-    floats old;
+/// The depth test of N pixels: a smaller depth replaces the stored one; a tie keeps it.
+/// @param ids  null without HasIds
+template <int N, bool HasIds>
+INSONIFY_INLINE void test_depth(float* depth, std::uint32_t* ids, const lanes<std::int32_t, N>& covered,
+                                const lanes<float, N>& z, const lanes<std::uint32_t, N>& id) {
+    lanes<float, N> old;
     load(old, depth);
     const lanes<std::int32_t, N> visible = covered & lanes<std::int32_t, N>(z < old);
-    store(depth, floats(visible ? z : old));
-    if constexpr (Winners) {
-        names before;
-        load(before, winner);
-        store(winner, names(visible ? name : before));
+    store(depth, lanes<float, N>(visible ? z : old));
+    if constexpr (HasIds) {
+        lanes<std::uint32_t, N> before;
+        load(before, ids);
+        store(ids, lanes<std::uint32_t, N>(visible ? id : before));
     }
 }
 
@@ -13345,12 +13322,12 @@ INSONIFY_INLINE void keep_nearer(float* depth, std::uint32_t* winner, const lane
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/detail/small_fill.hpp -----------------------------------------------------
-// Pixels of small triangles: several triangles' set-up at hand, one per lane.
+// ------------ insonify/raster/detail/fill.hpp -----------------------------------------------------------
+// Fills triangles into a tile: coverage, depth, depth test.
 //
-// A triangle of a fine mesh covers two or three pixels. Rows of eight would mostly miss, so where a group's triangles
-// are tiny, each lane walks over the box of its own triangle, and only the pixels that came out covered are compared
-// with the tile, triangle after triangle. Others go row by row. Both ways give the same bits.
+// A triangle of a fine mesh covers two or three pixels, so rows of eight would mostly miss. Where all triangles of a
+// group are tiny, each lane walks over the pixels of its own triangle, and only covered pixels are compared with the
+// tile, triangle after triangle. Other triangles go row by row. Both ways give the same bits.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -13358,71 +13335,132 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Draws up to N small triangles into a tile, in order.
-template <int N, class Real, bool Winners>
+/// Fills one triangle of any size, N pixels of a row at a time. Where Exact, depths that a double cannot round with
+/// certainty are replaced by `rounded_depth(x, y)`.
+template <int N, class Int, bool HasIds, bool Exact, class RoundedDepth>
+INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<HasIds>& tile, std::uint32_t id,
+                          const RoundedDepth& rounded_depth) {
+    using ints = lanes<Int, N>;
+    using floats = lanes<float, N>;
+    using doubles = lanes<double, N>;
+    using masks = lanes<std::int32_t, N>;
+    ints column;
+    doubles column_x;
+    count_up<Int, N>(column);
+    count_up<double, N>(column_x);
+    const floats lowest = floats{} + t.depth.lowest, highest = floats{} + t.depth.highest;
+    const doubles error = doubles{} + t.depth.error;
+    const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + id;
+
+    ints row_bc = static_cast<Int>(t.bc.origin) + column * static_cast<Int>(t.bc.dx);
+    ints row_ca = static_cast<Int>(t.ca.origin) + column * static_cast<Int>(t.ca.dx);
+    ints row_ab = static_cast<Int>(t.ab.origin) + column * static_cast<Int>(t.ab.dx);
+
+    for (int y = t.pixels.y0; y < t.pixels.y1; ++y) {
+        const double row_z = t.depth.row(y);
+        float* const depths = tile.depth_at(t.pixels.x0, y);
+        std::uint32_t* const ids = tile.id_at(t.pixels.x0, y);
+        ints bc = row_bc, ca = row_ca, ab = row_ab;
+        bool entered = false;
+        for (int x = t.pixels.x0; x < t.pixels.x1; x += N) {
+            masks covered;
+            convert(covered, ints((bc | ca | ab) >= 0));
+            bc += static_cast<Int>(N * t.bc.dx);
+            ca += static_cast<Int>(N * t.ca.dx);
+            ab += static_cast<Int>(N * t.ab.dx);
+            if (!any(covered)) {
+                if (entered) break;  // the covered pixels of a row are contiguous
+                continue;
+            }
+            entered = true;
+            const doubles plane = row_z + t.depth.dx * (column_x + (static_cast<double>(x) - t.depth.x));
+            floats z;
+            convert(z, plane);
+            if constexpr (Exact) {
+                floats below, above;
+                convert(below, doubles(plane - error));
+                convert(above, doubles(plane + error));
+                const masks ambiguous = covered & masks(below != above);
+                if (any(ambiguous))
+                    for (int i = 0; i < N; ++i)
+                        if (lane(ambiguous, i) != 0) set_lane(z, i, rounded_depth(x + i, y));
+            }
+            z = z > lowest ? z : lowest;
+            z = z < highest ? z : highest;
+            const std::ptrdiff_t at = x - t.pixels.x0;
+            test_depth<N, HasIds>(depths + at, HasIds ? ids + at : nullptr, covered, z, drawn);
+        }
+        row_bc += static_cast<Int>(t.bc.dy);
+        row_ca += static_cast<Int>(t.ca.dy);
+        row_ab += static_cast<Int>(t.ab.dy);
+    }
+}
+
+/// Fills up to N small triangles, in order.
+template <int N, class Real, bool HasIds>
 struct small_fill {
     const small_setup<N>& t;
     const small_planes<N, Real>& planes;
-    int unit;  ///< sub-pixels a pixel
-    tile_buffer<Winners>& tile;
-    const std::uint32_t* names;
+    int unit;  ///< sub-pixels of a pixel
+    tile_buffer<HasIds>& tile;
+    const std::uint32_t* ids;
     int count;
 
-    /// @param nearest  nearest(k, x, y): depth of triangle k where a double can't round it with certainty
-    template <class Nearest>
-    INSONIFY_INLINE void operator()(const Nearest& nearest) const {
-        ints wide, tall;
-        extent(wide, tall);
-        if (!any(ints((wide > 2) | (tall > 2))))
-            fill_boxes<3>(wide, tall, nearest);
-        else if (!any(ints((wide > 3) | (tall > 3))))
-            fill_boxes<4>(wide, tall, nearest);
+    /// @param rounded_depth  rounded_depth(k, x, y): depth of triangle k where a double can't round it with certainty
+    template <class RoundedDepth>
+    INSONIFY_INLINE void operator()(const RoundedDepth& rounded_depth) const {
+        ints width, height;
+        extent(width, height);
+        if (!any(ints((width > 3) | (height > 3))))
+            fill_blocks<3>(width, height, rounded_depth);
+        else if (!any(ints((width > 4) | (height > 4))))
+            fill_blocks<4>(width, height, rounded_depth);
         else
-            for (int k = 0; k < count; ++k) fill_rows(k, nearest);
+            for (int k = 0; k < count; ++k) fill_rows(k, rounded_depth);
     }
 
   private:
     static constexpr bool exact = small_planes<N, Real>::exact;
-    static constexpr int block = tile_buffer<Winners>::block;
+    static constexpr int block = tile_buffer<HasIds>::block;
     static constexpr auto lane_count = static_cast<std::size_t>(N);
     using ints = lanes<std::int32_t, N>;
     using floats = lanes<float, N>;
     using reals = lanes<Real, N>;
 
-    /// Columns and rows of the boxes, without the first; lanes without a triangle have less than none.
-    INSONIFY_INLINE void extent(ints& wide, ints& tall) const {
-        ints first, last, number;
+    /// Columns and rows of each lane's pixels; no columns in lanes without a triangle.
+    INSONIFY_INLINE void extent(ints& width, ints& height) const {
+        ints first, end, number;
         load(first, t.x0);
-        load(last, t.x1);
-        wide = last - first;
+        load(end, t.x1);
+        width = end - first;
         load(first, t.y0);
-        load(last, t.y1);
-        tall = last - first;
+        load(end, t.y1);
+        height = end - first;
         count_up<std::int32_t, N>(number);
-        wide = number < count ? wide : ints{} - 1;
+        width = number < count ? width : ints{};
     }
 
-    /// Depths as the plane has them, and which of them it isn't sure of.
-    INSONIFY_INLINE static void round(floats& z, ints& doubtful, const reals& plane, const reals& error) {
+    /// Rounds depths to float, and marks those that the plane's error leaves ambiguous.
+    INSONIFY_INLINE static void round(floats& z, ints& ambiguous, const reals& plane, const reals& error) {
         if constexpr (exact) {
             floats above;
             convert(z, reals(plane - error));
             convert(above, reals(plane + error));
-            doubtful = ints(z != above);
+            ambiguous = ints(z != above);
         } else {
             z = plane;
         }
     }
 
-    /// What lies in N boxes: bit 4 row + column of a lane is about that pixel of its box, and so is the depth there.
-    struct box_pixels {
-        ints covered{}, doubtful{};
+    /// The pixels of N blocks, one per lane: bit 4 row + column of a mask is that pixel of the lane's block.
+    struct block_pixels {
+        ints covered{}, ambiguous{};
         float depth[static_cast<unsigned>(block * block * N)];
     };
 
-    /// One pixel of N boxes at a time, each no larger than Size x Size.
-    template <int Size, class Nearest>
-    INSONIFY_INLINE void fill_boxes(const ints& wide, const ints& tall, const Nearest& nearest) const {
+    /// Evaluates one pixel of all triangles at a time, each no larger than Size x Size pixels.
+    template <int Size, class RoundedDepth>
+    INSONIFY_INLINE void fill_blocks(const ints& width, const ints& height, const RoundedDepth& rounded_depth) const {
         static_assert(Size <= block);
         ints bc, bc_dx, bc_dy, ca, ca_dx, ca_dy, ab, ab_dx, ab_dy, right, down;
         load(bc, t.bc.origin), load(bc_dx, t.bc.dx), load(bc_dy, t.bc.dy);
@@ -13434,13 +13472,14 @@ struct small_fill {
         if constexpr (exact) load(error, planes.error);
         floats lowest, highest;
         load(lowest, planes.lowest), load(highest, planes.highest);
+        const ints last_column = width - 1, last_row = height - 1;
         reals rise[static_cast<unsigned>(Size)];
         unroll<Size>([&](int column) INSONIFY_INLINE_LAMBDA {
             convert(rise[column], ints(right + column * unit));
             rise[column] = rise[column] * dx;
         });
 
-        box_pixels found;
+        block_pixels found;
         unroll<Size>([&](int row) INSONIFY_INLINE_LAMBDA {
             ints bc_x = bc, ca_x = ca, ab_x = ab;
             reals drop;
@@ -13448,14 +13487,14 @@ struct small_fill {
             drop = z_a + dy * drop;
             unroll<Size>([&](int column) INSONIFY_INLINE_LAMBDA {
                 const int pixel = row * block + column;
-                const std::int32_t own = 1 << pixel;
-                const ints bit = ints{} + own;
-                const ints outside = bc_x | ca_x | ab_x | (wide - column) | (tall - row);
+                const std::int32_t mask = 1 << pixel;
+                const ints bit = ints{} + mask;
+                const ints outside = bc_x | ca_x | ab_x | (last_column - column) | (last_row - row);
                 found.covered |= outside >= 0 ? bit : ints{};
                 floats z;
-                ints in_doubt = ints{};
-                round(z, in_doubt, rise[column] + drop, error);
-                if constexpr (exact) found.doubtful |= in_doubt ? bit : ints{};
+                ints ambiguous = ints{};
+                round(z, ambiguous, rise[column] + drop, error);
+                if constexpr (exact) found.ambiguous |= ambiguous ? bit : ints{};
                 z = z > lowest ? z : lowest;
                 z = z < highest ? z : highest;
                 store(found.depth + pixel * N, z);
@@ -13468,22 +13507,22 @@ struct small_fill {
             ab += ab_dy;
         });
         if constexpr (exact) {
-            found.doubtful &= found.covered;
-            if (any(ints(found.doubtful != 0))) settle(found, nearest);
+            found.ambiguous &= found.covered;
+            if (any(ints(found.ambiguous != 0))) resolve(found, rounded_depth);
         }
-        keep_covered(found);
+        test_covered(found);
     }
 
-    /// Compares what is covered with the tile: triangle after triangle, so that who comes first keeps a tie.
-    INSONIFY_INLINE void keep_covered(const box_pixels& found) const {
+    /// The depth test of covered pixels: triangle after triangle, so that the first one keeps a tie.
+    INSONIFY_INLINE void test_covered(const block_pixels& found) const {
         std::uint32_t start[lane_count];
         ints x0, y0, index;
         load(x0, t.x0), load(y0, t.y0);
         tile.template index<N>(index, x0, y0);
         store(start, index);
-        const std::uint32_t* const in_block = tile.in_block();
+        const std::uint32_t* const offsets = tile.block_offsets();
         float* const depths = tile.depths();
-        std::uint32_t* const winners = tile.winners();
+        std::uint32_t* const shown = tile.ids();
         // Sixteen bits a triangle, four triangles a word.
         constexpr unsigned pixels = block * block, per_word = 64 / pixels;
         constexpr int word_count = (N + static_cast<int>(per_word) - 1) / static_cast<int>(per_word);
@@ -13496,41 +13535,40 @@ struct small_fill {
             std::memcpy(words, &bits, sizeof bits);
         unroll<word_count>([&](int word) INSONIFY_INLINE_LAMBDA {
             for (std::uint64_t left = words[word]; left != 0; left &= left - 1) {
-                // Unsigned throughout, so that no index has to be widened.
+                // Unsigned throughout: indices need no sign extension.
                 const auto bit = static_cast<unsigned>(std::countr_zero(left));
                 const std::size_t k = static_cast<unsigned>(word) * per_word + bit / pixels, pixel = bit % pixels;
-                const std::size_t at = start[k] + in_block[pixel];
+                const std::size_t at = start[k] + offsets[pixel];
                 const float z = found.depth[pixel * lane_count + k];
                 if (!(z < depths[at])) continue;
                 depths[at] = z;
-                if constexpr (Winners) winners[at] = names[k];
+                if constexpr (HasIds) shown[at] = ids[k];
             }
         });
     }
 
-    template <class Nearest>
-    INSONIFY_INLINE void settle(box_pixels& found, const Nearest& nearest) const {
+    template <class RoundedDepth>
+    INSONIFY_INLINE void resolve(block_pixels& found, const RoundedDepth& rounded_depth) const {
         for (int k = 0; k < count; ++k)
-            for (auto left = static_cast<std::uint32_t>(lane(found.doubtful, k)); left != 0; left &= left - 1) {
+            for (auto left = static_cast<std::uint32_t>(lane(found.ambiguous, k)); left != 0; left &= left - 1) {
                 const int pixel = std::countr_zero(left);
-                const float z = nearest(k, t.x0[k] + pixel % block, t.y0[k] + pixel / block);
+                const float z = rounded_depth(k, t.x0[k] + pixel % block, t.y0[k] + pixel / block);
                 found.depth[pixel * N + k] = (std::min)((std::max)(z, planes.lowest[k]), planes.highest[k]);
             }
     }
 
-    /// Triangle k, N columns at a time. Most have no more: what is the same for those that follow is left alone for the
-    /// first.
-    template <class Nearest>
-    INSONIFY_INLINE void fill_rows(int k, const Nearest& nearest) const {
-        if (t.x0[k] > t.x1[k]) return;
-        fill_columns(k, 0, nearest);
-        for (int right = N; right <= t.x1[k] - t.x0[k]; right += N) fill_columns(k, right, nearest);
+    /// Triangle k, N columns at a time; most triangles have no more.
+    template <class RoundedDepth>
+    INSONIFY_INLINE void fill_rows(int k, const RoundedDepth& rounded_depth) const {
+        if (t.x0[k] >= t.x1[k]) return;
+        fill_columns(k, 0, rounded_depth);
+        for (int right = N; right < t.x1[k] - t.x0[k]; right += N) fill_columns(k, right, rounded_depth);
     }
 
-    /// N columns of triangle k, `first` columns into its box, row by row. What is read in the loop is copied before:
-    /// the compiler can't know that nothing of it is what the loop stores.
-    template <class Nearest>
-    INSONIFY_INLINE void fill_columns(int k, int first, const Nearest& nearest) const {
+    /// N columns of triangle k, `first` columns into its pixels, row by row. The loop reads local copies, so that its
+    /// stores cannot alias them.
+    template <class RoundedDepth>
+    INSONIFY_INLINE void fill_columns(int k, int first, const RoundedDepth& rounded_depth) const {
         ints at;
         count_up<std::int32_t, N>(at);
         at = at + first;
@@ -13544,28 +13582,28 @@ struct small_fill {
         if constexpr (exact) error = error + planes.error[k];
         const Real z_a = planes.z[k], dy = planes.dy[k], step = static_cast<Real>(unit);
         const floats lowest = floats{} + planes.lowest[k], highest = floats{} + planes.highest[k];
-        const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + names[k];
-        const int x = t.x0[k] + first, last = t.y1[k];
+        const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + ids[k];
+        const int x = t.x0[k] + first, end = t.y1[k];
         const std::ptrdiff_t start = tile.index(x, t.y0[k]), stride = tile.stride();
         float* depth = tile.depths() + start;
-        std::uint32_t* winner = Winners ? tile.winners() + start : nullptr;
-        auto down = static_cast<Real>(t.down[k]);  // goes on exactly: whole numbers of few bits
-        for (int y = t.y0[k]; y <= last; ++y) {
+        std::uint32_t* shown = HasIds ? tile.ids() + start : nullptr;
+        auto down = static_cast<Real>(t.down[k]);  // increments exactly: integers of few bits
+        for (int y = t.y0[k]; y < end; ++y) {
             const ints covered = ints((bc | ca | ab) >= 0);
             floats z;
-            ints doubtful = ints{};
-            round(z, doubtful, rise + (z_a + dy * down), error);
+            ints ambiguous = ints{};
+            round(z, ambiguous, rise + (z_a + dy * down), error);
             if constexpr (exact) {
-                doubtful &= covered;
-                if (any(doubtful))
+                ambiguous &= covered;
+                if (any(ambiguous))
                     for (int i = 0; i < N; ++i)
-                        if (lane(doubtful, i) != 0) set_lane(z, i, nearest(k, x + i, y));
+                        if (lane(ambiguous, i) != 0) set_lane(z, i, rounded_depth(k, x + i, y));
             }
             z = z > lowest ? z : lowest;
             z = z < highest ? z : highest;
-            keep_nearer<N, Winners>(depth, winner, covered, z, drawn);
+            test_depth<N, HasIds>(depth, shown, covered, z, drawn);
             depth += stride;
-            if constexpr (Winners) winner += stride;
+            if constexpr (HasIds) shown += stride;
             down += step;
             bc += bc_dy;
             ca += ca_dy;
@@ -13581,7 +13619,7 @@ struct small_fill {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/detail/tile.hpp -----------------------------------------------------------
-// The pixel loop: one tile, its triangles in order, coverage and depth several pixels at a time.
+// Draws the triangles of one tile, in submission order.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -13589,132 +13627,25 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A triangle of any size, ready for the pixels of a box: its corners run clockwise on the screen, edges are named by
-/// their ends.
-struct triangle_setup {
-    edge_function bc, ca, ab;
-    depth_plane depth;
-    pixel_box box;
-    bool narrow;  ///< the edge functions fit 32 bits all over the box
-
-    /// The corners must not lie on one line. What `box` leaves out may be covered nevertheless.
-    static triangle_setup of(const screen_vertex& a, const screen_vertex& b, const screen_vertex& c,
-                             const pixel_grid& grid, const pixel_box& box, int slack) {
-        const bool compact = grid.is_compact(a) && grid.is_compact(b) && grid.is_compact(c);
-        const double area =
-            compact ? static_cast<double>(compact_area(a, b, c)) : double_double::from(wide_area(a, b, c)).high;
-        triangle_setup t{edge_function::through(b, c, grid, box.x0, box.y0, compact),
-                         edge_function::through(c, a, grid, box.x0, box.y0, compact),
-                         edge_function::through(a, b, grid, box.x0, box.y0, compact),
-                         depth_plane::through(a, b, c, area, grid),
-                         box,
-                         true};
-        if (t.is_narrow(slack)) return t;
-        const int width = box.width() + slack, height = box.height();
-        t.bc = t.bc.simplified(width, height);
-        t.ca = t.ca.simplified(width, height);
-        t.ab = t.ab.simplified(width, height);
-        t.narrow = t.is_narrow(slack);
-        return t;
-    }
-
-    /// All pixels of the box are covered, and none to its right.
-    void cover_box() {
-        bc = ca = {0, 0, 0};
-        ab = {box.width() - 1, -1, 0};
-        narrow = true;
-    }
-
-  private:
-    bool is_narrow(int slack) const {
-        const int width = box.width() + slack, height = box.height();
-        return bc.is_narrow(width, height) && ca.is_narrow(width, height) && ab.is_narrow(width, height);
-    }
-};
-
-/// Draws one triangle of any size into a tile, N pixels of a row at a time. Depths that a double can't round with
-/// certainty are asked of `nearest(x, y)`, if Exact.
-template <int N, class Int, bool Winners, bool Exact, class Nearest>
-INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<Winners>& tile, std::uint32_t name,
-                          const Nearest& nearest) {
-    using ints = lanes<Int, N>;
-    using floats = lanes<float, N>;
-    using doubles = lanes<double, N>;
-    using masks = lanes<std::int32_t, N>;
-    using names = lanes<std::uint32_t, N>;
-    ints column;
-    doubles column_x;
-    count_up<Int, N>(column);
-    count_up<double, N>(column_x);
-    const floats lowest = floats{} + t.depth.lowest, highest = floats{} + t.depth.highest;
-    const doubles error = doubles{} + t.depth.error;
-    const names drawn = names{} + name;
-
-    // Lanes hold N neighbouring pixels of a row.
-    ints row_bc = static_cast<Int>(t.bc.origin) + column * static_cast<Int>(t.bc.dx);
-    ints row_ca = static_cast<Int>(t.ca.origin) + column * static_cast<Int>(t.ca.dx);
-    ints row_ab = static_cast<Int>(t.ab.origin) + column * static_cast<Int>(t.ab.dx);
-
-    for (int y = t.box.y0; y <= t.box.y1; ++y) {
-        const double row_z = t.depth.row(y);
-        float* const depths = tile.depth(t.box.x0, y);
-        std::uint32_t* const winners = tile.winner(t.box.x0, y);
-        ints bc = row_bc, ca = row_ca, ab = row_ab;
-        bool entered = false;
-        for (int x = t.box.x0; x <= t.box.x1; x += N) {
-            masks covered;
-            convert(covered, ints((bc | ca | ab) >= 0));
-            bc += static_cast<Int>(N * t.bc.dx);
-            ca += static_cast<Int>(N * t.ca.dx);
-            ab += static_cast<Int>(N * t.ab.dx);
-            if (!any(covered)) {
-                if (entered) break;  // a row of a triangle is one run
-                continue;
-            }
-            entered = true;
-            const doubles plane = row_z + t.depth.dx * (column_x + (static_cast<double>(x) - t.depth.x));
-            floats z;
-            convert(z, plane);
-            if constexpr (Exact) {
-                floats below, above;
-                convert(below, doubles(plane - error));
-                convert(above, doubles(plane + error));
-                const masks doubtful = covered & masks(below != above);
-                if (any(doubtful))
-                    for (int i = 0; i < N; ++i)
-                        if (lane(doubtful, i) != 0) set_lane(z, i, nearest(x + i, y));
-            }
-            z = z > lowest ? z : lowest;
-            z = z < highest ? z : highest;
-            const std::ptrdiff_t at = x - t.box.x0;
-            keep_nearer<N, Winners>(depths + at, Winners ? winners + at : nullptr, covered, z, drawn);
-        }
-        row_bc += static_cast<Int>(t.bc.dy);
-        row_ca += static_cast<Int>(t.ca.dy);
-        row_ab += static_cast<Int>(t.ab.dy);
-    }
-}
-
-/// All triangles of one tile, between reading and writing the image. `Triangles` has the runs of the tile, and for a
-/// name its corners' places, its set-up and its nearest depth.
-template <class Triangles, bool Winners, class Real>
+/// Draws a tile between loading it from the image and storing it there. `Triangles` has the tile's runs of triangle ids
+/// and, by id, vertices, setup and rounded depth.
+template <class Triangles, bool HasIds, class Real>
 struct tile_kernel {
     static constexpr bool exact = std::is_same_v<Real, double>;
     const Triangles& triangles;
-    tile_buffer<Winners>& tile;
+    tile_buffer<HasIds>& tile;
     image_view<float> image;
-    pixel_box box;
-    float sign;  ///< a smaller internal depth wins
-    bool load_image, store_image;
+    float sign;  ///< from the image's depth to the tile's, where smaller is nearer
+    bool load_image;
 
     template <int Width>
     INSONIFY_INLINE void run() const {
-        // As many as fit a vector of depths.
+        // As many lanes as a vector of Real holds.
         constexpr int N = exact && Width > 1 ? Width / 2 : Width;
-        tile.restart(box.x0, box.y0);
+        tile.restart(triangles.pixels.x0, triangles.pixels.y0);
         tile.template clear<Width>();
-        if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth(x, y), &image(x, y)); });
-        const drawn_area<N> area(triangles.grid(), box);
+        if (load_image) copy<N>([&](int x, int y) { return std::pair(tile.depth_at(x, y), &image(x, y)); });
+        const drawn_area<N> area(triangles.grid(), triangles.pixels);
         run_reader left(triangles.runs());
         while (!left.empty()) {
             draw_small_ones<N>(left, area);
@@ -13722,24 +13653,25 @@ struct tile_kernel {
             const triangle_run run = left.take_run();
             for (std::uint32_t i = 0; i < run.count; ++i) draw_one<N>(run.first + i);
         }
-        if (store_image) copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth(x, y)); });
+        copy<N>([&](int x, int y) { return std::pair(&image(x, y), tile.depth_at(x, y)); });
     }
 
   private:
-    /// Between tile and image; `ends(x, y)` are where to and where from. Adding zero leaves no minus zero, which one
-    /// way to a depth may make where another makes zero.
+    /// Copies depths between tile and image; `ends(x, y)` returns destination and source. Adding zero turns -0 into +0,
+    /// so that both ways to compute a depth of zero give the same bits.
     template <int N, class Ends>
     INSONIFY_INLINE void copy(const Ends& ends) const {
         using floats = lanes<float, N>;
-        for (int y = box.y0; y <= box.y1; ++y) {
-            int x = box.x0;
-            for (; x + N - 1 <= box.x1; x += N) {
+        const rect& pixels = triangles.pixels;
+        for (int y = pixels.y0; y < pixels.y1; ++y) {
+            int x = pixels.x0;
+            for (; x + N <= pixels.x1; x += N) {
                 const auto [to, from] = ends(x, y);
                 floats z;
                 load(z, from);
                 store(to, floats(z * sign + 0.0f));
             }
-            for (; x <= box.x1; ++x) {
+            for (; x < pixels.x1; ++x) {
                 const auto [to, from] = ends(x, y);
                 *to = *from * sign + 0.0f;
             }
@@ -13747,33 +13679,33 @@ struct tile_kernel {
     }
 
     template <int N>
-    INSONIFY_INLINE void draw_one(std::uint32_t name) const {
-        const triangle_setup t = triangles.setup(name);
-        const auto nearest = [&](int x, int y) { return triangles.nearest_depth(name, x, y); };
+    INSONIFY_INLINE void draw_one(std::uint32_t id) const {
+        const triangle_setup t = triangles.setup(id);
+        const auto rounded_depth = [&](int x, int y) { return triangles.rounded_depth(id, x, y); };
         if (t.narrow)
-            fill<N, std::int32_t, Winners, exact>(t, tile, name, nearest);
+            fill<N, std::int32_t, HasIds, exact>(t, tile, id, rounded_depth);
         else
-            fill<N, std::int64_t, Winners, exact>(t, tile, name, nearest);
+            fill<N, std::int64_t, HasIds, exact>(t, tile, id, rounded_depth);
     }
 
-    /// As many as come before one that isn't small. A tile's triangles lie far apart in the mesh, in rows of a few: so
-    /// while a group of them is drawn, the next one's corners and the indices of the one after that are on their way.
-    /// Neighbours share corners, and cache lines: every second triangle, and every fourth, stand for the others.
+    /// Draws small triangles up to the next one that isn't. A tile's triangles lie far apart in the mesh, in rows of a
+    /// few. While a group of them is drawn, the next group's vertices and the indices of the one after that are
+    /// prefetched: of every second and every fourth triangle, because neighbours share vertices and cache lines.
     template <int N>
     INSONIFY_INLINE void draw_small_ones(run_reader& left, const drawn_area<N>& area) const {
         struct group {
-            std::uint32_t names[static_cast<unsigned>(2 * N)];  // see take_small
+            std::uint32_t ids[static_cast<unsigned>(2 * N)];  // see take_small
             int count;
         };
         group groups[3];
         const auto take = [&](int i) INSONIFY_INLINE_LAMBDA {
             group& g = groups[i % 3];
-            g.count = left.template take_small<N>(g.names);
-            for (int k = 0; k < g.count; k += 4) triangles.prefetch_indices(g.names[k]);
+            g.count = left.template take_small<N>(g.ids);
+            for (int k = 0; k < g.count; k += 4) triangles.prefetch_indices(g.ids[k]);
         };
         const auto approach = [&](int i) INSONIFY_INLINE_LAMBDA {
             const group& g = groups[i % 3];
-            for (int k = 0; k < g.count; k += 2) triangles.prefetch_corners(g.names[k]);
+            for (int k = 0; k < g.count; k += 2) triangles.prefetch_vertices(g.ids[k]);
         };
         take(0);
         take(1);
@@ -13781,34 +13713,33 @@ struct tile_kernel {
         for (int i = 0; groups[i % 3].count > 0; ++i) {
             take(i + 2);
             approach(i + 1);
-            draw_small<N>(groups[i % 3].names, groups[i % 3].count, area);
+            draw_small<N>(groups[i % 3].ids, groups[i % 3].count, area);
         }
     }
 
     template <int N>
-    INSONIFY_INLINE void draw_small(const std::uint32_t* names, int count, const drawn_area<N>& pixels) const {
-        using reals = lanes<Real, N>;
-        reals z[3];
-        corner_lanes<N> at([&](int i, auto& x, auto& y) INSONIFY_INLINE_LAMBDA {
-            const kept_lanes<N, Real> corner([&](int k) -> const auto& { return triangles.corner(names[k], i); });
-            x = corner.x;
-            y = corner.y;
-            z[i] = corner.depth;
+    INSONIFY_INLINE void draw_small(const std::uint32_t* ids, int count, const drawn_area<N>& drawn) const {
+        lanes<Real, N> z[3];
+        triangle_lanes<N> t([&](int i, auto& x, auto& y) INSONIFY_INLINE_LAMBDA {
+            const vertex_lanes<N, Real> v([&](int k) -> const auto& { return triangles.vertex(ids[k], i); });
+            x = v.x;
+            y = v.y;
+            z[i] = v.depth;
         });
-        // Corners in clockwise order: b and c are exchanged where the front is seen.
+        // Clockwise order: b and c are exchanged where the front is seen.
         lanes<std::int32_t, N> area, front;
-        at.area(area);
+        t.area(area);
         front = area < 0;
         area = front ? 0 - area : area;
-        exchange(front, at.bx, at.cx);
-        exchange(front, at.by, at.cy);
+        exchange(front, t.bx, t.cx);
+        exchange(front, t.by, t.cy);
         lanes<std::conditional_t<exact, std::int64_t, std::int32_t>, N> real_front;
         convert(real_front, front);
         exchange(real_front, z[1], z[2]);
-        const small_setup<N> t(at, pixels);
-        const small_planes<N, Real> planes(at, area, z[0], z[1], z[2]);
-        small_fill<N, Real, Winners>{t, planes, static_cast<int>(triangles.grid().unit()), tile, names, count}(
-            [&](int k, int x, int y) { return triangles.nearest_depth(names[k], x, y); });
+        const small_setup<N> setup(t, drawn);
+        const small_planes<N, Real> planes(t, area, z[0], z[1], z[2]);
+        small_fill<N, Real, HasIds>{setup, planes, static_cast<int>(triangles.grid().unit()), tile, ids, count}(
+            [&](int k, int x, int y) { return triangles.rounded_depth(ids[k], x, y); });
     }
 
     template <class Mask, class Lanes>
@@ -13825,12 +13756,105 @@ struct tile_kernel {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/raster/detail/fragment_lanes.hpp -------------------------------------------------
-// Shading of several pixels at a time, for who can write a shader in lanes: what a row's next N pixels show.
-//
-// Where a triangle of a fine mesh covers two or three pixels, most of the work is to fetch its corners. So what the
-// vertex callable gives is kept for each vertex, beside what interpolation needs, in whole vectors of four floats; and
-// a pixel takes its three corners in a few loads.
+// ------------ insonify/raster/fragment_lanes.hpp --------------------------------------------------------
+// The input of fragment shaders over SIMD lanes: N adjacent pixels of a row.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+template <class Screen, class Varyings, class Shader>
+struct lane_shading_kernel;
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
+
+/// Values of N pixels. Operators and `mask ? a : b` work lane by lane, for N = 1 on plain numbers.
+template <class T, int N>
+using pixel_lanes = detail::lanes<T, N>;
+
+/// N adjacent pixels of a row, of which some may not be visible. Shaders take it by reference and pass lanes on by
+/// reference only: a wide vector by value means something else to code compiled for another instruction set.
+template <int N, class Varyings>
+class fragment_lanes {
+  public:
+    using ints = pixel_lanes<std::int32_t, N>;  ///< masks: 0 or -1
+    using floats = pixel_lanes<float, N>;
+
+    int x, y;      ///< pixel of the first lane, row 0 at the top
+    ints visible;  ///< mask of the pixels that this draw shades
+    bool all_visible;
+    std::uint32_t triangles[static_cast<unsigned>(N)];  ///< indices into mesh.triangles
+    ints front;                                         ///< mask: seen from the counter-clockwise side
+    floats weights[3];                                  ///< barycentric, perspective-correct
+
+    /// Sets `into` to float k of the varyings, interpolated perspective-correctly. Reversing the triangle's winding
+    /// changes no bit.
+    INSONIFY_INLINE void interpolate(floats& into, int k) const {
+        into = weights[0] * values_[0][k] + (weights[1] * values_[1][k] + weights[2] * values_[2][k]);
+    }
+    /// Sets `into` to z / w at the pixels' centres.
+    INSONIFY_INLINE void depth(floats& into) const {
+        detail::load(into, depth_);
+        into = into * depth_sign_ + 0.0f;
+    }
+    /// Stores one value per visible pixel.
+    template <class Image, class Values>
+    INSONIFY_INLINE void store(Image&& into, const Values& values) const {
+        if (all_visible)
+            detail::store(&into(x, y), values);
+        else
+            for (int k = 0; k < N; ++k)
+                if (detail::lane(visible, k) != 0) into(x + k, y) = detail::lane(values, k);
+    }
+
+  private:
+    template <class Screen, class V, class Shader>
+    friend struct detail::lane_shading_kernel;
+
+    static constexpr int varyings_size = (static_cast<int>(sizeof(Varyings) / sizeof(float)) + 3) / 4 * 4;
+    floats values_[3][static_cast<unsigned>(varyings_size)];  ///< varyings of the vertices
+    const float* depth_;                                      ///< in the tile
+    float depth_sign_;
+};
+
+}  // namespace INSONIFY_FLAGS
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/raster/framebuffer.hpp -----------------------------------------------------------
+// Render targets of a draw. The type says which attachments there are; nothing is compiled for those that are absent.
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Depth alone: the draw takes no fragment shader.
+struct depth_target {
+    image_view<float> depth;
+};
+
+/// Depth and one value per pixel. With Pixel = void the fragment shader stores its results itself.
+template <class Pixel>
+struct framebuffer {
+    image_view<Pixel> color;
+    image_view<float> depth;
+    bool clears_color = false;  ///< whether `depth_load::clear` also sets the color of all pixels to `background`
+    Pixel background{};
+};
+template <>
+struct framebuffer<void> {
+    image_view<float> depth;
+};
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+// ------------ insonify/raster/detail/shade.hpp ----------------------------------------------------------
+// Shades the visible pixels of a tile: one by one in double, or over SIMD lanes in float.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -13838,158 +13862,140 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Where the centres of a row's pixels lie on the grid. Unsigned: what is off the grid has no place, and from there it
-/// may be farther than an integer holds.
+/// The triangles of one tile.
+template <class Real>
+struct tile_triangles {
+    const screen_mesh<Real>& screen;
+    std::span<const triangle_run> bin;
+    rect pixels;
+    const void* records;  ///< varyings of the vertices, which shading reads later; or null
+    std::size_t record_size;
+
+    std::span<const triangle_run> runs() const { return bin; }
+    const pixel_grid& grid() const { return screen.grid(); }
+    INSONIFY_INLINE const packed_vertex<Real>& vertex(std::uint32_t id, int i) const { return screen.vertex(id, i); }
+
+    INSONIFY_INLINE void prefetch_indices(std::uint32_t id) const { prefetch(&screen.indices(id)); }
+    INSONIFY_INLINE void prefetch_vertices(std::uint32_t id) const {
+        const glm::uvec3& index = screen.indices(id);
+        for (int i = 0; i < 3; ++i) {
+            prefetch(&screen.vertex(id, i));
+            if (records != nullptr) prefetch(static_cast<const char*>(records) + std::size_t{index[i]} * record_size);
+        }
+    }
+
+    INSONIFY_INLINE triangle_setup setup(std::uint32_t id) const {
+        const screen_triangle t = screen[id];
+        triangle_setup s = triangle_setup::of(t.a, t.b, t.c, grid(), pixels_of(t), tile_buffer<false>::slack);
+        if (t.is_run()) s.cover_all();
+        return s;
+    }
+    /// The pixels of the tile that a triangle may cover.
+    rect pixels_of(const screen_triangle& t) const {
+        return intersect(pixels, t.is_run() ? t.wide->run : center_rect(t.a, t.b, t.c, grid()));
+    }
+    INSONIFY_RARE float rounded_depth(std::uint32_t id, int x, int y) const {
+        const screen_triangle t = screen[id];
+        return detail::rounded_depth(t.a, t.b, t.c, x, y, grid());
+    }
+};
+
+/// The varyings of a triangle's vertices, in the mesh's order.
+template <class VertexShader>
+struct vertex_varyings {
+    varyings_of<VertexShader> a, b, c;
+
+    vertex_varyings(const VertexShader& shader, const mesh_view& m, const glm::uvec3& index)
+        : a(varyings_at(shader, mesh_vertex(m, index.x))),
+          b(varyings_at(shader, mesh_vertex(m, index.y))),
+          c(varyings_at(shader, mesh_vertex(m, index.z))) {}
+};
+
+/// Calls the fragment shader for every visible pixel of a tile.
+/// @returns the number of pixels
+template <class Target, class Triangles, class VertexShader, class FragmentShader>
+std::uint64_t shade(const mesh_view& m, const VertexShader& vertex_shader, const FragmentShader& shader,
+                    const Target& target, const Triangles& triangles, tile_buffer<true>& tile, float depth_sign) {
+    using varyings = varyings_of<VertexShader>;
+    const pixel_grid& grid = triangles.screen.grid();
+    std::uint64_t shaded = 0;
+    const auto shade_triangle = [&](std::uint32_t id) {
+        const screen_triangle t = triangles.screen[id];
+        const rect pixels = triangles.pixels_of(t);
+        std::optional<vertex_varyings<VertexShader>> ends;  // most triangles of a fine mesh show no pixel
+        for (int y = pixels.y0; y < pixels.y1; ++y) {
+            const std::uint32_t* const shown = tile.id_at(pixels.x0, y);
+            for (int x = pixels.x0; x < pixels.x1; ++x) {
+                if (shown[x - pixels.x0] != id) continue;
+                if (!ends) ends.emplace(vertex_shader, m, m.triangles[t.triangle]);
+                const glm::dvec3 weights = t.weights_at(x, y, grid);
+                const fragment<varyings> f{x,
+                                           y,
+                                           depth_sign * *tile.depth_at(x, y) + 0.0f,  // as in the image
+                                           t.triangle,
+                                           glm::vec3(weights),
+                                           t.front,
+                                           weighted(ends->a, ends->b, ends->c, weights)};
+                if constexpr (requires { target.color; })
+                    target.color(x, y) = shader(f);
+                else
+                    shader(f);
+                ++shaded;
+            }
+        }
+    };
+    for (const triangle_run& run : triangles.runs())
+        for (std::uint32_t i = 0; i < run.count; ++i) shade_triangle(run.first + i);
+    return shaded;
+}
+
+/// Pixel centres of a row on the sub-pixel grid. Unsigned, so that differences to vertices off the grid wrap around.
 template <int N>
 struct row_centers {
-    using places = lanes<std::uint32_t, N>;
+    using positions = lanes<std::uint32_t, N>;
     int y, subpixel_bits;
-    places first;  ///< along the row, of the picture's first N pixels
-    places down;
+    positions first;  ///< x of the picture's first N pixels
+    positions down;   ///< y
 
     INSONIFY_INLINE row_centers(const pixel_grid& grid, int row) : y(row), subpixel_bits(grid.subpixel_bits) {
         count_up<std::uint32_t, N>(first);
         first = (first << subpixel_bits) + static_cast<std::uint32_t>(grid.half());
-        down = places{} + static_cast<std::uint32_t>(grid.center(row));
+        down = positions{} + static_cast<std::uint32_t>(grid.center(row));
     }
 };
 
-/// N neighbouring pixels of a row.
-template <int N, class Varyings>
-class fragment_lanes {
-  public:
-    using record = vertex_record<Varyings>;
-    using ints = lanes<std::int32_t, N>;
-    using floats = lanes<float, N>;
-
-    int x, y;      ///< of the first lane
-    ints visible;  ///< which lanes this draw has won
-    bool all_visible;
-    std::uint32_t triangles[static_cast<unsigned>(N)];  ///< of the mesh
-    ints front;                                         ///< seen from the counter-clockwise side
-    floats weights[3];                                  ///< of the corners, perspective-correct
-    unsigned wide;                                      ///< bit k: lane k's triangle is clipped or very large
-    floats right[3], down[3];  ///< from the pixel's centre to the corners of the others, in sub-pixels
-
-    /// @param names  of what each lane shows: somebody's where a lane isn't visible
-    template <class Screen>
-    INSONIFY_INLINE void look_up(const Screen& screen, const record* records, int column, const row_centers<N>& row,
-                                 const ints& shown, bool all_shown, const std::uint32_t* names) {
-        x = column;
-        y = row.y;
-        visible = shown;
-        all_visible = all_shown;
-        lanes<std::uint32_t, N> name;
-        load(name, names);
-        const bool any_wide = any(ints(name >= screen.compact_names()));
-        std::memcpy(triangles, names, sizeof triangles);
-        if (any_wide)
-            for (std::uint32_t& triangle : triangles) triangle = screen.triangle(triangle);
-        const glm::uvec3* corners[count];
-        unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(triangles[k]); });
-        read_corners(screen, records, row, corners);
-        weigh();
-        wide = 0;
-        if (any_wide) weigh_wide(screen, names);
-    }
-
-    /// Float k of the varyings; the same bits whichever way the triangle runs.
-    INSONIFY_INLINE void interpolate(floats& into, int k) const {
-        into = weights[0] * values_[0][k] + (weights[1] * values_[1][k] + weights[2] * values_[2][k]);
-    }
-    /// The same at a corner, in the mesh's order.
-    INSONIFY_INLINE const floats& at_corner(int corner, int k) const { return values_[corner][k]; }
-
-  private:
-    static constexpr auto count = static_cast<std::size_t>(N);
-
-    /// What the records know of the corners of the lanes' triangles and, of compact ones, the screen: both at once, so
-    /// that a corner is looked for once.
-    template <class Screen>
-    INSONIFY_INLINE void read_corners(const Screen& screen, const record* records, const row_centers<N>& row,
-                                      const glm::uvec3* const (&corners)[count]) {
-        using places = typename row_centers<N>::places;
-        const places px = row.first + (static_cast<std::uint32_t>(x) << row.subpixel_bits);
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
-            std::size_t vertex[count];
-            unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { vertex[k] = (*corners[k])[i]; });
-            const kept_lanes<N, float> corner([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
-                return screen.vertices()[vertex[k]];
-            });
-            convert(right[i], ints(places(corner.x) - px));
-            convert(down[i], ints(places(corner.y) - row.down));
-            inverse_w_[i] = corner.inverse_w;
-            unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
-                transpose<N>(values_[i] + 4 * block,
-                             [&](int k) INSONIFY_INLINE_LAMBDA { return records[vertex[k]].values + 4 * block; });
-            });
-        });
-    }
-
-    /// Each corner's share is the area of the triangle opposite to it; the sign of the whole cancels out. In float a
-    /// share is off by 2^-24 of the triangle's length squared.
-    INSONIFY_INLINE void weigh() {
-        // From the pixel, so that exchanging two corners changes a sign and nothing else.
-        weights[0] = right[1] * down[2] - down[1] * right[2];
-        weights[1] = right[2] * down[0] - down[2] * right[0];
-        weights[2] = right[0] * down[1] - down[0] * right[1];
-        front = ints(weights[0] + (weights[1] + weights[2]) < 0.0f);
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * inverse_w_[i]; });
-        const floats scale = 1.0f / (weights[0] + (weights[1] + weights[2]));
-        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { weights[i] = weights[i] * scale; });
-    }
-    /// Of lanes whose triangle was clipped, or is too large.
-    template <class Screen>
-    INSONIFY_INLINE void weigh_wide(const Screen& screen, const std::uint32_t* names) {
-        for (int k = 0; k < N; ++k) {
-            if (screen.is_compact(names[k])) continue;
-            wide |= 1u << k;
-            const weights_of_one one = weigh_one(screen, names[k], x + k, y);
-            set_lane(front, k, one.front ? std::int32_t{-1} : std::int32_t{0});
-            for (int i = 0; i < 3; ++i) set_lane(weights[i], k, one.weights[i]);
-        }
-    }
-    struct weights_of_one {
-        glm::vec3 weights;
-        bool front;
-    };
-    template <class Screen>
-    INSONIFY_RARE static weights_of_one weigh_one(const Screen& screen, std::uint32_t name, int px, int py) {
-        const screen_triangle t = screen[name];
-        return {glm::vec3(t.weights_at(px, py, screen.grid())), t.front};
-    }
-
-    floats values_[3][static_cast<unsigned>(4 * record::blocks)];  ///< of the corners
-    floats inverse_w_[3];                                          ///< of those of compact triangles
-};
-
-/// Hands the pixels of one tile that this draw has won to `shader(fragment_lanes)`. What they show is looked up for
-/// part of a row before any of it is shaded: either is one long chain, and so neighbours' chains run side by side.
+/// Calls a shader over lanes for the visible pixels of a tile.
+///
+/// A triangle of a fine mesh covers two or three pixels, so most of the work is to fetch vertices: varyings are stored
+/// by vertex, in whole vectors of four floats, and a pixel loads its three vertices in a few instructions. Part of a
+/// row is looked up before any of it is shaded: both are long dependency chains, which then overlap.
 template <class Screen, class Varyings, class Shader>
-struct shading_kernel {
+struct lane_shading_kernel {
+    using record = varyings_record<Varyings>;
+
     const Screen& screen;
-    const vertex_record<Varyings>* records;
+    const record* records;
     tile_buffer<true>& tile;
-    pixel_box box;
+    rect pixels;
+    float depth_sign;
     const Shader& shader;
     std::uint64_t& shaded;
 
-    template <int Width>
+    template <int N>
     INSONIFY_INLINE void run() const {
-        constexpr int N = Width;
         fragment_lanes<N, Varyings> found[static_cast<unsigned>(part / N)];
-        for (int y = box.y0; y <= box.y1; ++y)
-            for (int x = box.x0; x <= box.x1; x += part) {
+        for (int y = pixels.y0; y < pixels.y1; ++y)
+            for (int x = pixels.x0; x < pixels.x1; x += part) {
                 const int count = find<N>(found, x, y);
                 for (int i = 0; i < count; ++i) shader(found[i]);
             }
     }
 
   private:
-    static constexpr int part = 64;  ///< pixels; what is known of them stays in the first-level cache
+    static constexpr int part = 64;  ///< pixels whose fragments stay in the first-level cache
 
-    /// Looks at the pixels from (x0, y) on.
-    /// @returns how many fragments that makes
+    /// Finds the fragments of the pixels from (x0, y) on.
+    /// @returns their number
     template <int N>
     INSONIFY_INLINE int find(fragment_lanes<N, Varyings>* found, int x0, int y) const {
         using ints = lanes<std::int32_t, N>;
@@ -13997,31 +14003,113 @@ struct shading_kernel {
         ints column;
         count_up<std::int32_t, N>(column);
         int count = 0;
-        for (int x = x0; x <= (std::min)(box.x1, x0 + part - 1); x += N) {
-            const std::uint32_t* const names = tile.winner(x, y);
+        for (int x = x0; x < (std::min)(pixels.x1, x0 + part); x += N) {
+            const std::uint32_t* const ids = tile.id_at(x, y);
             lanes<std::uint32_t, N> shown;
-            load(shown, names);
-            const ints visible = ints(shown != tile_buffer<true>::nobody) & ints(column <= box.x1 - x);
+            load(shown, ids);
+            const ints visible = ints(shown != tile_buffer<true>::invalid_id) & ints(column < pixels.x1 - x);
             if (!any(ints(visible == 0))) {
                 shaded += N;
-                found[count++].look_up(screen, records, x, row, visible, true, names);
+                look_up<N>(found[count++], x, row, visible, true, ids);
             } else if (any(visible)) {
-                find_some<N>(found[count++], x, row, visible, names);
+                look_up_some<N>(found[count++], x, row, visible, ids);
             }
         }
         return count;
     }
+
+    /// Where some pixels are not visible, their lanes take the triangle of one that is.
     template <int N>
-    INSONIFY_INLINE void find_some(fragment_lanes<N, Varyings>& found, int x, const row_centers<N>& row,
-                                   const lanes<std::int32_t, N>& visible, const std::uint32_t* names) const {
-        std::uint32_t shown[static_cast<unsigned>(N)], somebody = 0;
+    INSONIFY_INLINE void look_up_some(fragment_lanes<N, Varyings>& f, int x, const row_centers<N>& row,
+                                      const lanes<std::int32_t, N>& visible, const std::uint32_t* ids) const {
+        std::uint32_t shown[static_cast<unsigned>(N)], some_id = 0;
         for (int k = 0; k < N; ++k)
             if (lane(visible, k) != 0) {
-                somebody = names[k];
+                some_id = ids[k];
                 ++shaded;
             }
-        for (int k = 0; k < N; ++k) shown[k] = lane(visible, k) != 0 ? names[k] : somebody;
-        found.look_up(screen, records, x, row, visible, false, shown);
+        for (int k = 0; k < N; ++k) shown[k] = lane(visible, k) != 0 ? ids[k] : some_id;
+        look_up<N>(f, x, row, visible, false, shown);
+    }
+
+    template <int N>
+    INSONIFY_INLINE void look_up(fragment_lanes<N, Varyings>& f, int x, const row_centers<N>& row,
+                                 const lanes<std::int32_t, N>& visible, bool all_visible,
+                                 const std::uint32_t* ids) const {
+        f.x = x;
+        f.y = row.y;
+        f.visible = visible;
+        f.all_visible = all_visible;
+        f.depth_ = tile.depth_at(x, row.y);
+        f.depth_sign_ = depth_sign;
+        lanes<std::uint32_t, N> id;
+        load(id, ids);
+        const bool any_wide = any(ints_of<N>(id >= screen.compact_count()));
+        std::memcpy(f.triangles, ids, sizeof f.triangles);
+        if (any_wide)
+            for (std::uint32_t& triangle : f.triangles) triangle = screen.triangle(triangle);
+        weigh<N>(f, row);
+        if (any_wide) weigh_wide<N>(f, ids);
+    }
+    template <int N>
+    using ints_of = lanes<std::int32_t, N>;
+
+    /// Sets weights and varyings. A vertex's weight is the area of the triangle opposite to it; the sign of the whole
+    /// cancels. In float its error is 2^-24 of the triangle's length squared.
+    template <int N>
+    INSONIFY_INLINE void weigh(fragment_lanes<N, Varyings>& f, const row_centers<N>& row) const {
+        using positions = typename row_centers<N>::positions;
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        const glm::uvec3* corners[static_cast<unsigned>(N)];
+        unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { corners[k] = &screen.indices(f.triangles[k]); });
+        const positions px = row.first + (static_cast<std::uint32_t>(f.x) << row.subpixel_bits);
+        floats right[3], down[3], inverse_w[3];  // from the pixel's centre to the vertices
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
+            std::size_t index[static_cast<unsigned>(N)];
+            unroll<N>([&](int k) INSONIFY_INLINE_LAMBDA { index[k] = (*corners[k])[i]; });
+            const auto& vertices = screen.vertices();
+            const vertex_lanes<N, typename Screen::real> v([&](int k) INSONIFY_INLINE_LAMBDA -> const auto& {
+                return vertices.packed[index[k]];
+            });
+            convert(right[i], ints(positions(v.x) - px));
+            convert(down[i], ints(positions(v.y) - row.down));
+            if constexpr (std::is_same_v<typename Screen::real, float>)
+                inverse_w[i] = v.inverse_w;
+            else
+                gather<N>(inverse_w[i], [&](int k) { return static_cast<float>(vertices.inverse_w[index[k]]); });
+            unroll<record::blocks>([&](int block) INSONIFY_INLINE_LAMBDA {
+                transpose<N>(f.values_[i] + 4 * block,
+                             [&](int k) INSONIFY_INLINE_LAMBDA { return records[index[k]].values + 4 * block; });
+            });
+        });
+        // Measured from the pixel, so that exchanging two vertices changes a sign and nothing else.
+        f.weights[0] = right[1] * down[2] - down[1] * right[2];
+        f.weights[1] = right[2] * down[0] - down[2] * right[0];
+        f.weights[2] = right[0] * down[1] - down[0] * right[1];
+        f.front = ints(f.weights[0] + (f.weights[1] + f.weights[2]) < 0.0f);
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.weights[i] = f.weights[i] * inverse_w[i]; });
+        const floats scale = 1.0f / (f.weights[0] + (f.weights[1] + f.weights[2]));
+        unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.weights[i] = f.weights[i] * scale; });
+    }
+
+    /// Replaces the weights of lanes whose triangle is wide.
+    template <int N>
+    INSONIFY_INLINE void weigh_wide(fragment_lanes<N, Varyings>& f, const std::uint32_t* ids) const {
+        for (int k = 0; k < N; ++k) {
+            if (screen.is_compact(ids[k])) continue;
+            const weights_of_one one = weigh_one(screen, ids[k], f.x + k, f.y);
+            set_lane(f.front, k, one.front ? std::int32_t{-1} : std::int32_t{0});
+            for (int i = 0; i < 3; ++i) set_lane(f.weights[i], k, one.weights[i]);
+        }
+    }
+    struct weights_of_one {
+        glm::vec3 weights;
+        bool front;
+    };
+    INSONIFY_RARE static weights_of_one weigh_one(const Screen& screen, std::uint32_t id, int px, int py) {
+        const screen_triangle t = screen[id];
+        return {glm::vec3(t.weights_at(px, py, screen.grid())), t.front};
     }
 };
 
@@ -14032,7 +14120,10 @@ struct shading_kernel {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/raster/draw.hpp ------------------------------------------------------------------
-// The public entry of the rasterizer: a mesh, what to do with vertices and pixels, and where to leave the result.
+// Draws a mesh: the public entry of the rasterizer.
+//
+// Vertices are shaded and snapped (vertices.hpp), triangles culled, clipped and binned (assembly.hpp), tiles resolve
+// visibility (tile.hpp), and visible pixels are shaded (shade.hpp), all in parallel over chunks or tiles.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -14041,136 +14132,44 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-inline void check(const draw_options& options, image_view<const float> depth) {
+template <depth_precision Depth>
+void check(const draw_options<Depth>& options, image_view<const float> depth) {
     require(options.subpixel_bits >= 4 && options.subpixel_bits <= 16, "subpixel_bits", options.subpixel_bits,
             "4 to 16");
     require(options.tile >= 8 && options.tile <= 256 && std::has_single_bit(static_cast<unsigned>(options.tile)),
             "tile", options.tile, "a power of two from 8 to 256");
-    const int widest = 1 << (30 - options.subpixel_bits);
-    require(depth.width() <= widest, "target width", depth.width(), "at most 2^30 sub-pixels");
-    require(depth.height() <= widest, "target height", depth.height(), "at most 2^30 sub-pixels");
+    // Sub-pixels have 30 bits, columns and rows of tiles 16.
+    const int limit = (std::min)(1 << (30 - options.subpixel_bits), options.tile << 16);
+    require(depth.width() <= limit, "target width", depth.width(), "at most 2^30 sub-pixels and 2^16 tiles");
+    require(depth.height() <= limit, "target height", depth.height(), "at most 2^30 sub-pixels and 2^16 tiles");
 }
 
-/// The triangles of one tile, as the pixel kernel asks for them.
-template <class Real>
-struct tile_triangles {
-    const screen_mesh<Real>& screen;
-    std::span<const triangle_run> bin;
-    pixel_box box;
-    const void* records;  ///< of vertices, which shading will read soon; or null
-    std::size_t record_size;
-
-    std::span<const triangle_run> runs() const { return bin; }
-    const pixel_grid& grid() const { return screen.grid(); }
-    INSONIFY_INLINE const kept_vertex<Real>& corner(std::uint32_t name, int i) const { return screen.corner(name, i); }
-
-    INSONIFY_INLINE void prefetch_indices(std::uint32_t name) const { prefetch(&screen.indices(name)); }
-    INSONIFY_INLINE void prefetch_corners(std::uint32_t name) const {
-        const glm::uvec3& index = screen.indices(name);
-        for (int i = 0; i < 3; ++i) {
-            prefetch(&screen.corner(name, i));
-            if (records != nullptr) prefetch(static_cast<const char*>(records) + std::size_t{index[i]} * record_size);
-        }
-    }
-
-    INSONIFY_INLINE triangle_setup setup(std::uint32_t name) const {
-        const screen_triangle t = screen[name];
-        triangle_setup s = triangle_setup::of(t.a, t.b, t.c, grid(), box_of(t), tile_buffer<false>::slack);
-        if (t.is_run()) s.cover_box();
-        return s;
-    }
-    /// The pixels of the tile that a triangle may cover.
-    pixel_box box_of(const screen_triangle& t) const {
-        return intersect(box, t.is_run() ? t.wide->run : center_box(t.a, t.b, t.c, grid()));
-    }
-    INSONIFY_RARE float nearest_depth(std::uint32_t name, int x, int y) const {
-        const screen_triangle t = screen[name];
-        return detail::nearest_depth(t.a, t.b, t.c, x, y, grid());
-    }
-};
-
-/// What the vertex callable gives the pixels between a triangle's corners, in the mesh's order.
-template <class VertexShader>
-struct corner_varyings {
-    varyings_of<VertexShader> a, b, c;
-
-    corner_varyings(const VertexShader& place, const mesh_view& m, const glm::uvec3& index)
-        : a(varyings_at(place, mesh_vertex(m, index.x))),
-          b(varyings_at(place, mesh_vertex(m, index.y))),
-          c(varyings_at(place, mesh_vertex(m, index.z))) {}
-};
-
-/// Calls the fragment callable for every pixel of a tile that shows a triangle of this draw.
-template <class Target, class Triangles, class VertexShader, class FragmentShader>
-std::uint64_t shade(const mesh_view& m, const VertexShader& place, const FragmentShader& shader, const Target& target,
-                    const Triangles& triangles, tile_buffer<true>& tile, float depth_sign) {
-    using varyings = varyings_of<VertexShader>;
-    const pixel_grid& grid = triangles.screen.grid();
-    std::uint64_t shaded = 0;
-    const auto shade_one = [&](std::uint32_t name) {
-        const screen_triangle t = triangles.screen[name];
-        const pixel_box box = triangles.box_of(t);
-        std::optional<corner_varyings<VertexShader>> corners;  // most triangles of a fine mesh win no pixel
-        for (int y = box.y0; y <= box.y1; ++y) {
-            const std::uint32_t* const winner = tile.winner(box.x0, y);
-            for (int x = box.x0; x <= box.x1; ++x) {
-                if (winner[x - box.x0] != name) continue;
-                if (!corners) corners.emplace(place, m, m.triangles[t.triangle]);
-                const glm::dvec3 weights = t.weights_at(x, y, grid);
-                const fragment<varyings> f{x,
-                                           y,
-                                           depth_sign * *tile.depth(x, y) + 0.0f,  // as in the image
-                                           t.triangle,
-                                           glm::vec3(weights),
-                                           t.front,
-                                           weighted(corners->a, corners->b, corners->c, weights)};
-                if constexpr (requires { target.color; })
-                    target.color(x, y) = shader(f);
-                else
-                    shader(f);
-                ++shaded;
-            }
-        }
-    };
-    for (const triangle_run& run : triangles.runs())
-        for (std::uint32_t i = 0; i < run.count; ++i) shade_one(run.first + i);
-    return shaded;
-}
-
-/// Keeps all depths.
-inline constexpr auto every_tile = [](const pixel_box&) { return true; };
-
-/// Everything but the shading, which `finish(tile triangles, tile buffer, depth sign)` does; it returns the pixels that
-/// it shaded. What the vertex callable gives goes into `records`, one for each vertex, if there are any. Depths are
-/// stored where `is_kept(tile's box)`.
-template <bool Winners, class Real, vertex_shader VertexShader, executor E, class Record, class Kept, class Finish>
-draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<float> depth,
-                      const draw_options& options, E& ex, Record* records, const Kept& is_kept, Finish&& finish) {
+/// All stages but shading.
+/// @param records  varyings of the vertices, set by the vertex stage; or no_records
+/// @param finish   finish(tile_triangles, tile_buffer, depth sign) shades a tile and returns the number of pixels
+template <bool HasIds, depth_precision Depth, vertex_shader VertexShader, executor E, class Record, class Finish>
+draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view<float> depth,
+                      const draw_options<Depth>& options, E& ex, Record* records, Finish&& finish) {
+    using real = std::conditional_t<Depth == depth_precision::exact, double, float>;
     check(options, depth);
     require(m.normals.empty() || m.normals.size() == m.positions.size(), "mesh.normals.size()", m.normals.size(),
             "0 or one per position");
     if (depth.empty()) return {};
     const pixel_grid grid{options.subpixel_bits, depth.width(), depth.height()};
     const tile_grid tiles(grid.width, grid.height, std::countr_zero(static_cast<unsigned>(options.tile)));
-    const screen_mesh<Real> screen(m, place, grid, tiles, options, Winners && std::is_same_v<Real, double>, records,
-                                   ex);
+    const screen_mesh<real> screen(m, shader, grid, tiles, options, HasIds, records, ex);
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
-    // A few tiles share a buffer; how many doesn't matter to the result.
-    constexpr std::size_t run = 4;
+    constexpr std::size_t run = 4;  // tiles that share a buffer
     std::vector<std::uint64_t> shaded((tiles.count() + run - 1) / run, 0);
     bulk_ranges(ex, tiles.count(), run, [&](std::size_t first, std::size_t last) {
-        tile_buffer<Winners> buffer(options.tile);
+        tile_buffer<HasIds> buffer(options.tile);
         for (std::size_t tile = first; tile < last; ++tile) {
-            const int x = static_cast<int>(tile % static_cast<std::size_t>(tiles.columns)) * options.tile;
-            const int y = static_cast<int>(tile / static_cast<std::size_t>(tiles.columns)) * options.tile;
-            const pixel_box box =
-                intersect({x, y, x + options.tile - 1, y + options.tile - 1}, {0, 0, grid.width - 1, grid.height - 1});
-            const tile_triangles<Real> triangles{screen, screen.bin(tile), box, records, sizeof(Record)};
+            const tile_triangles<real> triangles{screen, screen.bin(tile), tiles.pixels(tile, grid.width, grid.height),
+                                                 records, sizeof(Record)};
             const bool keep = options.load == depth_load::keep;
             if (triangles.bin.empty() && keep) continue;
-            dispatch(tile_kernel<tile_triangles<Real>, Winners, Real>{triangles, buffer, depth, box, sign, keep,
-                                                                      is_kept(box)},
+            dispatch(tile_kernel<tile_triangles<real>, HasIds, real>{triangles, buffer, depth, sign, keep},
                      options.level);
             shaded[first / run] += finish(triangles, buffer, sign);
         }
@@ -14180,69 +14179,38 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& place, image_view<
     return stats;
 }
 
-/// Draws quick depths and hands the pixels that this draw has won, several at a time, to what shades their tile:
-/// `shader.on(pixel_box)`, called with fragment_lanes. A draw that clears depths hands `shader.clear` each tile before,
-/// to clear what it draws into.
-/// @param later  where draws that keep depths will come: elsewhere none are stored
-template <varying_shader VertexShader, class LaneShader, executor E>
-draw_stats draw_lanes(const mesh_view& m, const VertexShader& place, const LaneShader& shader, image_view<float> depth,
-                      std::span<const pixel_box> later, const draw_options& options, E& ex) {
-    using varyings = varyings_of<VertexShader>;
-    uninitialized_vector<vertex_record<varyings>> records(m.positions.size(), memory_of(ex));
-    const auto is_kept = [&](const pixel_box& tile) {
-        return std::any_of(later.begin(), later.end(), [&](const pixel_box& b) { return !intersect(tile, b).empty(); });
-    };
-    const auto shade_tile = [&](const auto& triangles, tile_buffer<true>& tile, float) {
-        if (options.load == depth_load::clear) shader.clear(triangles.box);
-        const auto on_tile = shader.on(triangles.box);
-        std::uint64_t shaded = 0;
-        dispatch(
-            shading_kernel<screen_mesh<float>, varyings, std::remove_const_t<decltype(on_tile)>>{
-                triangles.screen, records.data(), tile, triangles.box, on_tile, shaded},
-            options.level);
-        return shaded;
-    };
-    return draw_tiles<true, float>(m, place, depth, options, ex, records.data(), is_kept, shade_tile);
-}
-
 }  // namespace detail::inline INSONIFY_FLAGS
 
 inline namespace INSONIFY_FLAGS {
 
 /// Draws depth alone; no shading is compiled.
 ///
-/// @param m        a mesh, or a view of your own buffers; any number of triangles up to 2^32 - 1
-/// @param place    vertex_shader: `vertex` to clip space
-/// @param target   depth image of up to 2^22 pixels a side; rows are tiles' rows, from the top
-/// @param options  see draw_options
-/// @param ex       who runs it; the result is the same bytes for any executor
-/// @returns what became of the triangles
-/// @throws invalid_input for an index without a position, normals that don't match, or options out of range;
-///         the target is then untouched
-template <vertex_shader VertexShader, executor_argument E = serial_executor>
-draw_stats draw(const mesh_view& m, const VertexShader& place, const depth_target& target,
-                const draw_options& options = {}, E&& ex = {}) {
-    return detail::draw_tiles<false, double>(m, place, target.depth, options, ex, detail::no_records,
-                                             detail::every_tile, [](auto&&...) { return std::uint64_t{0}; });
+/// @param m        a mesh, or a view of your own buffers; at most 2^32 - 2 triangles
+/// @param shader   vertex_shader or vertex_lane_shader
+/// @param target   depth image of up to 2^22 pixels a side
+/// @param options  see draw_options; `draw_options<depth_precision::quick>` for depths in float
+/// @param ex       runs the stages; the result is the same bytes for any executor
+/// @returns the triangles by what happened to them
+/// @throws invalid_input for an index without a position, a number of normals that isn't that of positions, or options
+///         out of range; the target is then untouched
+template <vertex_shader VertexShader, depth_precision Depth = depth_precision::exact,
+          executor_argument E = serial_executor>
+draw_stats draw(const mesh_view& m, const VertexShader& shader, const depth_target& target,
+                const draw_options<Depth>& options = {}, E&& ex = {}) {
+    return detail::draw_tiles<false>(m, shader, target.depth, options, ex, detail::no_records,
+                                     [](auto&&...) { return std::uint64_t{0}; });
 }
 
-/// The same with quick depths.
-template <vertex_shader VertexShader, executor_argument E = serial_executor>
-draw_stats draw(const mesh_view& m, const VertexShader& place, const quick_depth_target& target,
-                const draw_options& options = {}, E&& ex = {}) {
-    return detail::draw_tiles<false, float>(m, place, target.depth, options, ex, detail::no_records, detail::every_tile,
-                                            [](auto&&...) { return std::uint64_t{0}; });
-}
-
-/// Draws depth and shades every pixel that this draw won, once.
+/// Draws depth and shades every visible pixel once.
 ///
-/// @param shader  fragment_shader: `fragment` to a value for target.color, or to nothing if Pixel is void
-/// The other parameters, the result and the errors are those of the depth-only draw; it also throws invalid_input if
-/// the color image's size isn't the depth image's.
-template <vertex_shader VertexShader, class FragmentShader, class Pixel, executor_argument E = serial_executor>
+/// @param shader  fragment_shader: from a `fragment` to a value for target.color, or to nothing if Pixel is void
+/// The other parameters, the result and the errors are those of the depth-only draw; also throws invalid_input if the
+/// color image's size isn't the depth image's.
+template <vertex_shader VertexShader, class FragmentShader, class Pixel, depth_precision Depth = depth_precision::exact,
+          executor_argument E = serial_executor>
     requires(fragment_shader<FragmentShader, varyings_of<VertexShader>, Pixel>)
-draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentShader& shader,
-                const framebuffer<Pixel>& target, const draw_options& options = {}, E&& ex = {}) {
+draw_stats draw(const mesh_view& m, const VertexShader& vertex_shader, const FragmentShader& shader,
+                const framebuffer<Pixel>& target, const draw_options<Depth>& options = {}, E&& ex = {}) {
     if constexpr (requires { target.color; }) {
         detail::require(target.color.width() == target.depth.width(), "color width", target.color.width(),
                         "the depth image's");
@@ -14250,14 +14218,40 @@ draw_stats draw(const mesh_view& m, const VertexShader& place, const FragmentSha
                         "the depth image's");
     }
     const auto shade = [&](const auto& triangles, auto& tile, float sign) {
+        const rect& pixels = triangles.pixels;
         if constexpr (requires { target.background; })
             if (target.clears_color && options.load == depth_load::clear)
-                for (int y = triangles.box.y0; y <= triangles.box.y1; ++y)
-                    std::fill_n(&target.color(triangles.box.x0, y), triangles.box.width(), target.background);
-        return detail::shade(m, place, shader, target, triangles, tile, sign);
+                for (int y = pixels.y0; y < pixels.y1; ++y)
+                    std::fill_n(&target.color(pixels.x0, y), pixels.width(), target.background);
+        return detail::shade(m, vertex_shader, shader, target, triangles, tile, sign);
     };
-    return detail::draw_tiles<true, double>(m, place, target.depth, options, ex, detail::no_records, detail::every_tile,
-                                            shade);
+    return detail::draw_tiles<true>(m, vertex_shader, target.depth, options, ex, detail::no_records, shade);
+}
+
+/// Draws depth and shades every visible pixel once, several pixels of a row at a time.
+///
+/// @param shader  fragment_lane_shader; it stores its results itself
+/// The other parameters, the result and the errors are those of the depth-only draw.
+template <varying_shader VertexShader, class LaneShader, depth_precision Depth = depth_precision::exact,
+          executor_argument E = serial_executor>
+    requires(!fragment_shader<LaneShader, varyings_of<VertexShader>, void> &&
+             fragment_lane_shader<LaneShader, varyings_of<VertexShader>>)
+draw_stats draw(const mesh_view& m, const VertexShader& vertex_shader, const LaneShader& shader,
+                const framebuffer<void>& target, const draw_options<Depth>& options = {}, E&& ex = {}) {
+    using varyings = varyings_of<VertexShader>;
+    detail::uninitialized_vector<detail::varyings_record<varyings>> records(m.positions.size(), detail::memory_of(ex));
+    const auto shade = [&](const auto& triangles, auto& tile, float sign) {
+        using screen = std::remove_cvref_t<decltype(triangles.screen)>;
+        if constexpr (requires { shader.clear(rect{}); })
+            if (options.load == depth_load::clear) shader.clear(triangles.pixels);
+        std::uint64_t shaded = 0;
+        detail::dispatch(
+            detail::lane_shading_kernel<screen, varyings, LaneShader>{triangles.screen, records.data(), tile,
+                                                                      triangles.pixels, sign, shader, shaded},
+            options.level);
+        return shaded;
+    };
+    return detail::draw_tiles<true>(m, vertex_shader, target.depth, options, ex, records.data(), shade);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -16486,7 +16480,7 @@ exact_occlusion exact::build(std::span<const caster> casters, const any_light& l
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/overhead/detail/seabed_reach.hpp -------------------------------------------
-// How far beyond the picture the seabed has to be there, so that whatever can throw a shadow into it does.
+// The ground that an overhead picture shows, and the ground that can throw a shadow into it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -16494,8 +16488,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A rectangle along the world's axes around the rig's position, metres.
-struct ground_box {
+/// A rectangle along the world's axes, relative to the rig's position, metres.
+struct ground_area {
     glm::dvec2 first{0}, last{0};
 
     void include(const glm::dvec2& p) {
@@ -16504,30 +16498,29 @@ struct ground_box {
     }
 };
 
-/// All of the bottom that the picture may show.
-inline ground_box shown_ground(const overhead_geometry& view, const seabed::height_range& range) {
-    ground_box box;
+/// The ground that may be in view.
+inline ground_area shown_ground(const overhead_geometry& view, const seabed::height_range& range) {
+    ground_area area;
     for (const int right : {-1, 1})
         for (const int up : {-1, 1})
-            for (const double height : {range.lowest, range.highest}) box.include(view.corner(height, right, up));
-    return box;
+            for (const double height : {range.lowest, range.highest}) area.include(view.corner(height, right, up));
+    return area;
 }
 
-/// The same, longer towards the light by as much as can throw a shadow into it, at most `longest` metres.
+/// The same, extended towards the light to all ground that can throw a shadow into view, by at most `longest` metres.
 ///
-/// A shadow falls from a point of the bottom to a lower one along a ray of the light. On its way up from the lower one,
-/// a ray comes to the highest point that there may be within (highest - lowest) cot(elevation) metres, or, of light
-/// from nearby, within the same share of its way to the light; beyond that it meets nothing. Of a light that isn't a
-/// point, this is asked of the corners of a square around it: the way is a quotient of linear functions of the place on
-/// it, so it is longest in one of them.
+/// On its way to the light, a ray from the lowest ground rises above the highest within (highest - lowest)
+/// cot(elevation) metres or, if the light is near, within that fraction of the distance to it; beyond, it meets
+/// nothing. For a light that isn't a point, the corners of a square around it are tried: the distance is a quotient of
+/// linear functions of the position on the light, so its maximum is in a corner.
 /// @param radius  of the light over its distance
-inline ground_box casting_ground(const overhead_geometry& view, const seabed::height_range& range, double radius,
-                                 double longest) {
-    const ground_box shown = shown_ground(view, range);
-    ground_box all = shown;
+inline ground_area casting_ground(const overhead_geometry& view, const seabed::height_range& range, double radius,
+                                  double longest) {
+    const ground_area shown = shown_ground(view, range);
+    ground_area all = shown;
     const double relief = range.highest - range.lowest;
     const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
-    const auto held = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
+    const auto clamped = [&](double way) { return (std::max)(-longest, (std::min)(longest, way)); };
     for (const double across : {-radius, radius})
         for (const double up : {-radius, radius}) {
             const glm::dvec2 beside{across, up};
@@ -16542,7 +16535,7 @@ inline ground_box casting_ground(const overhead_geometry& view, const seabed::he
                     } else {
                         way = toward.z > 0 ? relief / toward.z * toward[axis] : longest * (toward[axis] < 0 ? -1 : 1);
                     }
-                    const double end = from + held(way);
+                    const double end = from + clamped(way);
                     all.first[axis] = (std::min)(all.first[axis], end);
                     all.last[axis] = (std::max)(all.last[axis], end);
                 }
@@ -16557,8 +16550,10 @@ inline ground_box casting_ground(const overhead_geometry& view, const seabed::he
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/overhead/detail/placed_mesh.hpp --------------------------------------------
-// An object where the rig sees it, and which pixels it may concern.
+// ------------ insonify/sonar/overhead/detail/shading.hpp ------------------------------------------------
+// Shaders of overhead pictures: unshadowed direct light and ambient light of each visible pixel, over SIMD lanes.
+//
+// Shadows and labels are later passes over the images written here (render.hpp).
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -16566,7 +16561,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// An object in the rig's frame.
+/// A mesh in the rig's frame.
 struct placed_mesh {
     mesh_view shape;
     bounding_box box;  ///< of the shape, in its own frame
@@ -16575,88 +16570,30 @@ struct placed_mesh {
     const regular_grid* grid = nullptr;  ///< see shared_mesh
 };
 
-/// Which pixels may show an object, or something in its shadow that lies no lower than `lowest`, in the rig's frame:
-/// all of them, if floats, in which it is drawn, don't hold its place to a pixel.
-inline pixel_box shadowed_pixels(const overhead_geometry& view, const placed_mesh& caster, double lowest) {
-    const overhead& rig = view.rig();
-    const glm::dvec3& to_light = view.light().to_light();
-    const auto altitude = static_cast<double>(rig.altitude);
-    glm::dvec2 first(std::numeric_limits<double>::infinity()), last = -first;
-    for (int corner = 0; corner < 8 && !caster.box.empty(); ++corner) {
-        const glm::dvec3 from = caster.box.corner(corner), at = transform_point(caster.to_rig, from);
-        double largest = altitude;  // of what is summed up to place it
-        for (int axis = 0; axis < 3; ++axis) {
-            largest = (std::max)(largest, numeric::magnitude(caster.to_rig.offset[axis]));
-            for (int i = 0; i < 3; ++i)
-                largest = (std::max)(largest, numeric::magnitude(caster.to_rig.linear[i][axis] * from[i]));
-        }
-        const double error = 0x1p-19 * largest;  // a dozen roundings to float
-        // What all of these points surround, their pictures do.
-        const double fall = (std::max)(at.z - lowest, 0.0) / to_light.z;
-        for (const glm::dvec3& p : {at, at - fall * to_light}) {
-            const double down = altitude - p.z,
-                         aside = (std::max)(numeric::magnitude(p.x), numeric::magnitude(p.y)) / down;
-            const bool is_known = down > 0 && (1 + aside) * error < view.ray_step() * down;
-            if (!is_known) return {0, 0, rig.size.x - 1, rig.size.y - 1};
-            const glm::dvec2 pixel = view.pixel(p);
-            first = glm::dvec2((std::min)(first.x, pixel.x - 1), (std::min)(first.y, pixel.y - 1));
-            last = glm::dvec2((std::max)(last.x, pixel.x + 1), (std::max)(last.y, pixel.y + 1));
-        }
-    }
-    const auto held = [](double pixel, int size) {
-        return static_cast<int>((std::min)((std::max)(pixel, -1.0), static_cast<double>(size)));
-    };
-    return {held(first.x, rig.size.x), held(first.y, rig.size.y), held(last.x, rig.size.x), held(last.y, rig.size.y)};
-}
-
-/// Which pixels may show an object.
-inline pixel_box shown_pixels(const overhead_geometry& view, const placed_mesh& object) {
-    return shadowed_pixels(view, object, std::numeric_limits<double>::infinity());  // no shadow falls so high
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/sonar/overhead/detail/shading.hpp ------------------------------------------------
-// From what a pixel shows to its light: the surface's smooth normal, the backscatter law, and what the surface sends
-// back without the light, several pixels at a time.
-//
-// Shadows and labels are no part of it: they are passes of their own over what this one leaves (render.hpp).
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// What pixels between the vertices are shaded from, in the rig's frame. The pixel's place gives the rest.
+/// Varyings, in the rig's frame. Horizontal coordinates follow from the pixel.
 struct surface_varyings {
     glm::vec3 normal;
     float height;
 };
 
-/// Places the vertices of an object in the rig's frame and in its picture.
-struct surface_placement {
+/// Vertex shader of a mesh in the rig's picture.
+struct surface_vertex_shader {
     const overhead_geometry& view;
     glm::mat3 linear;
     glm::vec3 offset;
     glm::mat3 normals;
 
-    surface_placement(const overhead_geometry& rig, const placed_mesh& shape)
+    surface_vertex_shader(const overhead_geometry& rig, const placed_mesh& shape)
         : view(rig),
           linear(shape.to_rig.linear),
           offset(shape.to_rig.offset),
           normals(numeric::cofactors(shape.to_rig.linear)) {}
 
     placed_vertex<surface_varyings> operator()(const vertex& v) const {
-        const glm::vec3 position = place(v.position);
+        const glm::vec3 position = numeric::product(linear, v.position) + offset;
         return {view.clip(position), {numeric::product(normals, v.normal), position.z}};
     }
-    glm::vec3 place(const glm::vec3& position) const { return numeric::product(linear, position) + offset; }
-    /// See lane_shader.
+    /// See vertex_lane_shader.
     template <class Floats>
     INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats* varyings, const Floats (&position)[3],
                                     const Floats (&normal)[3]) const {
@@ -16669,29 +16606,28 @@ struct surface_placement {
     }
 };
 
-/// An object of the picture: what it is made of, and its number.
+/// The bottom or a target, as the passes over the picture need it.
 struct surface {
     mesh_view mesh;
     affine to_rig;
     std::uint32_t first_id = 0;           ///< of its triangles in the visibility buffer
-    std::uint32_t caster = 0;             ///< its number among the casters
+    std::uint32_t caster = 0;             ///< index into the casters
     std::uint16_t instance = 0;           ///< as in labels::instance
-    std::uint8_t seabed = 0;              ///< as in labels::seabed, unless there are types
-    material whole;                       ///< of all of it, unless there are types
-    const seabed::type* types = nullptr;  ///< by vertex: the bottom's, where there are several
+    std::uint8_t seabed = 0;              ///< as in labels::seabed, if there are no types
+    material whole;                       ///< if there are no types
+    const seabed::type* types = nullptr;  ///< by vertex, of a bottom of several types
     const material* materials = nullptr;  ///< by type
 };
 
-/// What shading leaves for each pixel. A null pointer leaves it out.
+/// The images that shading writes; null pointers are optional.
 struct shaded_images {
-    image<float>& direct;                  ///< what the light makes of it, unshadowed; with the rest, if there is no
-                                           ///< image for that
-    image<float>* rest = nullptr;          ///< what it shows without the light
+    image<float>& direct;                  ///< unshadowed light of the source; all light, if there is no other image
+    image<float>* rest = nullptr;          ///< sky and ambient light
     image<std::uint32_t>* ids = nullptr;   ///< the visibility buffer
-    image<std::uint8_t>* types = nullptr;  ///< seabed::type, where an object has several
+    image<std::uint8_t>* types = nullptr;  ///< seabed::type, of bottoms of several types
 
-    void clear(const pixel_box& tile) const {
-        for (int y = tile.y0; y <= tile.y1; ++y) {
+    void clear(const rect& tile) const {
+        for (int y = tile.y0; y < tile.y1; ++y) {
             std::fill_n(&direct(tile.x0, y), tile.width(), 0.0f);
             if (rest != nullptr) std::fill_n(&(*rest)(tile.x0, y), tile.width(), 0.0f);
             if (ids != nullptr) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
@@ -16699,7 +16635,7 @@ struct shaded_images {
     }
 };
 
-/// Shades an object's visible pixels.
+/// Fragment shader over lanes of one surface.
 template <class Law>
 class surface_shader {
   public:
@@ -16719,30 +16655,18 @@ class surface_shader {
         for (int i = 0; i < 3; ++i) to_light_[i] = light[i];
     }
 
-    void clear(const pixel_box& tile) const { into_.clear(tile); }
+    void clear(const rect& tile) const { into_.clear(tile); }
 
-    /// Shades the pixels of one tile.
-    struct tile_shader {
-        const surface_shader& whole;
-
-        template <int N>
-        INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
-            whole.shade(f);
-        }
-    };
-    tile_shader on(const pixel_box&) const { return {*this}; }
-
-  private:
     template <int N>
-    INSONIFY_INLINE void shade(const fragment_lanes<N, surface_varyings>& f) const {
+    INSONIFY_INLINE void operator()(const fragment_lanes<N, surface_varyings>& f) const {
         using ints = lanes<std::int32_t, N>;
         using floats = lanes<float, N>;
         const floats side = f.front ? floats{} + 1.0f : floats{} - 1.0f;
         floats normal[3], length, to_light[3];
         unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA { f.interpolate(normal[i], i); });
         const floats square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
-        const ints unknown = f.visible & ~(ints(square > 0x1p-40f) & ints(square < 0x1p100f));
-        if (any(unknown)) use_facets<N>(normal, f, unknown);
+        const ints invalid = f.visible & ~(ints(square > 0x1p-40f) & ints(square < 0x1p100f));
+        if (any(invalid)) use_facets<N>(normal, f, invalid);
         square_root<N>(length, normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
         length = length > 0.0f ? length : floats{} + 1.0f;
         const floats turned = side / length;
@@ -16767,18 +16691,19 @@ class surface_shader {
         const floats rest = reflectivity * (sky * (0.5f * (1.0f + turned * normal[2])) + ambient);
         if (into_.rest == nullptr) {
             const floats one = floats{} + 1.0f, value = rest + direct;
-            store_visible<N>(f, floats(value < one ? value : one), into_.direct);
+            f.store(into_.direct, floats(value < one ? value : one));
         } else {
-            store_visible<N>(f, direct, into_.direct);
-            store_visible<N>(f, rest, *into_.rest);
+            f.store(into_.direct, direct);
+            f.store(*into_.rest, rest);
         }
         if (into_.ids == nullptr) return;
         lanes<std::uint32_t, N> ids;
         load(ids, f.triangles);
-        store_visible<N>(f, lanes<std::uint32_t, N>(ids + object_.first_id), *into_.ids);
+        f.store(*into_.ids, lanes<std::uint32_t, N>(ids + object_.first_id));
     }
 
-    /// Normals that cancel between the vertices, or are none: the facet's.
+  private:
+    /// Replaces normals that are zero or not finite by the facet's.
     template <int N>
     INSONIFY_RARE void use_facets(lanes<float, N> (&normal)[3], const fragment_lanes<N, surface_varyings>& f,
                                   const lanes<std::int32_t, N>& where) const {
@@ -16791,7 +16716,7 @@ class surface_shader {
         }
     }
 
-    /// The seabed's type at the corner that weighs most.
+    /// The seabed's type at the vertex with the largest weight.
     template <int N>
     INSONIFY_INLINE std::uint8_t type_at(const fragment_lanes<N, surface_varyings>& f, int k) const {
         const glm::uvec3& t = object_.mesh.triangles[f.triangles[k]];
@@ -16799,7 +16724,7 @@ class surface_shader {
         return static_cast<std::uint8_t>(object_.types[a >= b ? (a >= c ? t.x : t.z) : (b >= c ? t.y : t.z)]);
     }
 
-    /// The unit vector to the light.
+    /// Sets the unit vector to the light.
     template <int N>
     INSONIFY_INLINE void point_to_light(lanes<float, N> (&into)[3],
                                         const fragment_lanes<N, surface_varyings>& f) const {
@@ -16822,16 +16747,6 @@ class surface_shader {
         for (int i = 0; i < 3; ++i) into[i] = into[i] / length;
     }
 
-    template <int N, class T>
-    INSONIFY_INLINE static void store_visible(const fragment_lanes<N, surface_varyings>& f, const lanes<T, N>& value,
-                                              image<T>& picture) {
-        if (f.all_visible)
-            store(&picture(f.x, f.y), value);
-        else
-            for (int k = 0; k < N; ++k)
-                if (lane(f.visible, k) != 0) picture(f.x + k, f.y) = lane(value, k);
-    }
-
     template <int N>
     INSONIFY_INLINE void law(lanes<float, N>& into, const lanes<float, N>& sine) const {
         if constexpr (requires { law_.in_lanes(into, sine); })
@@ -16845,9 +16760,9 @@ class surface_shader {
     Law law_;
     bool is_near_;
     float left_, top_;        ///< from the picture's middle to the first pixel's centre, in pixels
-    spread<float> ray_step_;  ///< how far the ground is from pixel to pixel, seen from a height of one
+    spread<float> ray_step_;  ///< see overhead_geometry::ray_step
     spread<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
-    spread<float> to_light_[3];                           ///< where it stands, if it is near
+    spread<float> to_light_[3];                           ///< unit vector, or the position of a near light
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -16965,7 +16880,7 @@ struct point_kernel {
     std::span<const shown_pixel> pixels;
     bool has_near_light;
     bool wants_averted;
-    const pixel_box& box;
+    const rect& box;
     point_list& points;
 
     template <int Width>
@@ -17258,7 +17173,7 @@ class shadow_pass {
             std::vector<float> lit(pixels);
             if constexpr (is_collective) pending[first / run] = point_list(rest_of_points, first / run * room, room);
             for (std::size_t i = first; i < last; ++i) {
-                const pixel_box box = tile_box(i);
+                const rect box = tile_box(i);
                 point_list points(arrays, 0, pixels);
                 std::fill(lit.begin(), lit.end(), 0.0f);
                 find_points(finders, box, lit, points);
@@ -17313,14 +17228,10 @@ class shadow_pass {
     tile_grid tiles() const {
         return {image_.width(), image_.height(), std::countr_zero(static_cast<unsigned>(tile_))};
     }
-    pixel_box tile_box(std::size_t i) const {
-        const auto columns = static_cast<std::size_t>(tiles().columns);
-        const int x = static_cast<int>(i % columns) * tile_, y = static_cast<int>(i / columns) * tile_;
-        return intersect({x, y, x + tile_ - 1, y + tile_ - 1}, {0, 0, image_.width() - 1, image_.height() - 1});
-    }
+    rect tile_box(std::size_t i) const { return tiles().pixels(i, image_.width(), image_.height()); }
 
     /// A tile's pixel, counted from its first, as one of the picture's.
-    std::uint32_t pixel_in(const pixel_box& box, std::size_t pixel) const {
+    std::uint32_t pixel_in(const rect& box, std::size_t pixel) const {
         const auto width = static_cast<std::size_t>(box.width());
         return static_cast<std::uint32_t>((static_cast<std::size_t>(box.y0) + pixel / width) *
                                               static_cast<std::size_t>(image_.width()) +
@@ -17329,13 +17240,12 @@ class shadow_pass {
 
     /// The points of a tile that matter: where there is light to lose, or all for the sake of labels. Pixels of
     /// triangles of which all is known get their share of light at once.
-    void find_points(std::span<const point_finder> finders, const pixel_box& box, std::span<float> lit,
-                     point_list& into) {
+    void find_points(std::span<const point_finder> finders, const rect& box, std::span<float> lit, point_list& into) {
         std::vector<std::vector<shown_pixel>> pixels(surfaces_.size());
         const surface* last = nullptr;
         const shadow::known* known = nullptr;  // of the triangles of that
         std::vector<shown_pixel>* to = nullptr;
-        for (int y = box.y0; y <= box.y1; ++y) {
+        for (int y = box.y0; y < box.y1; ++y) {
             const std::uint32_t* const ids = &ids_(box.x0, y);
             const float* const direct = &image_(box.x0, y);
             for (int x = 0; x < box.width(); ++x) {
@@ -17367,10 +17277,10 @@ class shadow_pass {
 
     /// Pixels of a tile from what the light makes of them and how much of it arrives.
     /// @param lit  of the pixels that need no point
-    void finish(const pixel_box& box, const point_list& points, const shadow::shares& light, std::span<float> lit) {
+    void finish(const rect& box, const point_list& points, const shadow::shares& light, std::span<float> lit) {
         const auto width = static_cast<std::size_t>(box.width());
         for (std::size_t i = 0; i < points.facing; ++i) lit[points.pixel(i)] = light.lit[i];
-        for (int y = box.y0; y <= box.y1; ++y) {
+        for (int y = box.y0; y < box.y1; ++y) {
             const float* const share = lit.data() + static_cast<std::size_t>(y - box.y0) * width;
             float* const value = &image_(box.x0, y);
             const float* const rest = &rest_(box.x0, y);
@@ -17415,7 +17325,7 @@ class shadow_pass {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/overhead/render.hpp --------------------------------------------------------
-// Paints a frame: the seabed sampled where the rig looks, shadows, the image in linear values, and its labels.
+// Draws overhead pictures: samples the seabed in view, draws it and the targets, casts shadows, and labels pixels.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17425,32 +17335,28 @@ inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
 /// A picture under construction, in the rig's frame.
-template <class Shadow, class Labels, class Law>
+template <class Shadow, class Labels, class Law, depth_precision Depth>
 class overhead_painter {
   public:
     template <executor E>
-    overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options, E& ex)
+    overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
+                     E& ex)
         : scene_(s), view_(rig), options_(options), whole_bottom_(memory_of(ex)) {
         validate(s);
         out_.rows.step = 0;
         materials_ = resolved_bottom(s);
         require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
-        // The first draw fills it, and the depths.
+        // The first draw clears it.
         out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
         validate_if_possible(options.law);
-        require(options.cells >= 0 && options.cells <= 32768, "cells", options.cells, "0 to 32768");
+        require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "0 metres or more");
         require(options.reach >= 0 && numeric::is_finite(options.reach), "reach", options.reach, "0 or more");
         require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
         require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
-        if constexpr (labelled) {
-            out_.labels = labels(rig.size.x, rig.size.y, ex);
-            out_.labels.legend = s.seabed.legend();
-        }
-        for (const target& t : s.targets) {
+        if constexpr (labelled) out_.labels = labels(s, rig.size.x, rig.size.y, ex);
+        for (const target& t : s.targets)
             targets_.push_back(
                 {t.shape, t.shape.box(), view_.rig_from(to_world(t.placement)), t.shape.kind(), t.shape.grid()});
-            target_pixels_.push_back(shown_pixels(view_, targets_.back()));
-        }
         if (has_bottom()) sample_seabed(ex);
     }
 
@@ -17471,12 +17377,12 @@ class overhead_painter {
         }
         if constexpr (labelled) {
             label_surfaces(ex);
-            describe_targets(out_.labels, scene_.targets);
+            measure_targets(out_.labels);
         }
         return std::move(out_);
     }
 
-    /// Triangles alone.
+    /// The visibility buffer alone.
     template <executor E>
     visibility see(E& ex) {
         place_objects();
@@ -17498,19 +17404,19 @@ class overhead_painter {
 
     bool has_bottom() const { return !scene_.seabed.empty(); }
 
-    /// Heights where the picture looks, and up-light of there as far as the relief can throw a shadow.
+    /// Samples the ground in view, and towards the light as far as its relief can throw a shadow into view.
     template <executor E>
     void sample_seabed(E& ex) {
         const overhead& rig = view_.rig();
-        const int longer = (std::max)(rig.size.x, rig.size.y);
-        const int cells = options_.cells > 0 ? options_.cells : (longer + 1) / 2;
         const double longer_side = 2 * (std::max)(view_.half_extent(0).x, view_.half_extent(0).y);
-        const double spacing = longer_side / cells;
+        const int longer = (std::max)(rig.size.x, rig.size.y);
+        const double spacing = options_.cell > 0 ? options_.cell : longer_side / ((longer + 1) / 2);
+        require(longer_side <= 32768 * spacing, "cell", spacing, "at least a 32768th of the picture");
 
         seabed::height_range range = merge(scene_.seabed.prepare().range(), {0, 0});
         seabed::detail::require_finite(range);
         const double longest = static_cast<double>(options_.reach) * longer_side;
-        ground_box ground = shown_ground(view_, range);
+        ground_area ground = shown_ground(view_, range);
         if constexpr (casts) ground = casting_ground(view_, range, shadow::radius_of(options_.shadow), longest);
         field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
         out_.stats.seabed_samples = field_.heights.size();
@@ -17529,7 +17435,7 @@ class overhead_painter {
         out_.stats.seabed_rows = field_.heights.height();
     }
 
-    /// The lattice of the bottom's vertices, if all of them are there and float holds their places.
+    /// The lattice of the bottom's vertices, if none is missing and float holds their coordinates exactly.
     void find_bottom_grid() {
         const glm::ivec2 size(field_.heights.width(), field_.heights.height());
         const glm::ivec2 last = bottom_first_ + size;
@@ -17539,7 +17445,7 @@ class overhead_painter {
             size.x, size.y, field_.spacing * glm::dvec2(bottom_first_), {field_.spacing, 0}, {0, field_.spacing}, true};
     }
 
-    /// The bottom's mesh, and the type of each of its vertices where there are several.
+    /// Sets the bottom's mesh and, if there are several types, that of each vertex.
     template <executor E>
     void model_seabed(E& ex) {
         const auto every = field_.types.pixels();
@@ -17549,13 +17455,13 @@ class overhead_painter {
             bottom_types_.assign(every.begin(), every.end());
             return;
         }
-        // What is off by h throws a shadow that is off by h cot(elevation), whatever the view.
-        const double forgiven = static_cast<double>(options_.edge_error) * view_.ground_sampling();
+        // An error of height h displaces a shadow by h cot(elevation), in any view.
+        const double tolerance = static_cast<double>(options_.edge_error) * view_.ground_sampling();
         const double cot = casts ? view_.light().cot_elevation() : 0;
         auto [shape, vertices] = seabed::tessellate(field_,
-                                                    {.height = forgiven / cot,
+                                                    {.height = tolerance / cot,
                                                      .slope = static_cast<double>(options_.slope_error),
-                                                     .lean = forgiven * static_cast<double>(view_.rig().altitude),
+                                                     .lean = tolerance * static_cast<double>(view_.rig().altitude),
                                                      .nadir = -field_.spacing * glm::dvec2(bottom_first_)},
                                                     ex, bottom_first_);
         sparse_bottom_ = std::move(shape);
@@ -17565,9 +17471,9 @@ class overhead_painter {
         std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
     }
 
-    /// The multiples of the spacing over a part of the ground, counted from the rig's position: where a vertex is
-    /// depends neither on what else is sampled nor on how far the world's origin is.
-    seabed::grid grid_under(const ground_box& ground, double spacing) {
+    /// The multiples of the spacing over a part of the ground, counted from the rig's position: the position of a
+    /// vertex depends neither on the extent that is sampled nor on the distance to the world's origin.
+    seabed::grid grid_under(const ground_area& ground, double spacing) {
         seabed::grid grid{.origin = view_.rig().position, .spacing = spacing, .band_limited = true};
         const auto along = [&](int axis) {
             const double first = static_cast<double>(numeric::floor_to_int(ground.first[axis] / spacing + 1e-6));
@@ -17592,7 +17498,7 @@ class overhead_painter {
                 bottom_grid_ ? &*bottom_grid_ : nullptr};
     }
 
-    /// All that the picture may show.
+    /// A box around everything that the picture may show.
     bounding_box receivers() const {
         double low = static_cast<double>(lowest_), top = static_cast<double>(highest_);
         if (!has_bottom()) {
@@ -17610,7 +17516,7 @@ class overhead_painter {
         return {{-half, low}, {half, top}};
     }
 
-    /// The bottom and the targets, in the order in which they are drawn and of their ids.
+    /// Lists the bottom and the targets, in the order in which they are drawn and their ids assigned.
     void place_objects() {
         std::uint64_t ids = 0;
         const auto add = [&](const placed_mesh& placed, std::uint32_t caster, std::uint16_t instance,
@@ -17640,7 +17546,7 @@ class overhead_painter {
                 scene_.targets[i].surface);
     }
 
-    /// What the light makes of each pixel without shadows, and which triangle it shows.
+    /// Draws all surfaces: unshadowed light and the visibility buffer.
     template <executor E>
     void draw_all(E& ex) {
         const overhead& rig = view_.rig();
@@ -17655,25 +17561,23 @@ class overhead_painter {
             into.ids = &ids_;
         }
         if constexpr (labelled) into.types = &out_.labels.seabed;
-        if (surfaces_.empty()) into.clear({0, 0, rig.size.x - 1, rig.size.y - 1});
+        if (surfaces_.empty()) into.clear({0, 0, rig.size.x, rig.size.y});
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
             const bool is_bottom = has_bottom() && i == 0;
-            const std::size_t target = has_bottom() ? i - 1 : i;
-            const placed_mesh& placed = is_bottom ? bottom_in_rig_ : targets_[target];
-            const draw_stats stats = draw_lanes(placed.shape, surface_placement(view_, placed),
-                                                surface_shader<Law>(view_, surfaces_[i], options_.law, into), depth,
-                                                std::span(target_pixels_).subspan(is_bottom ? 0 : target + 1),
-                                                {.keep = keep_depth::larger,
-                                                 .load = i == 0 ? depth_load::clear : depth_load::keep,
-                                                 .subpixel_bits = options_.subpixel_bits,
-                                                 .tile = options_.tile,
-                                                 .level = options_.level},
-                                                ex);
+            const placed_mesh& placed = is_bottom ? bottom_in_rig_ : targets_[has_bottom() ? i - 1 : i];
+            const draw_options<Depth> options{.keep = keep_depth::larger,
+                                              .load = i == 0 ? depth_load::clear : depth_load::keep,
+                                              .subpixel_bits = options_.subpixel_bits,
+                                              .tile = options_.tile,
+                                              .level = options_.level};
+            const draw_stats stats = draw(placed.shape, surface_vertex_shader(view_, placed),
+                                          surface_shader<Law>(view_, surfaces_[i], options_.law, into),
+                                          framebuffer<void>{depth}, options, ex);
             (is_bottom ? out_.stats.seabed : out_.stats.targets) += stats;
         }
     }
 
-    /// Instances and seabed types from the visibility buffer.
+    /// Labels instances and seabed types from the visibility buffer.
     template <executor E>
     void label_surfaces(E& ex) {
         if (surfaces_.empty()) return;
@@ -17693,35 +17597,34 @@ class overhead_painter {
     const scene& scene_;
     bottom_materials materials_;  ///< by seabed::type
     overhead_geometry view_;
-    render_options<Shadow, Labels, Law> options_;
-    image<std::uint32_t> ids_;  ///< the visibility buffer: triangles in the order of surfaces_
-    image<float> rest_;         ///< what pixels show without the light
+    render_options<Shadow, Labels, Law, Depth> options_;
+    image<std::uint32_t> ids_;  ///< the visibility buffer; triangles are numbered in the order of surfaces_
+    image<float> rest_;         ///< sky and ambient light
     frame<Labels> out_;
     seabed::heightfield field_;
     uninitialized_mesh whole_bottom_;         ///< if every vertex is drawn
-    mesh sparse_bottom_;                      ///< if some are left out
-    mesh_view bottom_;                        ///< one of them
-    std::vector<seabed::type> bottom_types_;  ///< by vertex, or none where there is one type alone
-    glm::ivec2 bottom_first_{0, 0};           ///< of the field's vertices, counted from the rig's position
-    float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices, and the datum
+    mesh sparse_bottom_;                      ///< otherwise
+    mesh_view bottom_;                        ///< one of the two
+    std::vector<seabed::type> bottom_types_;  ///< by vertex; empty if there is one type
+    glm::ivec2 bottom_first_{0, 0};           ///< lattice coordinates of the first vertex, from the rig's position
+    float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices and the datum
     placed_mesh bottom_in_rig_;
     std::vector<surface> surfaces_;
-    bool has_gaps_ = false;  ///< the bottom lacks data somewhere
+    bool has_gaps_ = false;  ///< some vertices of the bottom have no data
     std::optional<regular_grid> bottom_grid_;
     std::vector<placed_mesh> targets_;
-    std::vector<pixel_box> target_pixels_;  ///< which may show them
 };
 
-template <class Shadow, class Labels, class Law>
-frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law>& options,
+template <class Shadow, class Labels, class Law, depth_precision Depth>
+frame<Labels> paint(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                     executor_ref ex) {
     static_assert(shadow::policy<Shadow>);
-    return overhead_painter<Shadow, Labels, Law>(s, rig, options, ex).paint(ex);
+    return overhead_painter<Shadow, Labels, Law, Depth>(s, rig, options, ex).paint(ex);
 }
-template <class Law>
-visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law>& options,
+template <class Law, depth_precision Depth>
+visibility see(const scene& s, const overhead& rig, const render_options<shadow::none, labels, Law, Depth>& options,
                executor_ref ex) {
-    return overhead_painter<shadow::none, labels, Law>(s, rig, options, ex).see(ex);
+    return overhead_painter<shadow::none, labels, Law, Depth>(s, rig, options, ex).see(ex);
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -17731,10 +17634,10 @@ visibility see(const scene& s, const overhead& rig, const render_options<shadow:
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/accuracy/seabed_probe.hpp --------------------------------------------------------
-// How far pictures of a seabed are from the truth, by a few small ones.
+// Measures the errors of pictures of a seabed on a few small ones.
 //
-// Of shadows the truth is a ray for each pixel, marched over the finest grid: it shares nothing with a shadow policy,
-// so any may be judged by it.
+// The ground truth of shadows is a ray per pixel, marched over the finest grid. It shares no code with any shadow
+// policy.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17742,22 +17645,22 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace accuracy {
 
-/// Errors of a picture, measured as `metrics.hpp` does; as a budget, what is tolerated.
+/// Errors of a picture, as defined in metrics.hpp; as a budget, tolerated errors.
 struct errors {
-    double shadow_edge = 1;   ///< pixels by which edges of shadows are displaced, on average along them
-    double silhouette = 1;    ///< pixels by which outlines of targets are displaced, at most
-    double height = 1;        ///< of the seabed, root mean square, in pixels on the ground
-    double intensity = 0.05;  ///< root mean square error of the linear picture
+    double shadow_edge = 1;   ///< mean displacement of shadow edges, pixels
+    double silhouette = 1;    ///< largest displacement of the targets' outlines, pixels
+    double height = 1;        ///< of the seabed, rms, in pixels on the ground
+    double intensity = 0.05;  ///< of the linear picture, rms
 };
 
 inline namespace INSONIFY_FLAGS {
 
-/// How `settings_for` looks at a seabed.
+/// The small pictures that `settings_for` draws.
 struct probe {
-    int chips = 4;       ///< small pictures, spread over the large one
-    int pixels = 128;    ///< along their sides
-    double finest = 4;   ///< cells per pixel of what counts as the truth
-    double spare = 0.7;  ///< share of a budget that may be used where others have not been looked at
+    int chips = 4;       ///< their number, distributed over the large picture
+    int pixels = 128;    ///< along a side
+    double finest = 4;   ///< cells per pixel of the ground truth
+    double spare = 0.7;  ///< fraction of the budget that they may use; the rest is for other parts of the seabed
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -17770,7 +17673,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Small pictures of a seabed, as fine as makes sense, to compare coarser ones with.
+/// Small pictures of a seabed with their ground truth.
 class seabed_probe {
   public:
     template <executor E>
@@ -17779,7 +17682,7 @@ class seabed_probe {
         const overhead_geometry view(rig);
         pixels_ = (std::min)(how.pixels, (std::min)(rig.size.x, rig.size.y));
         spacing_ = view.ground_sampling() / how.finest;
-        // Places of a sequence that fills a square evenly however many are taken.
+        // A low-discrepancy sequence in the unit square.
         // Martin Roberts. The Unreasonable Effectiveness of Quasirandom Sequences. 2018.
         for (int i = 0; i < how.chips; ++i) {
             const auto place = [&](double step, int size) {
@@ -17803,7 +17706,7 @@ class seabed_probe {
         }
     }
 
-    /// How far pictures of so many cells per pixel are from the truth, over all chips.
+    /// Errors of pictures with so many cells per pixel, over all chips.
     template <class Shadow, executor E>
     accuracy::errors errors_of(double cells_per_pixel, const Shadow& shadow, E& ex) const {
         accuracy::mask_difference edges;
@@ -17820,7 +17723,7 @@ class seabed_probe {
             heights += mean_square_height_error(chips_[i], cells_per_pixel) / static_cast<double>(chips_.size());
         }
         accuracy::errors all{.shadow_edge = 0, .silhouette = 0};
-        // Without an edge there is nothing to be displaced, but by the few wrong pixels.
+        // A lower bound of the boundary, for chips without shadow edges.
         const auto wrong = static_cast<double>(edges.wrong_pixels());
         const auto few = static_cast<double>(pixels_) / 16;
         all.shadow_edge = wrong / (std::max)(static_cast<double>(edges.boundary_pixels), few);
@@ -17837,15 +17740,15 @@ class seabed_probe {
 
     template <class Shadow, executor E>
     picture draw(const overhead& chip, double cells_per_pixel, const Shadow& shadow, E& ex) const {
-        render_options<Shadow> options{.shadow = shadow};
-        options.cells = (std::max)(1, static_cast<int>(numeric::floor_to_int(pixels_ * cells_per_pixel + 0.5)));
+        const render_options<Shadow> options{.shadow = shadow,
+                                             .cell = overhead_geometry(chip).ground_sampling() / cells_per_pixel};
         auto drawn = render(scene_, chip, options, ex);
         return {std::move(drawn.image), map_pixels(drawn.labels.shadow, [](std::uint16_t by) {
                     return static_cast<std::uint8_t>(by != labels::is_lit);
                 })};
     }
 
-    /// The chip's dark pixels, by a ray from each towards the light over the finest grid, in steps of a cell.
+    /// Pixels in shadow, by a ray from each towards the light over the finest grid, in steps of a cell.
     template <executor E>
     image<std::uint8_t> march(const overhead& chip, E& ex) const {
         const overhead_geometry view(chip);
@@ -17853,7 +17756,7 @@ class seabed_probe {
         const glm::dmat3& turn = view.rig_from({}).linear;
         const glm::dvec2 travel(numeric::product(glm::transpose(turn), glm::dvec3(view.light().travel(), 0)));
 
-        // As far up-light as the picture is long: more is not drawn either.
+        // The ground in view and as much towards the light.
         const glm::dvec2 low = chip.position - 4 * half;
         seabed::grid grid = seabed::grid_over(low, low + 8 * half, spacing_);
         grid.band_limited = true;
@@ -17870,7 +17773,7 @@ class seabed_probe {
                                         (chip.size.y - 2.0 * j - 1) / chip.size.x * half, 0);
                 const glm::dvec2 datum(numeric::product(glm::transpose(turn), in_rig));
                 glm::dvec2 at = chip.position + datum;
-                // What is seen there leans towards the middle; chips are narrow, so a few steps find it.
+                // Perspective moves raised ground away from the middle; on narrow chips a few iterations converge.
                 for (int k = 0; k < 6; ++k) {
                     const double height = field.facet_at(at.x, at.y).height;
                     at = chip.position + datum * (1 - height / static_cast<double>(chip.altitude));
@@ -17893,7 +17796,7 @@ class seabed_probe {
         }
     }
 
-    /// Of a grid against the finest one, over a net of points; in square metres.
+    /// Of a grid against the finest one, over a lattice of points; in square metres.
     double mean_square_height_error(const overhead& chip, double cells_per_pixel) const {
         constexpr int net = 24;
         const double side = 2 * overhead_geometry(chip).half_extent(0).x;
@@ -17938,12 +17841,12 @@ class seabed_probe {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/accuracy/budget.hpp --------------------------------------------------------------
-// Chooses the cheapest settings whose errors keep to a budget.
+// Chooses the cheapest settings whose errors stay within a budget.
 //
-// What has a closed form is computed: how far a curved target's facets may be from its surface follows from where the
-// camera and the light stand. What depends on the seabed is measured: a few small pictures of it are compared with
-// marched rays, from coarse ones to fine ones, and the first that is close enough decides. That takes as long as a few
-// large pictures, once for as many pictures as share a rig and a kind of seabed.
+// The tolerance for a curved target's facets has a closed form in the positions of camera and light. Errors that depend
+// on the seabed are measured: a few small pictures are compared with marched rays, from coarse to fine, and the first
+// ones within the budget decide. That takes as long as a few large pictures, once for all pictures of a rig and a kind
+// of seabed.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17951,45 +17854,44 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace accuracy {
 
-/// Errors that are tolerated, each above 0.
+/// Tolerated errors, each above 0.
 using budget = errors;
 
 inline namespace INSONIFY_FLAGS {
 
 /// Whether each error is within its budget.
-inline bool keeps_to(const errors& found, const budget& tolerated) {
+inline bool is_within(const errors& found, const budget& tolerated) {
     return found.shadow_edge <= tolerated.shadow_edge && found.silhouette <= tolerated.silhouette &&
            found.height <= tolerated.height && found.intensity <= tolerated.intensity;
 }
 
 }  // namespace INSONIFY_FLAGS
 
-/// What a picture is made of: plain values, to read and to change.
+/// Settings of a picture: plain values, to read and to change.
 template <shadow::policy Shadow = shadow::exact>
 struct settings {
-    Shadow shadow{};  ///< with its texels per pixel, if it has any
-    int cells = 0;    ///< of the seabed along the picture's longer side, as in render_options
+    Shadow shadow{};  ///< with its texels per pixel, if it is a map
+    double cell = 0;  ///< as in render_options
     int subpixel_bits = render_options<Shadow>{}.subpixel_bits;
     float edge_error = 0;       ///< as in render_options
-    double side_error = 1;      ///< pixels by which facets of a curved target may displace its outline
-    double shadow_error = 0.5;  ///< pixels by which they may displace the edge of its shadow
-    errors expected{};          ///< of these settings, as far as they are known
-    overhead rig{};             ///< for which they were made
+    double side_error = 1;      ///< tolerance: pixels by which facets of a curved target may displace its outline
+    double shadow_error = 0.5;  ///< tolerance: pixels by which they may displace the edge of its shadow
+    errors expected{};          ///< as measured by settings_for
+    overhead rig{};             ///< that the settings are for
 
-    /// The same for `render`; `settings.options<no_labels>()` leaves the labels out.
+    /// The settings as options of `render`; `settings.options<no_labels>()` without labels.
     template <class Labels = labels, backscatter_law Law = lambert>
     INSONIFY_MEMBER render_options<Shadow, Labels, Law> options() const {
-        return {.shadow = shadow, .cells = cells, .edge_error = edge_error, .subpixel_bits = subpixel_bits};
+        return {.shadow = shadow, .cell = cell, .edge_error = edge_error, .subpixel_bits = subpixel_bits};
     }
 
-    /// Metres by which the facets of a target may deviate from its surface, for its outline and its shadow's to stay
-    /// within side_error and shadow_error.
+    /// Tolerance for the distance between the facets of a target and its surface, metres, from side_error and
+    /// shadow_error.
     ///
-    /// A deviation d across a camera's ray that leans by psi from the vertical moves its image by d / cos psi on a
-    /// plane at that height; across a ray of light at an elevation e it moves the shadow on level ground by d / sin e.
-    /// (Thatcher Ulrich. Rendering Massive Terrains using Chunked Level of Detail Control. SIGGRAPH course, 2002, has
-    /// the first; the second is the same for the light's parallel rays.)
-    /// @param placement  of the target; what counts is the top of a ball of `radius` metres around its position
+    /// A distance d across a camera ray that leans by psi from the vertical moves the image by d / cos psi on a plane
+    /// at that height (Thatcher Ulrich. Rendering Massive Terrains using Chunked Level of Detail Control. SIGGRAPH
+    /// course, 2002). Across a ray of light at an elevation e it moves the shadow on level ground by d / sin e.
+    /// @param placement  of the target, which is taken as a ball of `radius` metres around its position
     INSONIFY_TAGGED double deviation(const pose& placement, double radius) const {
         const overhead_geometry view(rig);
         const glm::dvec3 at = view.rig_from(to_world(placement)).offset;
@@ -18004,7 +17906,7 @@ struct settings {
         return (has_shadow ? (std::min)(seen, cast) : seen) / static_cast<double>(placement.scale);
     }
 
-    /// The shape with as few segments as `deviation` allows.
+    /// The shape with the fewest segments that `deviation` allows.
     INSONIFY_MEMBER cylinder modelled(cylinder shape, const pose& placement) const {
         const double half = 0.5 * static_cast<double>(shape.length), radius = static_cast<double>(shape.radius);
         return with_segments(shape, deviation(placement, numeric::square_root(half * half + radius * radius)));
@@ -18035,16 +17937,16 @@ struct settings {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The cheapest settings with which pictures of a seabed keep to a budget, as far as a probe can tell; where none does,
-/// those that are the least beyond it, and `expected` says how far off they are.
+/// The cheapest settings with which pictures of a seabed stay within a budget, as measured on small pictures. If there
+/// are none, those that exceed it least; `expected` has their errors.
 ///
-/// Settings are found for a shadow policy, exact shadows if none is named. One that has texels,
-/// `settings_for<shadow::map>(...)`, gets as few as will do.
+/// Settings are for a given shadow policy, by default exact shadows. For maps, `settings_for<shadow::map>(...)`, the
+/// number of texels is minimized too.
 /// @param tolerated  each above 0
 /// @param bottom     the seabed; pictures of others of its kind have about the same errors
 /// @param rig        of the pictures
 /// @param ex         runs it
-/// @throws invalid_input for a tolerated error that isn't above 0, a probe that can't be, and as `render`
+/// @throws invalid_input for a tolerated error that isn't above 0, a probe out of range, and as `render`
 template <shadow::policy Shadow = shadow::exact, executor_argument E = serial_executor>
 settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::any& bottom, const overhead& rig,
                               const probe& how = {}, E&& ex = {}) {
@@ -18060,7 +17962,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
 
     const overhead_geometry view(rig);
     settings<Shadow> found{.rig = rig};
-    // Rounding a vertex moves it by half a sub-pixel at most, along each axis.
+    // Snapping moves a vertex by at most half a sub-pixel along each axis.
     if (tolerated.silhouette * 0.05 < 1.0 / (1 << found.subpixel_bits)) found.subpixel_bits = 16;
     found.side_error = tolerated.silhouette;
     found.shadow_error = 0.5 * tolerated.shadow_edge;
@@ -18074,7 +17976,7 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
         if constexpr (requires { policy.texels_per_pixel; }) policy.texels_per_pixel = static_cast<float>(texels);
         errors all = probed.errors_of(cells_per_pixel, policy, ex);
         all.height /= pixel;
-        // A bottom that is off by h displaces the shadow that a target throws on it by h cot(elevation).
+        // An error of height h displaces the shadow of a target by h cot(elevation).
         const double cot = std::same_as<Shadow, insonify::shadow::none> ? 0 : view.light().cot_elevation();
         all.shadow_edge = (std::max)(all.shadow_edge, all.height * cot);
         all.silhouette = tolerated.silhouette;
@@ -18083,51 +17985,49 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
     const budget usable{how.spare * tolerated.shadow_edge, tolerated.silhouette, how.spare * tolerated.height,
                         how.spare * tolerated.intensity};
 
-    // From the coarsest grid on, each of half the cells of the next; first with more texels than can matter. If none
-    // keeps to the budget, the one that is the least beyond it is taken.
+    // From the coarsest grid on, halving the cells each time, at first with more texels than can matter. If no grid is
+    // within the budget, the one that exceeds it least is taken.
     double many_texels = 8;
     if constexpr (requires { found.shadow.largest; })
         many_texels = (std::min)(many_texels, static_cast<double>(found.shadow.largest) / longer);
     double chosen = how.finest, least_excess = std::numeric_limits<double>::infinity();
-    bool keeps = false;
-    for (double cells = 1.0 / 16; cells <= how.finest && !keeps; cells *= 2) {
+    bool is_enough = false;
+    for (double cells = 1.0 / 16; cells <= how.finest && !is_enough; cells *= 2) {
         const errors all = errors_of(cells, many_texels);
-        keeps = keeps_to(all, usable);
+        is_enough = is_within(all, usable);
         const double excess = (std::max)((std::max)(all.shadow_edge / usable.shadow_edge, all.height / usable.height),
                                          all.intensity / usable.intensity);
-        if (!keeps && excess >= least_excess) continue;
+        if (!is_enough && excess >= least_excess) continue;
         least_excess = excess;
         chosen = cells;
     }
     const double fewer = chosen * 0.70710678118654752;
-    if (keeps && keeps_to(errors_of(fewer, many_texels), usable)) chosen = fewer;
+    if (is_enough && is_within(errors_of(fewer, many_texels), usable)) chosen = fewer;
 
-    double texels = keeps ? (std::min)(0.5, many_texels) : many_texels;
+    double texels = is_enough ? (std::min)(0.5, many_texels) : many_texels;
     found.expected = errors_of(chosen, texels);
     if constexpr (requires { found.shadow.texels_per_pixel; }) {
-        while (texels < many_texels && !keeps_to(found.expected, usable)) {
+        while (texels < many_texels && !is_within(found.expected, usable)) {
             texels = (std::min)(2 * texels, many_texels);
             found.expected = errors_of(chosen, texels);
         }
         found.shadow.texels_per_pixel = static_cast<float>(texels);
     }
-    const double cells = (std::min)(32768.0, (std::max)(1.0, longer * chosen));
-    found.cells = static_cast<int>(numeric::floor_to_int(cells + 0.5));
+    found.cell = pixel / (std::min)(chosen, 32768.0 / longer);
     return found;
 }
 
-/// Settings with names: from the first to the last, errors fall and the time goes up. What each costs and how far off
-/// it is, is in docs/tradeoff.md.
+/// Named settings, by falling error and rising cost; docs/tradeoff.md has both.
 /// @param rig  of the pictures
 inline settings<> fast(const overhead& rig) {
-    return {.cells = ((std::max)(rig.size.x, rig.size.y) + 3) / 4, .side_error = 1, .shadow_error = 1, .rig = rig};
+    return {.cell = 4 * overhead_geometry(rig).ground_sampling(), .side_error = 1, .shadow_error = 1, .rig = rig};
 }
 inline settings<> balanced(const overhead& rig) {
-    return {
-        .cells = ((std::max)(rig.size.x, rig.size.y) + 1) / 2, .side_error = 0.25, .shadow_error = 0.25, .rig = rig};
+    return {.cell = 2 * overhead_geometry(rig).ground_sampling(), .side_error = 0.25, .shadow_error = 0.25, .rig = rig};
 }
 inline settings<> exact(const overhead& rig) {
-    return {.cells = (std::min)(2 * (std::max)(rig.size.x, rig.size.y), 32768),
+    const double finest = (std::max)(0.5, (std::max)(rig.size.x, rig.size.y) / 32768.0);
+    return {.cell = finest * overhead_geometry(rig).ground_sampling(),
             .subpixel_bits = 16,
             .side_error = 0.02,
             .shadow_error = 0.02,
@@ -22229,7 +22129,7 @@ struct map_placement {
     glm::vec3 start;
 
     glm::vec4 operator()(const vertex& v) const { return glm::vec4(numeric::product(axes, v.position) + start, 1.0f); }
-    /// See lane_shader.
+    /// See vertex_lane_shader.
     template <class Floats>
     INSONIFY_INLINE void operator()(Floats (&clip)[4], Floats*, const Floats (&position)[3],
                                     const Floats (&)[3]) const {
@@ -22319,7 +22219,8 @@ class height_map {
     template <executor_argument E = serial_executor>
     draw_stats cast(const mesh_view& m, const affine& to_world, E&& ex = {}) {
         if (heights_.empty()) return {};
-        return draw(m, grid_.placing(frame_, to_world), quick_depth_target{heights_}, {.keep = keep_depth::larger}, ex);
+        return draw(m, grid_.placing(frame_, to_world), depth_target{heights_},
+                    draw_options<depth_precision::quick>{.keep = keep_depth::larger}, ex);
     }
 
     const light_frame& frame() const { return frame_; }
@@ -22869,10 +22770,9 @@ struct speckle_draw_kernel {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/bottom_tiles.hpp ------------------------------------------
-// The bottom under a track that goes anywhere: heights and slopes in square tiles, sampled where pings look and nowhere
-// else.
+// The seabed along a track: heights and slopes in square tiles, sampled only where pings need them.
 //
-// Tiles lie on a lattice of the world, so that a place is sampled the same whatever track passes over it.
+// Tiles lie on a lattice of the world, so that a position has the same samples whatever track passes over it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -22880,9 +22780,9 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The bottom at a vertex, and between vertices.
+/// The seabed at a vertex, or interpolated between vertices.
 struct bottom_vertex {
-    float height;            ///< metres above the datum; NaN where there is none
+    float height;            ///< metres above the datum; NaN without seabed
     float slope_x, slope_y;  ///< rise per metre, by central differences
     std::uint32_t type;
 };
@@ -22891,7 +22791,7 @@ class bottom_tiles {
   public:
     static constexpr int cells = 64;  ///< along a tile's side
 
-    /// @param spacing  metres between vertices; what `even` makes of it is taken
+    /// @param spacing  metres between vertices, rounded by `even`
     bottom_tiles(const seabed::any& source, double spacing)
         : is_empty_(source.empty()),
           prepared_(source.prepare()),
@@ -22899,19 +22799,20 @@ class bottom_tiles {
           spacing_(even(spacing)),
           scale_(1 / spacing_) {}
 
-    /// A length whose multiples are exact, so that a vertex is the same in whatever row it is sampled.
+    /// Rounds a length so that its multiples are exact: a vertex has the same coordinates in every row.
     static double even(double length) {
         require(length > 1e-9 && length < 1e9, "cell", length, "metres above 0");
         return seabed::detail::eight_bits(length);
     }
 
-    /// Samples what a fan of pings looks at, and forgets the rest.
-    /// @param from, reach  metres from each ping, on the side it looks to
+    /// Samples the seabed below some pings, and discards all other tiles.
+    /// @param from, reach  metres across the track from each ping, on its side
     template <executor E>
     void cover(std::span<const ping_frame> pings, double from, double reach, E& ex) {
         if (is_empty_) return;
         const double side = cells * spacing_;
-        // Lines of sight in steps of half a tile: the boxes around the steps hold every tile that is touched.
+        // Steps of half a tile along each ping's fan: the rectangles around the steps contain every tile that it
+        // touches.
         const double looked_at = reach - from;
         const int steps = static_cast<int>(numeric::floor_to_int(2 * looked_at / side)) + 1;
         const auto step = [&](int i) { return from + looked_at * i / steps; };
@@ -22949,7 +22850,7 @@ class bottom_tiles {
             }
         }
 
-        // Long rows are cheaper per sample: neighbours along x are sampled together.
+        // Tiles that are neighbours along x are sampled together: long rows cost less per sample.
         std::vector<tile_run> runs;
         std::uint32_t tiles = 0;
         for (std::int64_t y = 0; y < rows; ++y)
@@ -22969,7 +22870,8 @@ class bottom_tiles {
         sampled_ += tiles * tile_size;
     }
 
-    /// The bottom at a world position that is covered; bilinear in the cell, of the nearest vertex's type.
+    /// The seabed at a world position, which must be covered: bilinear in the cell, with the type of the nearest
+    /// vertex.
     bottom_vertex at(double x, double y) const {
         if (is_empty_) return {std::numeric_limits<float>::quiet_NaN(), 0, 0, 0};
         const double u = x * scale_, v = y * scale_;
@@ -22990,7 +22892,7 @@ class bottom_tiles {
                 wa * a->slope_y + wb * b.slope_y + wc * c.slope_y + wd * d.slope_y, nearest.type};
     }
 
-    /// Clamps a depth to those bounds; NaN becomes the least.
+    /// Clamps a depth along a pitched fan to the seabed's bounds; NaN becomes the lower one.
     double clamped(const ping_frame& p, double depth) const {
         const auto [least, most] = depths(p);
         return depth > least ? (std::min)(depth, most) : least;
@@ -23001,7 +22903,7 @@ class bottom_tiles {
 
   private:
     static constexpr int shift = 6;
-    static constexpr std::size_t stride = cells + 1;  // the next tile's first vertices too
+    static constexpr std::size_t stride = cells + 1;  // with the first vertices of the next tile
     static constexpr std::size_t tile_size = stride * stride;
     static constexpr std::uint32_t absent = 0xFFFFFFFFu;
     static_assert(1 << shift == cells);
@@ -23010,7 +22912,7 @@ class bottom_tiles {
         return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
     }
 
-    /// Bounds of the bottom's depth along a fan; used for pitched fans only.
+    /// Bounds of the seabed's depth along a pitched fan; 0 for level ones, which do not need them.
     /// @throws invalid_input for pitched pings over a seabed that does not state its heights
     std::pair<double, double> depths(const ping_frame& p) const {
         if (p.is_level() || range_.empty()) return {0, 0};
@@ -23019,14 +22921,14 @@ class bottom_tiles {
                 (p.position().z - range_.lowest) / p.cosine_pitch()};
     }
 
-    /// Tiles side by side.
+    /// Neighbouring tiles along x.
     struct tile_run {
         std::int64_t x, y;
         std::uint32_t slot, count;
     };
     static constexpr std::uint32_t longest_run = 8;
 
-    /// The vertices of a run, with a ring of neighbours for the slopes.
+    /// Samples a run, with a margin of one vertex for the slopes.
     void sample(const tile_run& run) const {
         const std::size_t width = run.count * cells + 3, height = stride + 2;
         std::vector<float> heights(width * height);
@@ -23042,7 +22944,7 @@ class bottom_tiles {
         const auto scale = static_cast<float>(0.5 * scale_);
         const auto slope = [&](float before, float after) {
             const float rise = scale * (after - before);
-            return numeric::is_finite(rise) ? rise : 0.0f;  // beside a hole
+            return numeric::is_finite(rise) ? rise : 0.0f;  // next to a gap
         };
         for (std::size_t tile = 0; tile < run.count; ++tile) {
             bottom_vertex* out = &vertices_[(run.slot + tile) * tile_size];
@@ -23071,8 +22973,8 @@ class bottom_tiles {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/side_scan/detail/name_tally.hpp --------------------------------------------
-// Which of several names has most of a bin: lengths or powers are summed by bin and name.
+// ------------ insonify/sonar/side_scan/detail/label_tally.hpp -------------------------------------------
+// Sums of length or power by range bin and label, to find the label that has most of a bin.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -23080,9 +22982,10 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-class name_tally {
+/// A linked list of labels per bin, all in one vector.
+class label_tally {
   public:
-    explicit name_tally(std::size_t bins) : heads_(bins, none) {}
+    explicit label_tally(std::size_t bins) : heads_(bins, none) {}
 
     bool empty() const { return entries_.empty(); }
     void clear() {
@@ -23090,25 +22993,25 @@ class name_tally {
         heads_.assign(heads_.size(), none);
         entries_.clear();
     }
-    void add(std::size_t bin, std::uint16_t name, float amount) {
+    void add(std::size_t bin, std::uint16_t label, float amount) {
         std::uint32_t* at = &heads_[bin];
-        while (*at != none && entries_[*at].name != name) at = &entries_[*at].next;
+        while (*at != none && entries_[*at].label != label) at = &entries_[*at].next;
         if (*at != none) {
             entries_[*at].amount += amount;
             return;
         }
         *at = static_cast<std::uint32_t>(entries_.size());
-        entries_.push_back({amount, none, name});
+        entries_.push_back({amount, none, label});
     }
-    struct share {
-        std::uint16_t name;
+    struct sum {
+        std::uint16_t label;
         float amount;
     };
-    /// The name that has most; of equal ones the first that was added. `otherwise` where nothing was.
-    share largest(std::size_t bin, std::uint16_t otherwise) const {
-        share best{otherwise, 0};
+    /// The label with the largest sum, of equal ones the first that was added; `fallback` for an empty bin.
+    sum largest(std::size_t bin, std::uint16_t fallback) const {
+        sum best{fallback, 0};
         for (std::uint32_t i = heads_[bin]; i != none; i = entries_[i].next)
-            if (entries_[i].amount > best.amount) best = {entries_[i].name, entries_[i].amount};
+            if (entries_[i].amount > best.amount) best = {entries_[i].label, entries_[i].amount};
         return best;
     }
 
@@ -23117,7 +23020,7 @@ class name_tally {
     struct entry {
         float amount;
         std::uint32_t next;
-        std::uint16_t name;
+        std::uint16_t label;
     };
     std::vector<std::uint32_t> heads_;
     std::vector<entry> entries_;
@@ -23130,10 +23033,10 @@ class name_tally {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/ping_fan.hpp ----------------------------------------------
-// The rays of a ping, in the vertical plane across the track: nadir first, one after the other outwards.
+// The rays of a ping, in the plane across the track, from nadir outwards.
 //
-// Level ground is met at equal steps. Beyond its end come rays for what stands up there, at equal angles: neighbours
-// are at most a bin apart on an upright wall.
+// Rays that meet level ground within the range have equal steps there. Steeper ones, for objects above it, have equal
+// angles: neighbours are at most a bin apart on a vertical wall at the largest range.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -23143,9 +23046,9 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// Parameters of a fan. Heights are rounded so that few different fans serve a whole track.
 struct fan_shape {
-    double above_lowest = 1;   ///< metres over the lowest bottom; not above 0: no rays
-    double above_highest = 1;  ///< over the highest bottom
-    double above_all = 1;      ///< over the highest of targets and bottom; not above 0: rays go up to the zenith
+    double above_lowest = 1;   ///< metres above the lowest seabed; no rays if not above 0
+    double above_highest = 1;  ///< metres above the highest seabed
+    double above_all = 1;      ///< metres above seabed and targets; rays up to the zenith if not above 0
 
     friend bool operator==(const fan_shape&, const fan_shape&) = default;
 
@@ -23168,14 +23071,13 @@ class ping_fan {
   public:
     struct ray {
         double sine, cosine;  ///< across and down
-        double width;         ///< radians that it stands for
+        double width;         ///< radians
     };
 
     ping_fan() = default;
 
     /// @param step         metres between rays on level ground, and between neighbours on a wall at the largest range
-    /// @param first_range  what is nearer than this need not be seen
-    /// @param range        the same for what is farther, metres
+    /// @param first_range, range  metres; nearer and farther surfaces need no rays
     ping_fan(const fan_shape& shape, double step, double first_range, double range) : shape_(shape) {
         const double low = shape.above_lowest;
         if (!(low > 0)) return;
@@ -23211,20 +23113,19 @@ class ping_fan {
     std::size_t size() const { return rays_.size(); }
     const ray& operator[](std::size_t i) const { return rays_[i]; }
 
-    /// How far beyond a ray a point lies, times its distance: above 0 where it is farther out.
+    /// Positive for points outwards of a ray: the sine of the angle between them times the point's distance.
     static double beyond(const ray& r, double x, double down) { return x * r.cosine - down * r.sine; }
 
-    /// The first ray that passes through the point or beyond it.
+    /// The first ray through a point or outwards of it.
     std::size_t first_over(double x, double down) const {
         const auto at =
             std::partition_point(rays_.begin(), rays_.end(), [&](const ray& r) { return beyond(r, x, down) > 0; });
         return static_cast<std::size_t>(at - rays_.begin());
     }
 
-    /// Number of the first ray. Rays are numbered from nadir, so that fans that begin farther out agree with others.
+    /// Number of the first ray. Numbers count from nadir, also in fans that begin farther out.
     std::size_t first() const { return static_cast<std::size_t>(first_); }
-    /// Where a point lies among the rays: ray i, whose number is first() + i, covers [number, number + 1). Clamped to
-    /// the rays that there are.
+    /// Position of a point among the rays: ray i covers [first() + i, first() + i + 1). Clamped to the fan.
     double coordinate(double x, double down) const {
         double t = down > 0 ? x / down / spacing_ : wall_first_;
         if (t >= wall_first_) t = wall_first_ + (numeric::atan2(x, down) - wall_from_) / wall_angle_;
@@ -23247,8 +23148,8 @@ class ping_fan {
   private:
     fan_shape shape_{0, 0, 0};
     std::vector<ray> rays_;
-    double spacing_ = 1, first_ = 0;                          ///< of level ground: tangents per ray, the first number
-    double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond it: the first number, radians
+    double spacing_ = 1, first_ = 0;                          ///< on level ground: step of the tangent, first number
+    double wall_first_ = 0, wall_from_ = 0, wall_angle_ = 1;  ///< beyond: first number, first angle, step
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -23345,7 +23246,7 @@ class plane_tree {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/target_slices.hpp -----------------------------------------
-// Slices of targets by the plane of a ping.
+// Cross-sections of targets with the plane of a ping.
 
 #include <map>
 
@@ -23355,14 +23256,14 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A piece of outline in the plane of a ping.
-struct outline_piece {
-    struct corner {
+/// Where the plane of a ping cuts a triangle. Vectors are (x, u, z) of the ping_frame, of any length.
+struct cut_segment {
+    struct end {
         double x, down;    ///< metres from the sonar
-        glm::vec3 normal;  ///< (x, u, z), of any length
+        glm::vec3 normal;  ///< interpolated
     };
-    corner a, b;
-    glm::vec3 facet;  ///< (x, u, z), of any length
+    end a, b;
+    glm::vec3 facet;  ///< normal of the triangle
 };
 
 /// A target in the world, ready to be cut.
@@ -23378,7 +23279,7 @@ class sliced_target {
         radius_ = numeric::square_root(numeric::dot(half, half)) * static_cast<double>(t.placement.scale) * (1 + 1e-6);
     }
 
-    /// Heights above the datum that it doesn't leave.
+    /// Bounds of its heights above the datum.
     double top() const { return centre_.z + radius_; }
     double foot() const { return radius_ > 0 ? centre_.z - radius_ : 1e30; }
 
@@ -23389,11 +23290,11 @@ class sliced_target {
                numeric::dot(centre, centre) < (range + radius_) * (range + radius_);
     }
 
-    /// How far out it begins, for a ping that meets it.
+    /// Lower bound of its distance across the track from a ping that meets it.
     double nearest(const ping_frame& p) const { return p(centre_).x - radius_; }
 
-    /// Calls `visit(outline_piece)` for each triangle that the ping's plane cuts. Triangles that share an edge share
-    /// the corner on it to the last bit, so outlines have no gaps.
+    /// Calls `visit(cut_segment)` for each triangle that the ping's plane cuts. Triangles that share an edge share the
+    /// end on it to the last bit, so cross-sections have no gaps.
     template <class Visit>
     void cut(const ping_frame& p, const Visit& visit) const {
         const glm::dvec3 offset = p(to_world_.offset);
@@ -23420,19 +23321,19 @@ class sliced_target {
         }
         if (behind == 0 || behind == 3 || !numeric::is_finite(v[0].x + v[1].x + v[2].x + v[0].z + v[1].z + v[2].z))
             return;
-        // The corner that is alone on its side, and the edges that leave it.
+        // The vertex that is alone on its side of the plane; two edges leave it.
         int alone = 0;
         while ((v[alone].y < 0) != (behind == 1)) ++alone;
-        const auto corner = [&](int other) {
+        const auto end_on_edge = [&](int other) {
             const int from = behind == 1 ? alone : other,
-                      to = behind == 1 ? other : alone;  // from behind to before
+                      to = behind == 1 ? other : alone;  // from behind the plane to its front
             const double f = v[from].y / (v[from].y - v[to].y);
             const glm::dvec3 at = v[from] + f * (v[to] - v[from]);
             const glm::vec3 &n = shape_->normals[t[from]], &m = shape_->normals[t[to]];
-            return outline_piece::corner{at.x, -at.z, numeric::product(normals, n + static_cast<float>(f) * (m - n))};
+            return cut_segment::end{at.x, -at.z, numeric::product(normals, n + static_cast<float>(f) * (m - n))};
         };
-        visit(outline_piece{corner((alone + 1) % 3), corner((alone + 2) % 3),
-                            glm::vec3(sign * numeric::cross(v[1] - v[0], v[2] - v[0]))});
+        visit(cut_segment{end_on_edge((alone + 1) % 3), end_on_edge((alone + 2) % 3),
+                          glm::vec3(sign * numeric::cross(v[1] - v[0], v[2] - v[0]))});
     }
 
     shared_mesh shape_;
@@ -23442,7 +23343,7 @@ class sliced_target {
     double radius_ = 0;
 };
 
-/// The targets of a scene; those of one shape share its tree.
+/// The targets of a scene; those with the same mesh share its tree.
 inline std::vector<sliced_target> sliced_targets(const scene& s) {
     std::vector<sliced_target> all;
     std::map<const mesh*, std::shared_ptr<const plane_tree>> trees;
@@ -23463,9 +23364,9 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/sonar/side_scan/detail/target_hits.hpp -------------------------------------------
 // First hits of a ping's rays with the targets, with exact fractional coverage of each ray's width.
 //
-// The outline of the targets in a ping's plane is a set of straight pieces. Within each ray's width the pieces' ends
-// divide the width into parts; of each part the nearest piece counts, in proportion to the part. So a bar that is
-// thinner than the spacing of rays is heard in every ping that meets it, and with the energy that it has.
+// The cross-section of the targets with a ping's plane is a set of line segments. Their ends divide each ray's width
+// into parts; in each part the nearest segment is hit, weighted by the part's fraction of the width. A bar that is
+// thinner than the spacing of rays so returns its own energy in every ping that meets it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -23473,11 +23374,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The part of a ray that a target stops.
+/// The part of a ray that hits a target.
 struct target_hit {
-    double share;                 ///< of the ray's width
-    double x, down;               ///< the middle, metres
-    double x0, down0, x1, down1;  ///< its ends
+    double fraction;              ///< of the ray's width
+    double x, down;               ///< of its middle, metres
+    double x0, down0, x1, down1;  ///< of its ends
     float facing;                 ///< sine of the grazing angle on the surface
     float reflectivity;
     std::uint16_t instance;
@@ -23489,16 +23390,16 @@ class target_hits {
   public:
     void begin(const ping_fan& fan) {
         fan_ = &fan;
-        pieces_.clear();
+        segments_.clear();
         partial_.clear();
         hits_.clear();
         nearest_.assign(fan.size(), {std::numeric_limits<double>::infinity(), 0});
         first_.assign(fan.size() + 1, 0);
-        screens_.assign(fan.size(), {std::numeric_limits<double>::infinity(), 0});
+        occluders_.assign(fan.size(), {std::numeric_limits<double>::infinity(), 0});
     }
 
-    /// A piece of an outline.
-    void add(outline_piece o, std::uint16_t instance, float reflectivity) {
+    /// Adds a segment of a target.
+    void add(cut_segment o, std::uint16_t instance, float reflectivity) {
         if (o.a.x * o.b.down > o.a.down * o.b.x) std::swap(o.a, o.b);  // b is farther out
         if (!(o.a.x > 0 || o.b.x > 0)) return;
         cut_at_nadir(o.a, o.b);
@@ -23506,8 +23407,8 @@ class target_hits {
         if (fan_->size() == 0) return;
         const double from = fan_->coordinate(o.a.x, o.a.down), to = fan_->coordinate(o.b.x, o.b.down);
         if (!(from < to)) return;
-        const auto id = static_cast<std::uint32_t>(pieces_.size());
-        pieces_.push_back({o, instance, reflectivity});
+        const auto id = static_cast<std::uint32_t>(segments_.size());
+        segments_.push_back({o, instance, reflectivity});
         const std::size_t first = static_cast<std::size_t>(from) - fan_->first();
         const std::size_t last = (std::min)(static_cast<std::size_t>(to) - fan_->first(), fan_->size() - 1);
         for (std::size_t k = first; k <= last; ++k) {
@@ -23524,7 +23425,7 @@ class target_hits {
         }
     }
 
-    /// Finds what is nearest, once all pieces are there.
+    /// Finds the hits, after all segments have been added.
     void resolve() {
         std::stable_sort(partial_.begin(), partial_.end(), [](const part& a, const part& b) { return a.ray < b.ray; });
         auto next = partial_.begin();
@@ -23536,56 +23437,56 @@ class target_hits {
             if (next != end)
                 divide(k, {next, end}, is_met);
             else if (is_met)
-                keep(nearest_[k].piece, number(k), number(k) + 1);
+                add_hit(nearest_[k].segment, number(k), number(k) + 1);
             next = end;
-            find_screen(k, hits_.size());
+            find_occluder(k, hits_.size());
         }
         first_.back() = static_cast<std::uint32_t>(hits_.size());
     }
 
-    /// Removes what lies behind the bottom, which ray k meets at a range; behind everything, if nothing is met.
-    /// @returns the share of the ray that targets stop before
+    /// Removes hits behind the bottom, which ray k meets at a range.
+    /// @returns the fraction of the ray that hits targets in front of it
     double cut_off(std::size_t k, double range) {
-        double stopped = 0;
+        double covered = 0;
         bool is_cut = false;
         for (std::size_t i = first_[k]; i < first_[k + 1]; ++i) {
             if (hits_[i].square_range() < range * range)
-                stopped += hits_[i].share;
-            else if (hits_[i].share > 0)
-                hits_[i].share = 0, is_cut = true;
+                covered += hits_[i].fraction;
+            else if (hits_[i].fraction > 0)
+                hits_[i].fraction = 0, is_cut = true;
         }
-        if (is_cut) find_screen(k, first_[k + 1]);
-        return stopped > 1 - 1e-9 ? 1 : stopped;
+        if (is_cut) find_occluder(k, first_[k + 1]);
+        return covered > 1 - 1e-9 ? 1 : covered;
     }
 
-    /// The target that stops most of ray k before a range, if they stop more than half; else is_lit.
-    std::uint16_t screen(std::size_t k, double range) const {
-        return k < screens_.size() && screens_[k].range < range ? screens_[k].instance : labels::is_lit;
+    /// The target that most of ray k hits in front of a range, if more than half of it hits targets; else is_lit.
+    std::uint16_t occluder(std::size_t k, double range) const {
+        return k < occluders_.size() && occluders_[k].range < range ? occluders_[k].instance : labels::is_lit;
     }
 
-    /// Calls `visit(ray number, hit)` in the order of the rays.
+    /// Calls `visit(ray, hit)` in the order of the rays.
     template <class Visit>
     void for_each(const Visit& visit) const {
         for (std::size_t k = 0; k + 1 < first_.size(); ++k)
             for (std::size_t i = first_[k]; i < first_[k + 1]; ++i)
-                if (hits_[i].share > 0) visit(k, hits_[i]);
+                if (hits_[i].fraction > 0) visit(k, hits_[i]);
     }
 
   private:
-    struct piece {
-        outline_piece outline;
+    struct segment {
+        cut_segment shape;
         std::uint16_t instance;
         float reflectivity;
     };
     struct part {
-        std::uint32_t ray, piece;
+        std::uint32_t ray, segment;
         double low, high;  ///< coordinates of the fan
     };
     struct candidate {
         double range;  ///< squared
-        std::uint32_t piece;
+        std::uint32_t segment;
     };
-    struct screen_of_ray {
+    struct occluder_of_ray {
         double range;
         std::uint16_t instance;
     };
@@ -23593,28 +23494,28 @@ class target_hits {
     /// The coordinate at which ray k begins.
     double number(std::size_t k) const { return static_cast<double>(fan_->first() + k); }
 
-    static void cut_at_nadir(outline_piece::corner& from, const outline_piece::corner& to) {
+    static void cut_at_nadir(cut_segment::end& from, const cut_segment::end& to) {
         if (from.x > 0) return;
         const double f = from.x / (from.x - to.x);
         from = {0, from.down + f * (to.down - from.down),
                 from.normal + static_cast<float>(f) * (to.normal - from.normal)};
     }
 
-    /// How far along a piece a direction meets it, in [0, 1].
-    static double along(const outline_piece& o, const ping_fan::direction& d) {
+    /// The fraction of a segment at which a direction meets it, in [0, 1].
+    static double along(const cut_segment& o, const ping_fan::direction& d) {
         const double before = o.a.x * d.cosine - o.a.down * d.sine, after = o.b.x * d.cosine - o.b.down * d.sine;
         const double f = before / (before - after);
         return f > 0 ? (f < 1 ? f : 1.0) : 0.0;
     }
-    static glm::dvec2 point(const outline_piece& o, const ping_fan::direction& d) {
+    static glm::dvec2 point(const cut_segment& o, const ping_fan::direction& d) {
         const double f = along(o, d);
         return {o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down)};
     }
 
-    /// Keeps a part of a ray as stopped by a piece.
-    void keep(std::uint32_t id, double low, double high) {
-        const piece& p = pieces_[id];
-        const outline_piece& o = p.outline;
+    /// Adds the hit of a part of a ray on a segment.
+    void add_hit(std::uint32_t id, double low, double high) {
+        const segment& p = segments_[id];
+        const cut_segment& o = p.shape;
         const ping_fan::direction middle = fan_->at(0.5 * (low + high));
         const double f = along(o, middle);
         const glm::dvec2 at(o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down));
@@ -23624,9 +23525,9 @@ class target_hits {
                          p.reflectivity, p.instance});
     }
 
-    /// Sine of the grazing angle. The facet says which side is heard and decides the sign of normals that contradict
-    /// it, or that are none.
-    static float facing(const outline_piece& o, float f, const ping_fan::direction& d) {
+    /// Sine of the grazing angle. The facet decides which side is insonified, and the sign of the normal; it replaces
+    /// normals that are zero or not finite.
+    static float facing(const cut_segment& o, float f, const ping_fan::direction& d) {
         const auto sine = static_cast<float>(d.sine), cosine = static_cast<float>(d.cosine);
         glm::vec3 n = o.a.normal + f * (o.b.normal - o.a.normal);
         float square = numeric::dot(n, n);
@@ -23635,9 +23536,9 @@ class target_hits {
         return (is_front == is_along ? 1.0f : -1.0f) * (n.z * cosine - n.x * sine) / numeric::square_root(square);
     }
 
-    /// Divides a ray between the pieces that it meets with parts of its width, and the one with all of it.
+    /// Divides a ray between segments that cover parts of its width and the nearest one that covers all of it.
     void divide(std::size_t k, std::span<const part> parts, bool is_met) {
-        // Very many pieces are sampled at fixed positions instead.
+        // Too many segments are sampled at fixed positions instead.
         ends_.clear();
         ends_.push_back(number(k)), ends_.push_back(number(k) + 1);
         if (parts.size() <= most_parts) {
@@ -23653,38 +23554,38 @@ class target_hits {
             const ping_fan::direction d = fan_->at(middle);
             candidate best{std::numeric_limits<double>::infinity(), 0};
             const auto offer = [&](std::uint32_t id) {
-                const glm::dvec2 p = point(pieces_[id].outline, d);
+                const glm::dvec2 p = point(segments_[id].shape, d);
                 const double range = p.x * p.x + p.y * p.y;
                 if (range < best.range) best = {range, id};
             };
             for (const part& p : parts)
-                if (p.low <= middle && middle <= p.high) offer(p.piece);
-            if (is_met) offer(nearest_[k].piece);
-            if (best.range < std::numeric_limits<double>::infinity()) keep(best.piece, ends_[i], ends_[i + 1]);
+                if (p.low <= middle && middle <= p.high) offer(p.segment);
+            if (is_met) offer(nearest_[k].segment);
+            if (best.range < std::numeric_limits<double>::infinity()) add_hit(best.segment, ends_[i], ends_[i + 1]);
         }
     }
 
-    void find_screen(std::size_t k, std::size_t end) {
-        screens_[k] = {std::numeric_limits<double>::infinity(), 0};
-        double stopped = 0, largest = 0;
+    void find_occluder(std::size_t k, std::size_t end) {
+        occluders_[k] = {std::numeric_limits<double>::infinity(), 0};
+        double covered = 0, largest = 0;
         for (std::size_t i = first_[k]; i < end; ++i) {
-            stopped += hits_[i].share;
-            if (hits_[i].share <= largest) continue;
-            largest = hits_[i].share;
-            screens_[k] = {numeric::square_root(hits_[i].square_range()), hits_[i].instance};
+            covered += hits_[i].fraction;
+            if (hits_[i].fraction <= largest) continue;
+            largest = hits_[i].fraction;
+            occluders_[k] = {numeric::square_root(hits_[i].square_range()), hits_[i].instance};
         }
-        if (!(stopped > 0.5)) screens_[k].range = std::numeric_limits<double>::infinity();
+        if (!(covered > 0.5)) occluders_[k].range = std::numeric_limits<double>::infinity();
     }
 
     static constexpr std::size_t most_parts = 64;
 
     const ping_fan* fan_ = nullptr;
-    std::vector<piece> pieces_;
+    std::vector<segment> segments_;
     std::vector<part> partial_;
-    std::vector<candidate> nearest_;  ///< by ray: the nearest piece over all of its width
+    std::vector<candidate> nearest_;  ///< by ray: the nearest segment that covers all of its width
     std::vector<target_hit> hits_;
-    std::vector<std::uint32_t> first_;  ///< by ray: its hits begin here
-    std::vector<screen_of_ray> screens_;
+    std::vector<std::uint32_t> first_;  ///< by ray: index of its first hit
+    std::vector<occluder_of_ray> occluders_;
     std::vector<double> ends_;
 };
 
@@ -23695,12 +23596,12 @@ class target_hits {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/detail/ping_echo.hpp ---------------------------------------------
-// Computes the echo of one ping, bin by bin.
+// The echo of one ping, bin by bin.
 //
-// Source and receiver coincide: the first surface along a ray is both insonified and heard. Each ray's
-// power is spread evenly over the bins between the ranges at which its upper and its lower edge meet the surface; so
-// level ground has no gaps and no beats, whatever the ratio of rays to bins. Bottom that is met by no ray is in shadow,
-// and belongs to whatever stands in front of it.
+// Source and receiver coincide, so the first surface along a ray is both insonified and received. A ray's power is
+// distributed evenly over the bins between the ranges at which its edges meet the surface: level ground has no gaps and
+// no beats, whatever the ratio of rays to bins. Seabed that no ray meets is in shadow; its caster is what the rays met
+// in front of it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -23711,21 +23612,21 @@ namespace detail::inline INSONIFY_FLAGS {
 /// Power and contents of a range bin; lengths are in bins.
 struct echo_bin {
     float bottom = 0, target = 0;  ///< power
-    float lit = 0;                 ///< of the bottom
+    float lit = 0;                 ///< length of seabed
     float dark_by_seabed = 0, dark_by_target = 0;
-    float of_seabed = 0;  ///< of the first type in the bin; name_tally has the others
-    // Those that have most of the bin, in the end.
+    float of_seabed = 0;  ///< length of the first type in the bin; a label_tally has the others
+    // The labels that have most of the bin.
     std::uint16_t instance = labels::no_instance, caster = labels::by_seabed;
     std::uint8_t seabed = labels::no_seabed;
 };
 
-/// Computes pings one after the other. Rig is a side_scan or a ground_range; what labels need is left out if !Labelled.
+/// Traces pings one after the other, reusing memory and, where possible, the fan. Rig is a side_scan or a ground_range.
 template <class Rig, class Law, class Equation, bool Labelled>
-class ping_listener {
+class ping_tracer {
   public:
-    ping_listener(const scene& s, const bottom_materials& materials, std::span<const sliced_target> targets,
-                  const bottom_tiles& bottom, const Rig& rig, const Law& law, const Equation& equation, double cell,
-                  const seabed::height_range& relief, double start)
+    ping_tracer(const scene& s, const bottom_materials& materials, std::span<const sliced_target> targets,
+                const bottom_tiles& bottom, const Rig& rig, const Law& law, const Equation& equation, double cell,
+                const seabed::height_range& relief, double start)
         : scene_(s),
           materials_(materials),
           targets_(targets),
@@ -23750,52 +23651,51 @@ class ping_listener {
         }
     }
 
-    /// @returns one per bin, until the next ping
-    std::span<const echo_bin> hear(const ping_frame& p) {
+    /// @returns one per bin, valid until the next call
+    std::span<const echo_bin> trace(const ping_frame& p) {
         std::fill(bins_.begin(), bins_.end(), echo_bin{});
         sample_bottom(p);
         const double altitude = p.position().z;
-        if (looks_beyond(relief_, first_range_, p)) lowest_ = relief_.lowest, highest_ = relief_.highest;
-        if (!(lowest_ <= highest_))  // no bottom here: rays for the targets alone
+        if (skips_foreground(relief_, first_range_, p)) lowest_ = relief_.lowest, highest_ = relief_.highest;
+        if (!(lowest_ <= highest_))  // no seabed here: rays for the targets alone
             lowest_ = highest_ = (std::min)(foot_, altitude - range_ / 16);
-        // The pitched fan's own depths are longer; heights above are bounded by the level ones.
-        const double longer = 1 / p.cosine_pitch();
-        const fan_shape shape = fan_shape::around((altitude - lowest_) * longer, altitude - highest_,
+        // In a pitched fan depths are longer; level ones bound the heights above.
+        const double stretch = 1 / p.cosine_pitch();
+        const fan_shape shape = fan_shape::around((altitude - lowest_) * stretch, altitude - highest_,
                                                   altitude - (std::max)(top_, highest_));
         const std::array<double, 3> attitude{p.sine_roll(), p.cosine_roll(), p.cosine_pitch()};
-        if (!(shape == fan_.shape()) || attitude != attitude_) spread_out(shape, attitude);
-        if (!(altitude > lowest_) || profile_[0].down <= 0) return bins_;  // it lies in the ground
+        if (!(shape == fan_.shape()) || attitude != attitude_) build_fan(shape, attitude);
+        if (!(altitude > lowest_) || profile_[0].down <= 0) return bins_;  // the sonar is below the seabed
         gather_targets(p);
-        hear_bottom(p);
-        if (some_target_) hear_targets();
-        if constexpr (Labelled) name_bins();
+        trace_bottom(p);
+        if (some_target_) add_target_echoes();
+        if constexpr (Labelled) label_bins();
         return bins_;
     }
 
     /// Ground range up to which the bottom has to be sampled, metres.
     static double reach(const Rig& rig, double cell) { return static_cast<double>(rig.range) + 4 * cell; }
 
-    /// Ground range from which the bottom has to be sampled: nothing nearer is heard in the window or hides what is.
-    /// @param relief  of the bottom
+    /// Ground range from which the bottom has to be sampled: nothing nearer is received in the window or occludes it.
     static double start(const Rig& rig, double cell, const seabed::height_range& relief, const ping_frame& p,
                         std::span<const sliced_target> targets) {
         const double altitude = p.position().z, first = static_cast<double>(rig.first_range);
-        if (!looks_beyond(relief, first, p)) return 0;
-        const double lowest = altitude - relief.lowest, heard = first - 4 * rig.bin();
-        const double square = counts_time ? heard * heard - lowest * lowest : heard * heard;
-        const double place = heard > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
+        if (!skips_foreground(relief, first, p)) return 0;
+        const double lowest = altitude - relief.lowest, window = first - 4 * rig.bin();
+        const double square = counts_time ? window * window - lowest * lowest : window * window;
+        const double place = window > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
         for (const sliced_target& t : targets)
             if (t.is_met_by(p, 1e9) && t.nearest(p) < place) return 0;
-        // A crest, the highest there can be, and the lowest place that it hides.
+        // The highest possible crest that occludes the lowest possible ground there.
         return (std::max)(0.0, place * (altitude - relief.highest) / lowest - 4 * cell);
     }
 
   private:
-    static constexpr float most = 2;  // bins that an echo may spread to either side of its ray, whatever the slope
+    static constexpr float widest = 2;  ///< bins to either side of its ray that an echo may cover, at any slope
     static constexpr bool counts_time = Rig::axis == across_track::slant_range;
 
-    /// Whether a ping is well above the bottom, so that the bottom before the window can be skipped.
-    static bool looks_beyond(const seabed::height_range& relief, double first_range, const ping_frame& p) {
+    /// Whether a ping is so high above the bottom that the bottom in front of the window can be skipped.
+    static bool skips_foreground(const seabed::height_range& relief, double first_range, const ping_frame& p) {
         const double altitude = p.position().z;
         return first_range > 0 && p.is_level() && !relief.empty() && relief.lowest > -altitude &&
                2 * relief.highest < altitude;
@@ -23806,26 +23706,26 @@ class ping_listener {
         float slope, slope_along;
         std::uint8_t type;
     };
-    /// Builds the fan, and each ray's power per metre of range.
-    void spread_out(const fan_shape& shape, const std::array<double, 3>& attitude) {
+    /// Builds the fan, and the power per metre of range of each ray.
+    void build_fan(const fan_shape& shape, const std::array<double, 3>& attitude) {
         const auto slant = [&](double r) {
             return counts_time ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
         };
         farthest_ = slant(range_);
         fan_ = ping_fan(shape, step_, slant(first_range_), farthest_);
-        carried_.resize(fan_.size());
+        ray_power_.resize(fan_.size());
         attitude_ = attitude;
         const auto [sine_roll, cosine_roll, cosine_pitch] = attitude;
-        // A fan that leans by a pitch is thinner than its spacing along the track.
+        // A pitched fan is thinner than the spacing of pings along the track.
         const float thickness = spacing_ * static_cast<float>(cosine_pitch);
         for (std::size_t k = 0; k < fan_.size(); ++k) {
             const double across = fan_[k].sine * cosine_roll + fan_[k].cosine * sine_roll,
                          down = fan_[k].cosine * cosine_roll - fan_[k].sine * sine_roll;
-            carried_[k] = thickness * static_cast<float>(fan_[k].width * equation_.over_direction(across, down));
+            ray_power_[k] = thickness * static_cast<float>(fan_[k].width * equation_.over_direction(across, down));
         }
     }
 
-    /// The profile below the ping, from where it matters outwards.
+    /// Samples the profile below the ping, from first_point_ outwards.
     void sample_bottom(const ping_frame& p) {
         const auto end = static_cast<std::size_t>(numeric::floor_to_int(range_ / profile_step_)) + 2;
         profile_.resize(end - first_point_);
@@ -23836,14 +23736,15 @@ class ping_listener {
             bottom_vertex v;
             double depth;
             if (p.is_level()) {
-                const glm::dvec2 at = p.world(place_of(i), 0);
+                const glm::dvec2 at = p.world(x_of(i), 0);
                 v = tiles_.at(at.x, at.y);
                 depth = altitude - static_cast<double>(v.height);
             } else {
-                // The place depends on the depth; slopes below 1 / tan(pitch) make the steps converge.
+                // The position depends on the depth: a fixed-point iteration, which slopes below 1 / tan(pitch) let
+                // converge.
                 depth = i > 0 ? profile_[i - 1].down : 0;
                 for (int step = 0; step < 5; ++step) {
-                    const glm::dvec2 at = p.below(place_of(i), tiles_.clamped(p, depth));
+                    const glm::dvec2 at = p.below(x_of(i), tiles_.clamped(p, depth));
                     v = tiles_.at(at.x, at.y);
                     depth = (altitude - static_cast<double>(v.height)) / p.cosine_pitch();
                 }
@@ -23851,13 +23752,13 @@ class ping_listener {
             const auto height = static_cast<double>(v.height);
             profile_[i] = {depth, v.slope_x * across.x + v.slope_y * across.y,
                            v.slope_x * along.x + v.slope_y * along.y, static_cast<std::uint8_t>(v.type)};
-            lowest_ = (std::min)(height, lowest_);  // NaN stays out
+            lowest_ = (std::min)(height, lowest_);  // ignores NaN
             highest_ = (std::max)(height, highest_);
         }
     }
 
-    /// How far out a point of the profile is.
-    double place_of(std::size_t i) const { return profile_step_ * static_cast<double>(first_point_ + i); }
+    /// Distance across the track of a point of the profile.
+    double x_of(std::size_t i) const { return profile_step_ * static_cast<double>(first_point_ + i); }
 
     void gather_targets(const ping_frame& p) {
         some_target_ = false;
@@ -23865,34 +23766,35 @@ class ping_listener {
             if (!targets_[i].is_met_by(p, farthest_)) continue;
             if (!some_target_) hits_.begin(fan_);
             some_target_ = true;
-            targets_[i].cut(p, [&](const outline_piece& piece) {
-                hits_.add(piece, static_cast<std::uint16_t>(i + 1), scene_.targets[i].surface.reflectivity);
+            targets_[i].cut(p, [&](const cut_segment& segment) {
+                hits_.add(segment, static_cast<std::uint16_t>(i + 1), scene_.targets[i].surface.reflectivity);
             });
         }
         if (some_target_) hits_.resolve();
     }
 
-    /// Walks along the profile; rays meet it in order, and what lies below the last one met is hidden.
-    void hear_bottom(const ping_frame& ping) {
+    /// Walks outwards along the profile. Rays meet it in order; bottom below the last ray that met it is in shadow.
+    void trace_bottom(const ping_frame& ping) {
         double horizon_x = 0, horizon_down = 1;
-        // Rays that meet the bottom before the profile begins see nothing behind it.
-        std::size_t k = first_point_ > 0 ? fan_.first_over(place_of(0), profile_[0].down) : 0;
+        // Rays that meet the bottom in front of the profile go no further.
+        std::size_t k = first_point_ > 0 ? fan_.first_over(x_of(0), profile_[0].down) : 0;
         if (some_target_)
             for (std::size_t j = 0; j < k; ++j) hits_.cut_off(j, 0);
         const std::size_t rays = fan_.size();
         for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
-            const double px = place_of(i), qx = place_of(i + 1);
+            const double px = x_of(i), qx = x_of(i + 1);
             const bottom_point &p = profile_[i], &q = profile_[i + 1];
             const double dx = qx - px, ddown = q.down - p.down;
             const double above = qx * horizon_down - q.down * horizon_x;
             if (!(above > 0)) {
-                if (Labelled && ddown == ddown) name(p, q, px, dx, 0, 1, hider(qx, q.down));
+                if (Labelled && ddown == ddown) label(p, q, px, dx, 0, 1, caster_below_horizon(qx, q.down));
                 continue;
             }
-            // The part over the horizon begins here. Labels divide it halfway between rays, as the rays' power does.
+            // The part above the horizon. Labels divide it halfway between rays, as the rays' power does.
             const double below = px * horizon_down - p.down * horizon_x;
             double from = below / (below - above);
-            if (Labelled && from > 0) name(p, q, px, dx, 0, from, hider(px + from * dx, p.down + from * ddown));
+            if (Labelled && from > 0)
+                label(p, q, px, dx, 0, from, caster_below_horizon(px + from * dx, p.down + from * ddown));
             double last_met = from;
             const std::size_t first = k;
             for (; k < rays && ping_fan::beyond(fan_[k], qx, q.down) >= 0; ++k) {
@@ -23902,53 +23804,54 @@ class ping_listener {
                 const double range = (px + f * dx) * ray.sine + (p.down + f * ddown) * ray.cosine;
                 if (Labelled && some_target_ && k > first) {
                     const double between = 0.5 * (last_met + f);
-                    name(p, q, px, dx, from, between, screen(k - 1, px + last_met * dx, p.down + last_met * ddown));
+                    label(p, q, px, dx, from, between, occluder(k - 1, px + last_met * dx, p.down + last_met * ddown));
                     from = between;
                 }
                 last_met = f;
                 if (range <= farthest_ + bin_)
-                    hear_bottom_at(ping, ray, k, range, dx, ddown, p, q, static_cast<float>(f));
+                    add_bottom_echo(ping, ray, k, range, dx, ddown, p, q, static_cast<float>(f));
             }
             if constexpr (Labelled)
-                name(p, q, px, dx, from, 1,
-                     some_target_ ? screen(k > first ? k - 1 : k, px + last_met * dx, p.down + last_met * ddown)
-                                  : labels::is_lit);
+                label(p, q, px, dx, from, 1,
+                      some_target_ ? occluder(k > first ? k - 1 : k, px + last_met * dx, p.down + last_met * ddown)
+                                   : labels::is_lit);
             horizon_x = qx, horizon_down = q.down;
         }
     }
 
-    void hear_bottom_at(const ping_frame& ping, const ping_fan::ray& ray, std::size_t k, double range, double dx,
-                        double ddown, const bottom_point& p, const bottom_point& q, float f) {
-        // Targets that are buried or behind a rise are cut off.
-        const double stopped = some_target_ ? hits_.cut_off(k, range) : 0;
-        if (stopped >= 1) return;
-        const float at = column(ray, range), half = (std::min)(half_length(ray, range, dx, ddown), most);
+    void add_bottom_echo(const ping_frame& ping, const ping_fan::ray& ray, std::size_t k, double range, double dx,
+                         double ddown, const bottom_point& p, const bottom_point& q, float f) {
+        // Removes targets that are buried or behind a rise.
+        const double covered = some_target_ ? hits_.cut_off(k, range) : 0;
+        if (covered >= 1) return;
+        const float at = column(ray, range), half = (std::min)(half_length(ray, range, dx, ddown), widest);
         const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
         const float slope = p.slope + f * (q.slope - p.slope);
         const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
         const auto upright = static_cast<float>(ping.cosine_pitch()), ahead = static_cast<float>(ping.sine_pitch());
         const float facing = (slope * sine + cosine * (upright + slope_along * ahead)) /
                              numeric::square_root(1 + slope * slope + slope_along * slope_along);
-        const float power = static_cast<float>(1 - stopped) * power_of(k, range, facing) *
+        const float power = static_cast<float>(1 - covered) * power_of(k, range, facing) *
                             materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
-        spread(at - half, at + half, [&](std::size_t bin, float share, float) { bins_[bin].bottom += power * share; });
+        distribute(at - half, at + half,
+                   [&](std::size_t bin, float fraction, float) { bins_[bin].bottom += power * fraction; });
     }
 
-    void hear_targets() {
+    void add_target_echoes() {
         hits_.for_each([&](std::size_t k, const target_hit& hit) {
             const double range = numeric::square_root(hit.square_range());
-            const float power = static_cast<float>(hit.share) * power_of(k, range, hit.facing) * hit.reflectivity;
-            const double a = place(hit.x0, hit.down0), b = place(hit.x1, hit.down1);
-            spread(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
-                   [&](std::size_t bin, float share, float) {
-                       bins_[bin].target += power * share;
-                       if constexpr (Labelled) echoing_.add(bin, hit.instance, power * share);
-                   });
+            const float power = static_cast<float>(hit.fraction) * power_of(k, range, hit.facing) * hit.reflectivity;
+            const double a = column(hit.x0, hit.down0), b = column(hit.x1, hit.down1);
+            distribute(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
+                       [&](std::size_t bin, float fraction, float) {
+                           bins_[bin].target += power * fraction;
+                           if constexpr (Labelled) echoing_.add(bin, hit.instance, power * fraction);
+                       });
         });
     }
 
-    /// Gives each bin the names that have most of it.
-    void name_bins() {
+    /// Sets the labels that have most of each bin.
+    void label_bins() {
         if (!types_.empty())
             for (std::size_t b = 0; b < bins_.size(); ++b) {
                 const auto [type, length] = types_.largest(b, labels::no_seabed);
@@ -23957,49 +23860,50 @@ class ping_listener {
         if (some_target_)
             for (std::size_t b = 0; b < bins_.size(); ++b) {
                 echo_bin& bin = bins_[b];
-                bin.instance = echoing_.largest(b, labels::no_instance).name;
+                bin.instance = echoing_.largest(b, labels::no_instance).label;
                 const auto [caster, length] = casting_.largest(b, labels::by_seabed);
                 bin.caster = length >= bin.dark_by_seabed ? caster : labels::by_seabed;
             }
         echoing_.clear(), casting_.clear(), types_.clear();
     }
 
-    /// The target that stands between the sonar and a point of ray k, or is_lit.
-    std::uint16_t screen(std::size_t k, double x, double down) const {
-        return hits_.screen(k, numeric::square_root(x * x + down * down));
+    /// The target between the sonar and a point of ray k, or is_lit.
+    std::uint16_t occluder(std::size_t k, double x, double down) const {
+        return hits_.occluder(k, numeric::square_root(x * x + down * down));
     }
-    /// What hides bottom below the horizon: a target, if one does, even where the seabed would too.
-    std::uint16_t hider(double x, double down) const {
-        const std::uint16_t target = some_target_ ? screen(fan_.first_over(x, down), x, down) : labels::is_lit;
+    /// The caster of a shadow below the horizon: a target, if one occludes the point, or the seabed.
+    std::uint16_t caster_below_horizon(double x, double down) const {
+        const std::uint16_t target = some_target_ ? occluder(fan_.first_over(x, down), x, down) : labels::is_lit;
         return target == labels::is_lit ? labels::by_seabed : target;
     }
 
-    /// Adds to the labels what keeps the bottom dark between two fractions of the way from p to q.
-    void name(const bottom_point& p, const bottom_point& q, double px, double dx, double from, double to,
-              std::uint16_t caster) {
+    /// Adds a piece of bottom to the labels: between two fractions of the way from p to q, with the caster of its
+    /// shadow or is_lit.
+    void label(const bottom_point& p, const bottom_point& q, double px, double dx, double from, double to,
+               std::uint16_t caster) {
         const double down = q.down - p.down;
-        const double a = place(px + from * dx, p.down + from * down), b = place(px + to * dx, p.down + to * down);
+        const double a = column(px + from * dx, p.down + from * down), b = column(px + to * dx, p.down + to * down);
         const std::uint8_t type = from + to < 1 ? p.type : q.type;
-        spread(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
-               [&](std::size_t number, float, float length) {
-                   echo_bin& bin = bins_[number];
-                   if (caster == labels::is_lit)
-                       bin.lit += length;
-                   else if (caster == labels::by_seabed)
-                       bin.dark_by_seabed += length;
-                   else
-                       bin.dark_by_target += length, casting_.add(number, caster, length);
-                   if (bin.seabed == labels::no_seabed) bin.seabed = type;
-                   if (bin.seabed == type)
-                       bin.of_seabed += length;
-                   else
-                       types_.add(number, type, length);
-               });
+        distribute(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
+                   [&](std::size_t number, float, float length) {
+                       echo_bin& bin = bins_[number];
+                       if (caster == labels::is_lit)
+                           bin.lit += length;
+                       else if (caster == labels::by_seabed)
+                           bin.dark_by_seabed += length;
+                       else
+                           bin.dark_by_target += length, casting_.add(number, caster, length);
+                       if (bin.seabed == labels::no_seabed) bin.seabed = type;
+                       if (bin.seabed == type)
+                           bin.of_seabed += length;
+                       else
+                           types_.add(number, type, length);
+                   });
     }
 
-    /// Calls `visit(number of the bin, share, length)` for the bins from `low` to `high`.
+    /// Calls `visit(bin, fraction, length)` for the bins between two positions.
     template <class Visit>
-    void spread(float low, float high, const Visit& visit) {
+    void distribute(float low, float high, const Visit& visit) {
         if (!(high > 0 && low < static_cast<float>(bins_.size()))) return;
         const auto first = static_cast<std::int64_t>(low > 0 ? low : 0.0f);
         const auto last = (std::min)(static_cast<std::int64_t>(high), static_cast<std::int64_t>(bins_.size()) - 1);
@@ -24014,17 +23918,17 @@ class ping_listener {
         }
     }
 
-    /// Where an echo is heard, in bins.
+    /// Position of an echo, in bins.
     float column(const ping_fan::ray& ray, double range) const {
         const double r = counts_time ? range : range * ray.sine;
         return static_cast<float>((r - first_range_) / bin_);
     }
-    double place(double x, double down) const {
+    double column(double x, double down) const {
         const double r = counts_time ? numeric::square_root(x * x + down * down) : x;
         return (r - first_range_) / bin_;
     }
 
-    /// Half of the bins between the two edges of a ray on a surface along (dx, ddown).
+    /// Half the number of bins between the edges of a ray on a surface along (dx, ddown).
     float half_length(const ping_fan::ray& ray, double range, double dx, double ddown) const {
         const double outwards = counts_time ? dx * ray.sine + ddown * ray.cosine : dx;
         const double turning = dx * ray.cosine - ddown * ray.sine;
@@ -24032,11 +23936,11 @@ class ping_listener {
         return static_cast<float>(numeric::magnitude(half));
     }
 
-    /// Power that a surface of reflectivity one returns from a ray: its projected area over the sine of the grazing
+    /// Power that a surface of reflectivity 1 returns from a ray: the ray's cross-section over the sine of the grazing
     /// angle, times the law.
     float power_of(std::size_t k, double range, float facing) const {
         const float sine = (std::min)((std::max)(facing, 1e-3f), 1.0f);
-        return static_cast<float>(range) * carried_[k] * law_(sine) / sine;
+        return static_cast<float>(range) * ray_power_[k] * law_(sine) / sine;
     }
 
     const scene& scene_;
@@ -24050,15 +23954,15 @@ class ping_listener {
     std::size_t first_point_;
     float spacing_;
     double top_ = -1e30, foot_ = 1e30;         ///< of all targets
-    double lowest_ = 0, highest_ = 0;          ///< of the bottom below the ping
+    double lowest_ = 0, highest_ = 0;          ///< of the bottom below the current ping
     std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch
     ping_fan fan_;
-    std::vector<float> carried_;
+    std::vector<float> ray_power_;
     std::vector<bottom_point> profile_;
     target_hits hits_;
     bool some_target_ = false;
     std::vector<echo_bin> bins_;
-    name_tally echoing_, casting_, types_;
+    label_tally echoing_, casting_, types_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -24068,15 +23972,14 @@ class ping_listener {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/sonar_equation.hpp -----------------------------------------------
-// The sonar equation as a list of parts: what is not in the list is not computed, and not compiled.
+// The sonar equation as a list of parts. Parts that are not in the list are neither computed nor compiled.
 //
-// A picture's pixels are intensities (power), linear. Without any part, a bin holds the backscattering cross-section of
-// what lies in it: reflectivity x law(sine of grazing) x area, summed over the surfaces, in square metres for one
-// metre of source level. In decibels, with the parts in the order in which sound meets them (R. J. Urick. Principles of
-// Underwater Sound, 3rd edition, 1983):
+// Pixels are linear intensities (power). Without any part, a bin holds the backscattering cross-section of the surfaces
+// in it: reflectivity x law(sine of the grazing angle) x area, summed, in square metres at 1 m for source level 0. In
+// decibels, in the order of propagation (R. J. Urick. Principles of Underwater Sound, 3rd edition, 1983):
 //
 //   RL = source_level + vertical_beam - transmission_loss - absorption + 10 log10(cross-section x footprint / spacing),
-//   then pulse and horizontal_beam blur it, noise_floor adds to it, and time_varied_gain or level_gain amplify it all.
+//   then pulse and horizontal_beam blur it, noise_floor is added, and time_varied_gain or level_gain amplify the sum.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -24092,18 +23995,18 @@ inline double from_decibels(double decibels) {
 
 }  // namespace INSONIFY_FLAGS
 
-/// The level of the source.
+/// The source level.
 struct source_level {
     float decibels = 0;
     INSONIFY_MEMBER double over_range(double) const { return from_decibels(static_cast<double>(decibels)); }
 };
 
-/// Spherical spreading, there and back: 40 log10 R, R in metres.
+/// Two-way spherical spreading: 40 log10 R, R in metres.
 struct transmission_loss {
     INSONIFY_MEMBER double over_range(double range) const { return 1 / (range * range * range * range); }
 };
 
-/// What sea water takes, there and back: 2 alpha R. About 76, 116, 169, 322 dB/km at 300, 450, 600, 900 kHz in salt
+/// Two-way absorption of sea water: 2 alpha R. About 76, 116, 169, 322 dB/km at 300, 450, 600, 900 kHz in salt
 /// water, 30, 68, 122, 274 in fresh (M. A. Ainslie, J. G. McColm. A Simplified Formula for Viscous and Chemical
 /// Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m).
 struct absorption {
@@ -24113,12 +24016,12 @@ struct absorption {
     }
 };
 
-/// The beam in the vertical plane, twice (there and back): Gaussian about an axis that points down from the horizon,
-/// over side lobes that hear everywhere alike. They are what lets the first return be heard from straight below.
+/// The two-way vertical beam pattern: Gaussian about an axis below the horizon, plus omnidirectional side lobes. Side
+/// lobes receive the first return from straight below.
 struct vertical_beam {
     float width = static_cast<float>(numeric::to_radians(50));  ///< between the -3 dB points of one way, radians
     float tilt = static_cast<float>(numeric::to_radians(20));   ///< of the axis below the horizon, radians
-    float side_lobes = 1e-3f;                                   ///< power, both ways, over that on the axis
+    float side_lobes = 1e-3f;                                   ///< two-way power relative to that on the axis
     /// @param across, down  of the unit vector along the ray
     INSONIFY_MEMBER double over_direction(double across, double down) const {
         const double off = (numeric::atan2(down, across) - static_cast<double>(tilt)) / static_cast<double>(width);
@@ -24126,22 +24029,22 @@ struct vertical_beam {
     }
 };
 
-/// The beam along the track, twice: a Gaussian that widens with range. It blurs over the neighbouring pings, and makes
-/// the area that a ping insonifies grow with range.
+/// The two-way horizontal beam pattern: a Gaussian along the track whose width grows with range. It blurs over
+/// neighbouring pings, and the insonified area grows with it.
 struct horizontal_beam {
     float width = static_cast<float>(numeric::to_radians(0.3));  ///< between the -3 dB points of one way, radians
-    /// Metres of track that are heard fully, as it were: the integral of the pattern.
+    /// Equivalent width along the track, metres: the integral of the pattern.
     INSONIFY_MEMBER double footprint(double range) const { return 0.7526967 * range * static_cast<double>(width); }
-    /// Metres to either side beyond which nothing is heard.
+    /// Metres to either side beyond which the pattern counts as 0.
     INSONIFY_MEMBER double reach(double range) const { return range * static_cast<double>(width); }
     INSONIFY_MEMBER double pattern(double along, double range) const {
         const double off = along / (range * static_cast<double>(width));
         return numeric::exp(-5.545177444479562 * off * off);
     }
-    /// Metres of track over which the correlation of speckle falls to 1 / e, intensities': what two pings hear has the
-    /// same phases as long as the sonar moves by less than a part of its array, and is the same bottom as long as it
-    /// moves by less than a part of the footprint. Gaussian patterns make both Gaussian: of 0.6006 range x width, and
-    /// of 0.2650 wavelength / width.
+    /// Correlation length (1 / e) of speckle intensities along the track, metres. Two pings correlate as long as the
+    /// sonar moves by less than a fraction of its array, so that phases stay the same, and of the footprint, so that
+    /// the scatterers do. Gaussian patterns make both correlations Gaussian, with lengths of 0.2650 wavelength / width
+    /// and 0.6006 range x width.
     /// @param wavelength  of the sound, metres: 0.0033 at 450 kHz
     INSONIFY_TAGGED double speckle_length(double range, double wavelength) const {
         const double by_footprint = 0.6005612 * range * static_cast<double>(width);
@@ -24150,27 +24053,27 @@ struct horizontal_beam {
     }
 };
 
-/// The pulse: every echo lasts as long, centred where its range is.
+/// The pulse: a rectangle around the range of every echo.
 struct pulse {
-    float length = 0.03f;  ///< metres of range: half of the speed of sound times the duration, or over twice the band
+    float length = 0.03f;  ///< metres of range: c x duration / 2, or c / (2 x bandwidth)
     INSONIFY_MEMBER double duration() const { return static_cast<double>(length); }
 };
 
-/// What the receiver hears where nothing is: a mean intensity. Under `speckle` it fluctuates as noise does.
+/// The mean intensity of the receiver's noise. Speckle makes it fluctuate.
 struct noise_floor {
     float intensity = 1e-3f;
     INSONIFY_MEMBER double noise() const { return static_cast<double>(intensity); }
 };
 
-/// The flat bottom that a receiver may expect at a range, before its own gain.
+/// The echo of level seabed that gains are computed for.
 struct flat_echo {
     double range, altitude;  ///< metres
     double bin, spacing;     ///< metres
-    bool counts_time;        ///< bins are steps of slant range
+    bool counts_time;        ///< bins count slant range
 };
 
-/// Gain that makes up for spreading and absorption alone. A bottom whose strength doesn't depend on the angle comes out
-/// level, up to 1 / cos(grazing), at 40 dB per decade, or at 30 with a horizontal beam.
+/// Gain that compensates spreading and absorption. Seabed whose strength does not depend on the angle comes out level,
+/// up to 1 / cos(grazing angle), at 40 dB per decade, or at 30 with a horizontal beam.
 struct time_varied_gain {
     float spreading = 40;         ///< decibels per tenfold range
     float absorption_per_km = 0;  ///< decibels, one way, as in `absorption`
@@ -24182,9 +24085,8 @@ struct time_varied_gain {
     }
 };
 
-/// Gain that makes a level bottom of reflectivity one come out as one, whatever the other parts are: beam pattern,
-/// spreading, law and area. At grazing angles above `steepest` it stays what it is there, so that the first return
-/// keeps being bright.
+/// Gain under which level seabed of reflectivity 1 has intensity 1, whatever the other parts are: beam pattern,
+/// spreading, law and area. At grazing angles above `steepest` it is constant, so that the first return stays bright.
 struct level_gain {
     float steepest = static_cast<float>(numeric::pi / 4);  ///< radians, below pi / 2
     template <class LevelAt>
@@ -24198,8 +24100,8 @@ struct level_gain {
 
 inline namespace INSONIFY_FLAGS {
 
-// Before anything is recorded, each part is checked by the `validate` that its type brings along; a user's own too.
-// They throw invalid_input for a value out of its range.
+// Recordings call `validate` for each part whose type has one, also for your own. They throw invalid_input for a value
+// out of range.
 
 inline void validate(const source_level& s) {
     detail::require(s.decibels >= -300 && s.decibels <= 300, "source_level.decibels", s.decibels, "-300 to 300 dB");
@@ -24264,13 +24166,13 @@ concept gain_part = requires(const P& p, const flat_echo& e, double (*level)(dou
 };
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// A part of the sonar equation: one of the above, or a user's own type with one of their functions.
+/// A part of the sonar equation: one of the above, or your own type with one of their functions.
 template <class P>
 concept equation_part = detail::direction_part<P> || detail::range_part<P> || detail::footprint_part<P> ||
     detail::pulse_part<P> || detail::noise_part<P> || detail::gain_part<P>;
 
-/// The parts of a sonar: `sonar_equation{transmission_loss{}, absorption{}, time_varied_gain{}}`. The order doesn't
-/// matter; of horizontal beams and pulses there may be one each.
+/// A list of parts, as in `sonar_equation{transmission_loss{}, absorption{}, time_varied_gain{}}`, in any order; at
+/// most one horizontal beam and one pulse.
 template <equation_part... Parts>
 class sonar_equation {
   public:
@@ -24286,7 +24188,7 @@ class sonar_equation {
     INSONIFY_MEMBER explicit(sizeof...(Parts) == 1) sonar_equation(Parts... parts) requires(sizeof...(Parts) > 0)
         : parts_(parts...) {}
 
-    /// Power along a ray, given by its unit vector.
+    /// Factor on power along a ray, given by its unit vector.
     INSONIFY_TAGGED double over_direction(double across, double down) const {
         return product([&](const auto& p) {
             if constexpr (detail::direction_part<decltype(p)>)
@@ -24295,7 +24197,7 @@ class sonar_equation {
                 return 1.0;
         });
     }
-    /// Power from a range, for a ping that stands for `spacing` metres of track.
+    /// Factor on power from a range, with pings `spacing` metres apart.
     INSONIFY_TAGGED double over_range(double range, double spacing) const {
         return product([&](const auto& p) {
             if constexpr (detail::range_part<decltype(p)>)
@@ -24306,7 +24208,7 @@ class sonar_equation {
                 return 1.0;
         });
     }
-    /// What a receiver multiplies by. `law` is that of the bottom.
+    /// Factor of the receiver's gain. `law` is that of the seabed.
     template <class Law>
     INSONIFY_TAGGED double gain(const flat_echo& e, const Law& law) const {
         const auto level_at = [&](double sine) {
@@ -24322,7 +24224,7 @@ class sonar_equation {
                 return 1.0;
         });
     }
-    /// Mean intensity of what is heard where nothing is.
+    /// Mean intensity of noise.
     INSONIFY_TAGGED double noise() const {
         double sum = 0;
         for_each([&](const auto& p) {
@@ -24350,27 +24252,27 @@ class sonar_equation {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/side_scan/slant_range.hpp --------------------------------------------------
-// Side-scan pictures, pings by ranges: water column, first return, layover and shadows, with labels for every bin. See
-// ping_echo.hpp for the echo of one ping.
+// ------------ insonify/sonar/side_scan/record_options.hpp -----------------------------------------------
+// Options of side-scan pictures.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Options of recordings. What the types leave out is not compiled.
+/// Options of side-scan pictures. The types select what is computed: Labels are `labels` or `no_labels`, Equation lists
+/// the parts of the sonar equation.
 template <class Labels = labels, backscatter_law Law = lambert_backscatter, class Equation = sonar_equation<level_gain>>
 struct record_options {
     Law law{};
     Equation equation{};
-    /// Metres between the vertices at which the seabed is sampled; 0: see default_cell. Of 40 m in 2048 bins from 5 m
-    /// up, against cells of 5 mm: cells of 2, 4 and 8 cm cost 2, 1 and 0.6 times the default's time; the shadow labels
-    /// of 0.9, 1.5 and 3.4 % of the bins differ on ripples, of 3.6, 5.3 and 11 % on rock; and amplitudes by 7, 10 and
-    /// 19 % (rms) on ripples.
+    /// Metres between the vertices at which the seabed is sampled, and an upper bound of the distance between rays on
+    /// level ground; 0: see default_cell. Measured at 5 m altitude with 2048 bins over 40 m, against cells of 5 mm:
+    /// cells of 2, 4 and 8 cm take 2, 1 and 0.6 times the default's time; shadow labels differ in 0.9, 1.5 and 3.4 % of
+    /// the bins on ripples and in 3.6, 5.3 and 11 % on rock, amplitudes by 7, 10 and 19 % (rms) on ripples.
     double cell = 0;
 
-    /// The same options with another sonar equation, another law, or without labels:
+    /// The same options with another sonar equation, another law, or without labels, as in
     /// `record_options<>{}.with(sonar_equation{pulse{}, level_gain{}})`.
     template <class... Parts>
     INSONIFY_MEMBER record_options<Labels, Law, sonar_equation<Parts...>> with(
@@ -24384,10 +24286,23 @@ struct record_options {
     INSONIFY_MEMBER record_options<no_labels, Law, Equation> without_labels() const { return {law, equation, cell}; }
 };
 
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/side_scan/detail/recorder.hpp ----------------------------------------------
+// Records pings one by one: their echoes, the sonar equation's parts over range and along the track, and labels.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
 namespace detail::inline INSONIFY_FLAGS {
 
-/// As fine as the picture: a bin or a ping's spacing, whichever is longer. Where pictures are coarse, a fiftieth of the
-/// altitude, so that relief and targets aren't missed; but never finer than 1/2048 of the range.
+/// The longer of a bin and the ping spacing; in coarse pictures a fiftieth of the altitude, so that relief and targets
+/// are not missed; at least 1/2048 of the range.
 template <across_track Axis>
 double default_cell(const side_scan_rig<Axis>& rig) {
     const double picture = (std::max)(rig.bin(), static_cast<double>(rig.ping_spacing));
@@ -24395,7 +24310,7 @@ double default_cell(const side_scan_rig<Axis>& rig) {
                       (std::min)(picture, static_cast<double>(rig.altitude) / 50));
 }
 
-/// How many pings away the beam reaches at the largest range.
+/// Reach of the horizontal beam at the largest range, in pings.
 template <class Beam, across_track Axis>
 int beam_reach(const Beam& beam, const side_scan_rig<Axis>& rig) {
     validate_if_possible(beam);
@@ -24407,7 +24322,7 @@ int beam_reach(const Beam& beam, const side_scan_rig<Axis>& rig) {
     return static_cast<int>(pings);
 }
 
-/// The recording of a track under construction.
+/// A recording under construction.
 template <class Rig, class Labels, class Law, class Equation>
 class recorder {
   public:
@@ -24430,39 +24345,46 @@ class recorder {
         targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
         out_.image = filled(rig.bins, height, 0.0f, ex);
-        if constexpr (labelled) {
-            out_.labels = labels(rig.bins, height, ex);
-            out_.labels.legend = s.seabed.legend();
-        }
+        if constexpr (labelled) out_.labels = labels(s, rig.bins, height, ex);
     }
 
+    /// @param margin  pings at either end of the track that only the beam needs; the result has no rows for them
     template <executor E>
-    frame<Labels> record(E& ex) {
-        hear(ex);
+    frame<Labels> record(int margin, E& ex) {
+        trace(ex);
         if constexpr (Equation::has_beam)
             options_.equation.for_each([&](const auto& part) {
                 if constexpr (footprint_part<decltype(part)>) blur_along_track(part, ex);
             });
         if constexpr (Equation::has_noise || Equation::has_gain) amplify(ex);
+        const auto cut = [&](auto& picture) {
+            picture = std::remove_reference_t<decltype(picture)>(
+                picture.view().part(0, margin, picture.width(), picture.height() - 2 * margin));
+        };
+        if (margin > 0) cut(out_.image);
+        if constexpr (labelled) {
+            if (margin > 0) cut(out_.labels.instance), cut(out_.labels.shadow), cut(out_.labels.seabed);
+            measure_targets(out_.labels);
+        }
         return std::move(out_);
     }
 
   private:
-    static constexpr std::size_t grain = 8;   // pings that share a fan
-    static constexpr std::size_t leg = 4096;  // pings that share the sampled seabed
+    static constexpr std::size_t grain = 8;   ///< pings that share a tracer and its fan
+    static constexpr std::size_t leg = 4096;  ///< pings that share the sampled seabed
 
     double range_of(std::size_t bin) const {
         return static_cast<double>(rig_.first_range) + (static_cast<double>(bin) + 0.5) * rig_.bin();
     }
-    /// Slant range, for a sonar so high.
+    /// Slant range of a bin from an altitude.
     double slant_of(std::size_t bin, double altitude) const {
         const double r = range_of(bin);
         return Rig::axis == across_track::slant_range ? r : numeric::square_root(r * r + altitude * altitude);
     }
 
     template <executor E>
-    void hear(E& ex) {
-        using listener = ping_listener<Rig, Law, Equation, labelled>;
+    void trace(E& ex) {
+        using tracer = ping_tracer<Rig, Law, Equation, labelled>;
         bottom_tiles bottom(scene_.seabed, out_.stats.cell);
         const seabed::height_range relief = scene_.seabed.prepare().range();
         const double cell = out_.stats.cell;
@@ -24476,21 +24398,21 @@ class recorder {
             std::vector<ping_frame> frames;
             frames.reserve(count);
             for (std::size_t i = 0; i < count; ++i) frames.emplace_back(track_[start + i], rig_.side);
-            double begin = listener::reach(rig_, cell);
+            double begin = tracer::reach(rig_, cell);
             for (const ping_frame& p : frames)
-                begin = (std::min)(begin, listener::start(rig_, cell, relief, p, targets_));
-            bottom.cover(frames, begin, listener::reach(rig_, cell), ex);
+                begin = (std::min)(begin, tracer::start(rig_, cell, relief, p, targets_));
+            bottom.cover(frames, begin, tracer::reach(rig_, cell), ex);
             bulk_ranges(ex, count, grain, [&](std::size_t from, std::size_t to) {
-                listener ears(scene_, materials_, targets_, bottom, rig_, options_.law, options_.equation, cell, relief,
-                              begin);
-                for (std::size_t i = from; i < to; ++i) keep(start + i, ears.hear(frames[i]), over_range);
+                tracer pings(scene_, materials_, targets_, bottom, rig_, options_.law, options_.equation, cell, relief,
+                             begin);
+                for (std::size_t i = from; i < to; ++i) write(start + i, pings.trace(frames[i]), over_range);
             });
         }
         out_.stats.seabed_samples = bottom.sampled();
     }
 
-    /// Writes what one ping heard.
-    void keep(std::size_t number, std::span<const echo_bin> bins, std::span<const float> over_range) {
+    /// Writes the row of one ping.
+    void write(std::size_t number, std::span<const echo_bin> bins, std::span<const float> over_range) {
         const int row = static_cast<int>(number);
         const auto power = out_.image.row(row);
         for (std::size_t b = 0; b < bins.size(); ++b) power[b] = bins[b].bottom + bins[b].target;
@@ -24498,7 +24420,7 @@ class recorder {
             for (std::size_t b = 0; b < bins.size(); ++b) power[b] *= over_range[b];
         if constexpr (Equation::has_pulse)
             options_.equation.for_each([&](const auto& part) {
-                if constexpr (pulse_part<decltype(part)>) stretch(power, part.duration() / rig_.bin());
+                if constexpr (pulse_part<decltype(part)>) convolve_pulse(power, part.duration() / rig_.bin());
             });
         if constexpr (labelled) {
             const auto instance = out_.labels.instance.row(row), shadow = out_.labels.shadow.row(row);
@@ -24516,10 +24438,10 @@ class recorder {
         }
     }
 
-    /// Lets every echo last for `length` bins.
-    static void stretch(std::span<float> row, double length) {
+    /// Convolves a row with a pulse of `length` bins. Values beyond its ends are those at the ends.
+    static void convolve_pulse(std::span<float> row, double length) {
         if (!(length > 1)) return;
-        const std::vector<float> heard(row.begin(), row.end());
+        const std::vector<float> source(row.begin(), row.end());
         const std::int64_t reach = -numeric::floor_to_int(-0.5 * (length - 1)),
                            bins = static_cast<std::int64_t>(row.size());
         std::fill(row.begin(), row.end(), 0.0f);
@@ -24527,20 +24449,20 @@ class recorder {
             const double edge = j < 0 ? 0.5 - static_cast<double>(j) : 0.5 + static_cast<double>(j);
             const double inside = (std::min)(1.0, 0.5 * length - edge + 1) / length;
             const auto weight = static_cast<float>(inside);
-            for (std::int64_t b = 0; b < bins; ++b) {  // the row's ends go on as they are
+            for (std::int64_t b = 0; b < bins; ++b) {
                 const std::int64_t from = (std::min)((std::max)(b - j, std::int64_t{0}), bins - 1);
-                row[static_cast<std::size_t>(b)] += weight * heard[static_cast<std::size_t>(from)];
+                row[static_cast<std::size_t>(b)] += weight * source[static_cast<std::size_t>(from)];
             }
         }
     }
 
-    /// Lets every ping hear its neighbours, as far as the beam reaches at each range.
+    /// Convolves columns with the horizontal beam, whose width grows with range.
     template <class Beam, executor E>
     void blur_along_track(const Beam& beam, E& ex) {
         const int bins = rig_.bins, rows = out_.image.height();
         const int reach = beam_reach(beam, rig_);
         if (reach == 0) return;
-        // By distance in pings and by bin, so that rows are added up as wholes.
+        // By distance in pings and by bin, so that whole rows are added.
         image<float> weights(bins, reach + 1);
         for (int b = 0; b < bins; ++b) {
             const double slant = slant_of(static_cast<std::size_t>(b), static_cast<double>(rig_.altitude));
@@ -24556,7 +24478,7 @@ class recorder {
             const int y = static_cast<int>(row);
             const auto to = blurred.row(y);
             for (int j = -reach; j <= reach; ++j) {
-                const int other = (std::min)((std::max)(y + j, 0), rows - 1);  // the track's too
+                const int other = (std::min)((std::max)(y + j, 0), rows - 1);
                 const float* const weight = weights.row(numeric::magnitude(j)).data();
                 const float* const from = out_.image.row(other).data();
                 for (std::size_t b = 0; b < to.size(); ++b) to[b] += weight[b] * from[b];
@@ -24565,7 +24487,7 @@ class recorder {
         out_.image = std::move(blurred);
     }
 
-    /// The receiver: its noise, then its gain.
+    /// Adds the receiver's noise and applies its gain.
     template <executor E>
     void amplify(E& ex) {
         const auto noise = static_cast<float>(options_.equation.noise());
@@ -24599,45 +24521,42 @@ class recorder {
     frame<Labels> out_;
 };
 
-/// Fills in labels::targets anew, for images that were put together from those of described labels.
-inline void describe_again(labels& l) {
-    std::vector<target> known;
-    for (const target_label& t : l.targets) known.push_back({{}, t.placement, t.class_name});
-    describe_targets(l, known);
-}
-
-/// The rows of an image from `first` on.
-template <class T>
-image<T> rows_of(const image<T>& source, int first, int count) {
-    if (first == 0 && count == source.height()) return source;
-    return image<T>(source.view().part(0, first, source.width(), count));
-}
-
 }  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/side_scan/record.hpp -------------------------------------------------------
+// Side-scan pictures: pings by ranges, with the water column, the first return, layover and shadows, and labels for
+// every bin.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Records a track of any shape: pings may turn, rise and sink.
+/// Records a track of any shape, with yaw, pitch, roll and heave of every ping.
 ///
 /// @param s        the seabed and its targets
-/// @param track    pings in order; row i of the recording is ping i
-/// @param rig      ranges, side and ping spacing; its own track isn't used
-/// @param options  types of labels, law and sonar equation, and how finely the seabed is sampled
+/// @param track    pings in order; row i of the result is ping i
+/// @param rig      ranges, side and ping spacing; its own track is ignored
+/// @param options  labels, backscatter law and sonar equation by type; sampling of the seabed
 /// @param ex       runs it; the result is the same bytes for any executor
-/// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option that can't be right
+/// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option out of range
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 frame<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
                      const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
-    auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
-    if constexpr (std::is_same_v<Labels, labels>) describe_targets(out.labels, s.targets);
-    return out;
+    return detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(0, ex);
 }
 
-/// Records a few pings into memory of the caller's: row i of `into` becomes ping i.
-/// @param into     rig.bins columns, a row per ping; it may be a part of a larger image
-/// The other parameters and errors are those of `record`; it also throws invalid_input for a view of another size,
-/// which is then untouched.
+/// Records pings into the caller's memory, without labels: row i of `into` becomes ping i.
+/// @param into  rig.bins columns, a row per ping; may be a part of a larger image
+/// The other parameters and errors are those of `record`; also throws invalid_input for a view of another size, which
+/// is then untouched.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 render_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
@@ -24652,14 +24571,14 @@ render_stats record_into(image_view<float> into, const scene& s, std::span<const
     return heard.stats;
 }
 
-/// Draws a scene as a side-scan sonar on a straight track hears it, or as a map of what it hears: see side_scan_rig.
-/// Row i is ping i. The other parameters are those of `record`.
+/// Records the straight track of a rig, in slant or ground range. Row i is ping i. The other parameters are those of
+/// `record`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
                      const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
     validate(rig);
-    // The beam hears beyond the ends of the track.
+    // The beam reaches beyond the ends of the track.
     int more = 0;
     if constexpr (Equation::has_beam)
         options.equation.for_each([&](const auto& part) {
@@ -24667,17 +24586,7 @@ frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
         });
     std::vector<ping> track;
     for (int i = -more; i < rig.pings + more; ++i) track.push_back(ping_of(rig, i));
-    auto out = detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(ex);
-    if (more > 0) out.image = detail::rows_of(out.image, more, rig.pings);
-    if constexpr (std::is_same_v<Labels, labels>) {
-        if (more > 0) {
-            out.labels.instance = detail::rows_of(out.labels.instance, more, rig.pings);
-            out.labels.shadow = detail::rows_of(out.labels.shadow, more, rig.pings);
-            out.labels.seabed = detail::rows_of(out.labels.seabed, more, rig.pings);
-        }
-        describe_targets(out.labels, s.targets);
-    }
-    return out;
+    return detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(more, ex);
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -24688,7 +24597,7 @@ frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/swath.hpp --------------------------------------------------------
-// Both sides of the track in one picture.
+// Mirrors, flips and joins pictures: both sides of a track in one.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -24697,7 +24606,7 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The picture with left and right exchanged: what grew to the right grows to the left.
+/// The picture with left and right exchanged.
 template <class T>
 image<T> mirrored(const image<T>& source) {
     image<T> out(source.width(), source.height());
@@ -24706,7 +24615,7 @@ image<T> mirrored(const image<T>& source) {
     return out;
 }
 
-/// The picture turned by half a turn: that of a rig which looks the other way, with forward up again.
+/// The picture rotated by 180 degrees: of a rig that faces backwards, with forward up again.
 template <class T>
 image<T> turned(const image<T>& source) {
     image<T> out(source.width(), source.height());
@@ -24714,18 +24623,18 @@ image<T> turned(const image<T>& source) {
     return out;
 }
 
-/// The recording with its last ping on top, so that up is forward, as in overhead pictures.
+/// The recording with its last ping on top: up is forward, as in overhead pictures.
 template <class Labels>
 frame<Labels> upside_down(frame<Labels> r) {
-    const auto turn = [](auto& picture) {
+    const auto flip = [](auto& picture) {
         for (int y = 0; 2 * y < picture.height() - 1; ++y)
             std::swap_ranges(picture.row(y).begin(), picture.row(y).end(),
                              picture.row(picture.height() - 1 - y).begin());
     };
-    turn(r.image);
+    flip(r.image);
     if constexpr (std::is_same_v<Labels, labels>) {
-        turn(r.labels.instance), turn(r.labels.shadow), turn(r.labels.seabed);
-        detail::describe_again(r.labels);
+        flip(r.labels.instance), flip(r.labels.shadow), flip(r.labels.seabed);
+        measure_targets(r.labels);
     }
     r.rows.first += static_cast<std::int64_t>(r.image.height() - 1) * r.rows.step;
     r.rows.step = -r.rows.step;
@@ -24734,7 +24643,7 @@ frame<Labels> upside_down(frame<Labels> r) {
 
 /// Two pictures side by side, `gap` columns of `fill` between them.
 ///
-/// `beside(turned(port.image), starboard.image, gap)` of two frames of `overhead`, the one with its yaw half a turn
+/// `beside(turned(port.image), starboard.image, gap)` of two overhead frames, the first with its yaw half a turn
 /// further, is the paper's stitched picture; its dead zone is the gap.
 /// @throws invalid_input for pictures of different heights, or a negative gap
 template <class T>
@@ -24749,8 +24658,8 @@ image<T> beside(const image<T>& left, const image<T>& right, int gap = 0, T fill
     return out;
 }
 
-/// A port and a starboard recording of one track as one, port to the left: range grows from the middle outwards, and
-/// the water column, as wide as the sonar is high, lies between. `targets` of the labels describes both sides.
+/// Joins a port and a starboard recording of one track, port to the left: range grows outwards from the middle, where
+/// the water column lies. The labels' bounding boxes and areas are those of both sides together.
 template <class Labels>
 frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboard) {
     frame<Labels> out;
@@ -24765,12 +24674,12 @@ frame<Labels> both_sides(const frame<Labels>& port, const frame<Labels>& starboa
         out.labels.seabed = beside(mirrored(port.labels.seabed), starboard.labels.seabed);
         out.labels.targets = starboard.labels.targets;
         out.labels.legend = starboard.labels.legend;
-        detail::describe_again(out.labels);
+        measure_targets(out.labels);
     }
     return out;
 }
 
-/// Draws both sides of a straight track; the rig's own side doesn't matter. See `render`.
+/// Records both sides of a straight track; the rig's own side is ignored. See `render`.
 template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
           class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
 frame<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
@@ -24789,10 +24698,10 @@ frame<Labels> render_swath(const scene& s, side_scan_rig<Axis> rig,
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/speckle.hpp ----------------------------------------------------------------
-// Speckle by seabed label, keyed by ping and bin: recordings made in pieces have the same speckle.
+// Speckle by seabed label.
 //
-// The fluctuation of a bin is a function of (seed, side, ping number, bin) and nothing else: recordings made in pieces
-// fit together, and the two sides are independent.
+// The fluctuation of a bin is a function of (seed, side, ping number, bin) alone: recordings made in pieces fit
+// together, and the two sides are independent.
 //
 // Based on: E. Jakeman, P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation
 // 24, 1976 (the K-distribution). George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM
@@ -24805,18 +24714,18 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The fluctuation of a sediment, as the table has it.
+/// The speckle law of a sediment, from the registry.
 constexpr speckle_law speckle_of(seabed::sediment s) {
     return seabed::properties_of(seabed::type_of(s)).speckle;
 }
 
-/// A law per label.
+/// Laws by label.
 using speckle_laws = std::array<speckle_law, seabed::label_count>;
 
-/// Looks of labels for which the seabed's own properties count.
+/// Marks labels that take the law of the seabed's model.
 inline constexpr int looks_by_seabed_model = -1;
 
-/// The registry's laws; users' own labels fluctuate as their seabed says.
+/// The registry's laws; labels outside of the registry take those of the seabed's model.
 constexpr speckle_laws default_speckle() {
     speckle_laws laws{};
     laws.fill({looks_by_seabed_model});
@@ -24826,15 +24735,16 @@ constexpr speckle_laws default_speckle() {
 
 }  // namespace INSONIFY_FLAGS
 
-/// Speckle by type of seabed. The defaults are illustrative: relief that is drawn makes its own fluctuations, so
-/// ripples take plain Rayleigh, and a texture stands for structure finer than the seabed is sampled.
+/// Speckle by type of seabed. The defaults are illustrative: sampled relief makes fluctuations of its own, so ripples
+/// have plain Rayleigh speckle; a texture models structure finer than the sampling.
 struct seabed_speckle {
-    /// By label, seabed::index_of(type). Users' own labels have the law that their seabed states, unless one is set.
+    /// By label, seabed::index_of(type). Labels of your own have the law that your seabed states, unless it is set
+    /// here.
     speckle_laws bottom = default_speckle();
-    speckle_law elsewhere{};   ///< where the labels name no seabed: targets, and noise in the water column
-    float along_track = 1;     ///< pings at which the correlation of intensities has fallen to 1 / e, 0 to 16
+    speckle_law elsewhere{};   ///< of pixels without a seabed label: targets, and noise in the water column
+    float along_track = 1;     ///< correlation length (1 / e) of intensities in pings, 0 to 16
     float across_track = 1;    ///< the same in bins
-    float texture_length = 3;  ///< pings and bins over which a texture stays the same, 1 to 1024
+    float texture_length = 3;  ///< correlation length of textures in pings and bins, 1 to 1024
     std::uint64_t seed = 1;
 };
 
@@ -24863,7 +24773,7 @@ class ping_noise {
     philox_key key_;
 };
 
-/// A complex Gaussian field of unit power, by rows; real and imaginary parts take turns.
+/// A correlated complex Gaussian field of unit power, by rows, with real and imaginary parts interleaved.
 class speckle_field {
   public:
     speckle_field(const ping_noise& noise, const seabed_speckle& s, int bins)
@@ -24872,7 +24782,7 @@ class speckle_field {
           across_(intensity_taps(static_cast<double>(s.across_track))),
           along_(intensity_taps(static_cast<double>(s.along_track))) {}
 
-    /// The field of one look at so many pings in a row, the lowest number first.
+    /// The field of one look for consecutive pings, from number `first` on.
     image<float> pings(std::int64_t first, int count, std::uint32_t look) const {
         const int reach = static_cast<int>(along_.size()) - 1;
         image<float> blurred(static_cast<int>(2 * bins_), count + 2 * reach);
@@ -24912,8 +24822,9 @@ class speckle_field {
     std::vector<float> across_, along_;
 };
 
-/// The K-distribution's mean: gamma-distributed at the nodes of a lattice. A bin takes that of one of the four nodes
-/// around it, chosen at random with the bilinear weights, so that textures are correlated and keep their distribution.
+/// The texture of the K-distribution: gamma-distributed at the nodes of a lattice. A bin takes the value of one of the
+/// four nodes around it, chosen at random with bilinear weights, so that textures are correlated and keep their
+/// distribution.
 class speckle_texture {
   public:
     speckle_texture(const seabed_speckle& s, side looks)
@@ -24923,7 +24834,7 @@ class speckle_texture {
 
     float operator()(std::int64_t ping, std::uint32_t bin, float shape) const {
         const philox_counter lot = lots_(ping, bin, 0);
-        // Rounding a coordinate plus a uniform number goes to either neighbour as often as it is near.
+        // Rounding a coordinate plus a uniform number chooses either neighbour with its linear weight.
         const std::int64_t row = numeric::floor_to_int(static_cast<double>(ping) * frequency_ + uniform_open(lot[0]));
         const auto column = static_cast<std::uint32_t>(numeric::floor_to_int(bin * frequency_ + uniform_open(lot[1])));
         return static_cast<float>(gamma_of_mean_one(static_cast<double>(shape),
@@ -24946,11 +24857,11 @@ inline void validate(const speckle_law& law) {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Makes an image of intensities fluctuate.
+/// Applies speckle to an image of mean intensities.
 ///
 /// @param mean     intensities; 0 stays 0
-/// @param types    a seabed::type for each pixel, as labels have it; anything else is `elsewhere`
-/// @param numbers  which pings the rows are
+/// @param types    a seabed::type for each pixel, as in labels::seabed; others are `elsewhere`
+/// @param numbers  ping numbers of the rows
 /// @throws invalid_input for images of different sizes or a parameter out of its range
 template <executor_argument E = serial_executor>
 image<float> with_speckle(image_view<const float> mean, image_view<const std::uint8_t> types, const seabed_speckle& s,
@@ -24970,7 +24881,7 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     laws[labels::no_seabed] = s.elsewhere;
     for (const speckle_law& law : laws) detail::validate(law);
 
-    // Looks that only some types have are drawn for all, and used by those.
+    // All looks are computed for all bins; types use as many as they have.
     int looks = 1;
     for (const speckle_law& law : laws) looks = (std::max)(looks, law.looks);
 
@@ -25008,7 +24919,7 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     return out;
 }
 
-/// Speckle with the laws that a seabed states for its own labels.
+/// Speckle with the laws of the seabed's model for labels that have none.
 /// @param legend  as labels::legend
 inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type_properties> legend) {
     for (const seabed::type_properties& t : legend) {
@@ -25018,7 +24929,7 @@ inline seabed_speckle with_legend(seabed_speckle s, std::span<const seabed::type
     return s;
 }
 
-/// The same recording with speckle; its rows say which pings they are, and its legend which laws own labels have.
+/// The recording with speckle, by its own ping numbers and legend.
 template <executor_argument E = serial_executor>
 frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex = {}) {
     const seabed_speckle laws = with_legend(s, r.labels.legend);
@@ -25299,7 +25210,7 @@ inline const instrument& instrument_named(std::string_view name) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/occlusion.hpp --------------------------------------------------------------
-// Which points of a scene a light reaches: built once for a light, tested for many points, without a picture.
+// Shadow tests of points in a scene, without a picture: built once per light, then tested for any number of points.
 //
 // The casters are those of `render`: the targets, and the seabed sampled around the points and towards the light.
 
@@ -25308,11 +25219,11 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Where points will be tested, and how finely the seabed is sampled there.
+/// The region of the points that will be tested, and the sampling of the seabed there.
 struct occlusion_bounds {
-    bounding_box box;  ///< around all of the points, in the world; not empty
-    double cell = 0;   ///< metres from one vertex of the seabed to the next; 0: a 512th of the box's longer side
-    double reach = 8;  ///< how far towards the light the seabed is sampled, at most, in lengths of the longer side
+    bounding_box box;  ///< contains all points, in the world; not empty
+    double cell = 0;   ///< metres between vertices of the seabed; 0: a 512th of the box's longer side
+    double reach = 8;  ///< how far towards the light the seabed is sampled at most, in lengths of the longer side
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -25329,7 +25240,7 @@ inline shadow::any_light light_of(const overhead& rig) {
 
 }  // namespace INSONIFY_FLAGS
 
-/// How much light points get, and from what they are shaded.
+/// Light on points, and the casters of their shadows.
 struct point_light_shares {
     std::vector<float> lit;             ///< 0 to 1
     std::vector<std::uint16_t> shadow;  ///< as in labels::shadow: 0, an instance, or labels::by_seabed
@@ -25337,8 +25248,8 @@ struct point_light_shares {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The casters of a scene under one light. It holds the targets' meshes; the scene may go.
-/// @param Occlusion  what a shadow policy builds
+/// The casters of a scene under one light. Shares the targets' meshes; the scene need not outlive it.
+/// @param Occlusion  built by a shadow policy
 template <class Occlusion>
 class scene_occlusion {
   public:
@@ -25442,7 +25353,7 @@ class scene_occlusion {
         return all;
     }
 
-    /// The ground below the box, and towards the light as far as the bottom may rise into a ray.
+    /// The ground below the box, and towards the light as far as the seabed may reach into a ray.
     static std::pair<glm::dvec2, glm::dvec2> casting_part(const scene& s, const shadow::any_light& light,
                                                           const occlusion_bounds& within, double radius) {
         const glm::dvec2 lower(within.box.lower), upper(within.box.upper);
@@ -25460,7 +25371,7 @@ class scene_occlusion {
                 const shadow::light_frame frame(std::get<shadow::directional_light>(light));
                 way = -rise * frame.cot_elevation() * frame.travel();
             }
-            // Light that is no point comes from a little farther and from beside.
+            // Rays from the rim of an extended light start farther away and to the side.
             const double length = numeric::square_root(way.x * way.x + way.y * way.y);
             const double wider = length + radius * (length * length / rise + rise);
             const double aside = (std::min)(longest, wider) - (std::min)(longest, length);
@@ -25479,15 +25390,15 @@ class scene_occlusion {
     Occlusion built_;
 };
 
-/// Prepares to test which points of a scene a light reaches.
+/// Builds the shadow test of a scene for one light.
 ///
-/// A point on a surface is not shaded by the triangle that it lies on, up to rounding: compute it in doubles, from that
-/// triangle's vertices. The seabed's mesh lies beside its analytic heights by what sampling leaves out.
+/// A point on a surface is not in the shadow of the triangle that it lies on, up to rounding: compute it in doubles
+/// from that triangle's vertices. The seabed's mesh differs from its analytic heights by the error of sampling.
 /// @param light   in the world; `light_of(rig)` is that of a rig
-/// @param within  where the points are, and how finely the seabed is sampled
+/// @param within  region of the points, and sampling of the seabed
 /// @param policy  any shadow policy
-/// @param ex      who runs it; the result is the same for any executor
-/// @throws invalid_input for bounds that are empty or not finite, a light or a policy that cannot be
+/// @param ex      runs it; the result is the same for any executor
+/// @throws invalid_input for bounds that are empty or not finite, or a light or a policy out of range
 template <shadow::casting_policy Shadow = shadow::exact, executor_argument E = serial_executor>
 auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusion_bounds& within,
                   const Shadow& policy = {}, E&& ex = {}) {
@@ -25623,11 +25534,11 @@ struct ping_banding {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/range_geometry.hpp -----------------------------------------------
-// The closed forms of side-scan geometry over a level bottom: ranges, shadows, layover and what is measured from them.
+// Closed forms of side-scan geometry over level seabed: ranges, shadows, layover, and heights measured from them.
 //
-// Lengths are metres. `altitude` is the sonar's above the bottom, `ground` a distance across the track on the bottom,
-// `height` that of a point above the bottom. Results that don't exist are 0 (a distance inside the water column) or
-// infinity (the shadow of what reaches the sonar's height), never NaN for finite arguments.
+// Lengths are metres. `altitude` is the sonar's above the seabed, `ground` a distance across the track on the seabed,
+// `height` that of a point above the seabed. Results that do not exist are 0 (a distance inside the water column) or
+// infinity (the shadow of an object as high as the sonar), never NaN for finite arguments.
 //
 // Based on: P. Blondel. The Handbook of Sidescan Sonar. 2009.
 
@@ -25645,22 +25556,22 @@ inline double slant_range(double ground, double altitude, double height = 0) {
     return numeric::square_root(ground * ground + down * down);
 }
 
-/// Where the bottom is at a slant range; 0 in the water column.
+/// Distance across the track of the seabed at a slant range; 0 in the water column.
 inline double ground_range(double slant, double altitude) {
     return slant > altitude ? numeric::square_root(slant * slant - altitude * altitude) : 0;
 }
 
-/// Angle of the sound with the bottom, radians: pi / 2 below the sonar.
+/// Angle of the ray with the seabed, radians: pi / 2 below the sonar.
 inline double grazing_angle(double ground, double altitude) {
     return numeric::atan2(altitude, ground);
 }
 
-/// Where the shadow of a point ends on the bottom.
+/// Distance across the track of the shadow of a point.
 inline double shadow_tip(double ground, double altitude, double height) {
     return height < altitude ? ground * altitude / (altitude - height) : std::numeric_limits<double>::infinity();
 }
 
-/// Length of a shadow on the bottom, from below the point that casts it.
+/// Length of a shadow on the seabed, from below the point that casts it.
 inline double shadow_length(double ground, double altitude, double height) {
     return height < altitude ? height * ground / (altitude - height) : std::numeric_limits<double>::infinity();
 }
@@ -25671,28 +25582,28 @@ inline double slant_shadow_length(double ground, double altitude, double height)
     return slant_range(shadow_tip(ground, altitude, height), altitude) - slant_range(ground, altitude, height);
 }
 
-/// Where a raised point appears after `ground_range`: layover moves it towards the sonar, to 0 at most.
+/// Apparent position of a raised point after slant-range correction: layover moves it towards the sonar, at most to 0.
 inline double apparent_ground(double ground, double altitude, double height) {
     return ground_range(slant_range(ground, altitude, height), altitude);
 }
 
-/// Height of what casts a shadow, from the slant ranges of its top and of the shadow's tip.
+/// Height of an object, from the slant ranges of its top and of its shadow's tip.
 inline double height_from_slant(double top, double tip, double altitude) {
     return tip > 0 ? altitude * (tip - top) / tip : 0;
 }
 
-/// The same from distances on the bottom.
+/// The same from distances across the track, of its foot and of its shadow's tip.
 inline double height_from_ground(double foot, double tip, double altitude) {
     return tip > 0 ? altitude * (tip - foot) / tip : 0;
 }
 
-/// Metres of bottom in a bin of slant range; infinite straight below the sonar.
+/// Metres of seabed in a bin of slant range; infinite straight below the sonar.
 inline double ground_resolution(double bin, double grazing) {
     const double cosine = numeric::sin_cos(grazing).cosine;
     return cosine > 0 ? bin / cosine : std::numeric_limits<double>::infinity();
 }
 
-/// Metres of track between the half-power points of a beam of so many radians, one way.
+/// Metres along the track between the one-way -3 dB points of a beam, given in radians.
 inline double along_track_footprint(double slant, double beam_width) {
     return slant * beam_width;
 }
@@ -25706,7 +25617,7 @@ inline double along_track_footprint(double slant, double beam_width) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/slant_to_ground.hpp ----------------------------------------------
-// Slant-range correction: a recording laid out on the bottom, as if that were level.
+// Slant-range correction: resamples a recording to ground range, assuming a level seabed.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -25715,16 +25626,16 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Lays a recording out on a level bottom at the datum: the water column goes, what is raised stays shifted towards the
-/// sonar by its layover. Intensities are interpolated linearly between the centres of bins and labels are those of the
-/// nearest bin; what the recording doesn't reach is 0, without labels.
+/// Resamples a recording to ground range on a level seabed at the datum. The water column disappears; raised objects
+/// stay displaced towards the sonar by their layover. Intensities are interpolated linearly between the centres of
+/// bins, labels taken from the nearest bin; ranges that the recording does not contain are 0 and unlabelled.
 ///
-/// @param slant      as `render` or `record` made it
+/// @param slant      a result of `render` or `record`
 /// @param from       its rig
-/// @param to         which ground ranges the result's columns are: first_range, range and bins count
-/// @param altitudes  of the sonar above the bottom, one per row from the top, or none: then all are the rig's
-/// @throws invalid_input for a rig that can't be right, or a number of altitudes that is neither 0 nor that of rows, or
-/// one
+/// @param to         first_range, range and bins are the columns of the result
+/// @param altitudes  of the sonar above the seabed, one per row from the top; empty for the rig's altitude
+/// @throws invalid_input for a rig out of range, a number of altitudes that is neither 0 nor that of rows, or an
+/// altitude
 ///         that is not finite
 template <class Labels>
 frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from, const ground_range& to,
@@ -25754,10 +25665,10 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
             if (!(column >= 0 && column < bins)) continue;
             const int nearest = static_cast<int>(column);
             const int left = column - nearest < 0.5 ? nearest - 1 : nearest;
-            const auto share = static_cast<float>(column - 0.5 - left);
+            const auto weight = static_cast<float>(column - 0.5 - left);
             const float before = slant.image((std::max)(left, 0), y);
             const float after = slant.image((std::min)(left + 1, bins - 1), y);
-            out.image(x, y) = before + share * (after - before);
+            out.image(x, y) = before + weight * (after - before);
             if constexpr (std::is_same_v<Labels, labels>) {
                 out.labels.instance(x, y) = slant.labels.instance(nearest, y);
                 out.labels.shadow(x, y) = slant.labels.shadow(nearest, y);
@@ -25765,7 +25676,7 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
             }
         }
     }
-    if constexpr (std::is_same_v<Labels, labels>) detail::describe_again(out.labels);
+    if constexpr (std::is_same_v<Labels, labels>) measure_targets(out.labels);
     return out;
 }
 
