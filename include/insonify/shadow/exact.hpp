@@ -10,7 +10,7 @@
 #pragma once
 
 #include <insonify/shadow/detail/blocking.hpp>
-#include <insonify/shadow/detail/horizon_triangles.hpp>
+#include <insonify/shadow/detail/grid_caster.hpp>
 #include <insonify/shadow/detail/occlusion_kernel.hpp>
 
 #include <array>
@@ -30,20 +30,23 @@ class exact_occlusion {
     /// See casting_policy.
     /// @throws invalid_input for an index without a position, or a light as light_frame refuses it
     template <executor E>
-    exact_occlusion(std::span<const caster> casters, const any_light& light, const bounding_box& bounds, E& ex)
-        : casters_(casters.begin(), casters.end()), rays_(light, reach_of(bounds)) {
+    exact_occlusion(std::span<const caster> casters, const any_light& light, const point_bounds& where, E& ex)
+        : casters_(casters.begin(), casters.end()),
+          level_(where.level),
+          rays_(light, reach_of(where.box)),
+          grids_(casters.size()) {
+        const bounding_box& bounds = where.box;
         if (const auto* point = std::get_if<point_light>(&light)) near_light_ = *point;
         std::size_t triangles = 0;
-        for (const caster& c : casters_) {
-            insonify::detail::require_indices(c.mesh, ex);
-            triangles += c.mesh.triangles.size();
-        }
+        for (const caster& c : casters_) triangles += c.mesh.triangles.size();
         if (triangles == 0 || bounds.empty()) return;
         int side = 4;
         while (side < 64 && static_cast<std::size_t>(side * side) * 1024 < triangles) side *= 2;
         const double reach = reach_of(bounds);
         if (const auto* parallel = std::get_if<directional_light>(&light)) {
             const light_frame frame(*parallel);
+            for (std::size_t i = 0; i < casters_.size(); ++i)
+                if (is_swept(casters_[i])) grids_[i].emplace(casters_[i], frame, shared_mesh_grid_error, level_, ex);
             const detail::light_plane plane(frame);
             glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
             for (int i = 0; i < 8; ++i) {
@@ -52,16 +55,15 @@ class exact_occlusion {
                 upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
             }
             add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach * (1 + frame.cot_elevation()), 0, ex);
-            for (const caster& c : casters_) add_horizon(c, frame, ex);
         } else {
             const auto& point = std::get<point_light>(light);
             for (int i = 0; i < 6; ++i) {
                 const detail::light_plane plane(point, i);
-                if (!is_seen(plane, bounds)) {
+                if (!detail::is_seen(plane, bounds)) {
                     planes_.emplace_back();
                     continue;
                 }
-                const auto [lower, upper] = seen_part(plane, bounds);
+                const auto [lower, upper] = detail::seen_part(plane, bounds);
                 add_plane(plane, {lower, upper - lower, side, side}, 0x1p-40, 0x1p-20 * reach, ex);
             }
         }
@@ -71,26 +73,17 @@ class exact_occlusion {
     void screen(const points& at, const shares& into) const {
         std::fill(into.caster.begin(), into.caster.end(), invalid_id);
         if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
-        const horizon_state* own = nullptr;
-        std::uint32_t mesh = invalid_id;
+        if (near_light_) return std::fill(into.lit.begin(), into.lit.end(), unknown);
+        const plane_state& state = planes_.front();
         for (std::size_t i = 0; i < at.size(); ++i) {
+            const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(at[i]))];
             into.lit[i] = unknown;
-            if (at.mesh[i] != mesh) {
-                mesh = at.mesh[i];
-                own = at.face_light && mesh < horizons_.size() && horizons_[mesh].bounds ? &horizons_[mesh] : nullptr;
-            }
-            const glm::dvec3 p = at[i];
-            auto answer = known::nothing;
-            if (own != nullptr) answer = own->bounds->at(transform_point(own->to_mesh, p));
-            if (near_light_) continue;
-            const plane_state& state = planes_.front();
-            const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(p))];
             if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
                 into.lit[i] = 1;
-            } else if (occupant == mesh && answer != known::nothing) {
-                const bool is_dark = answer == known::dark;
+            } else if (occupant == at.mesh[i] && grids_[occupant]) {
+                const bool is_dark = is_blocked_by_grid(occupant, at, i);
                 into.lit[i] = is_dark ? 0.0f : 1.0f;
-                if (is_dark) into.caster[i] = mesh;
+                if (is_dark) into.caster[i] = occupant;
             }
         }
     }
@@ -100,21 +93,17 @@ class exact_occlusion {
     template <executor E>
     insonify::detail::uninitialized_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye,
                                                                   E& ex) const {
-        insonify::detail::uninitialized_vector<known> answers;
-        if (caster >= horizons_.size() || !horizons_[caster].bounds) return answers;
+        if (caster >= grids_.size() || !grids_[caster]) return {};
         const shadow::caster& c = casters_[caster];
-        const horizon_state& state = horizons_[caster];
-        const detail::horizon_triangles triangles(c.mesh, *c.grid, *state.bounds, state.travel,
-                                                  transform_point(state.to_mesh, eye));
-        answers =
-            insonify::detail::uninitialized_vector<known>(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
-        bulk_ranges(ex, static_cast<std::size_t>(state.bounds->grid().columns - 1), 32,
-                    [&](std::size_t first, std::size_t last) {
-                        triangles.find(static_cast<int>(first), static_cast<int>(last), answers.data());
-                    });
+        const detail::lit_grid& grid = grids_[caster]->grid();
+        const detail::horizon_triangles triangles = grids_[caster]->triangles(eye);
+        insonify::detail::uninitialized_vector<known> answers(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
+        bulk_ranges(ex, static_cast<std::size_t>(grid.columns - 1), 32, [&](std::size_t first, std::size_t last) {
+            triangles.find(static_cast<int>(first), static_cast<int>(last), answers.data(), level_);
+        });
         // Where others may cast, too, points decide.
         const plane_state& plane = planes_.front();
-        const detail::ray_feet feet(plane.plane, c.placement, state.bounds->grid());
+        const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
             if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
             const glm::dvec2 size = plane.tiles.tile();
@@ -134,7 +123,8 @@ class exact_occlusion {
         for (std::size_t first = 0; first < at.size(); first += most_points) {
             const std::size_t count = (std::min)(most_points, at.size() - first);
             parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
-                             at.mesh.subspan(first, count), at.triangle.subspan(first, count), at.casters});
+                             at.mesh.subspan(first, count), at.triangle.subspan(first, count), at.casters,
+                             at.face_light});
             results.push_back({into.lit.subspan(first, count), into.caster.subspan(first, count)});
         }
         test(std::span<const points>(parts), std::span<const shares>(results), serial);
@@ -187,11 +177,6 @@ class exact_occlusion {
         std::vector<std::uint32_t> occupant{};  ///< of each tile: the caster whose triangles alone touch it,
                                                 ///< or one of the following
     };
-    struct horizon_state {
-        affine to_mesh;
-        glm::dvec3 travel{0};  ///< of the light, in the mesh's frame
-        std::optional<detail::horizon_bounds> bounds;
-    };
     using receivers_of = insonify::detail::uninitialized_vector<detail::receiver>;
     /// Points of a run of batches by tile.
     struct sorted_points {
@@ -210,40 +195,23 @@ class exact_occlusion {
         for (int i = 0; i < 3 && !bounds.empty(); ++i) reach = (std::max)({reach, -bounds.lower[i], bounds.upper[i]});
         return reach;
     }
-    /// Whether anything within a box may lie over a plane of a near light.
-    static bool is_seen(const detail::light_plane& plane, const bounding_box& box) {
-        bool outside[4] = {true, true, true, true};
-        for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 p = plane(box.corner(i));
-            for (int k = 0; k < 4; ++k)
-                outside[k] = outside[k] && (k % 2 == 0 ? 1 : -1) * p[k / 2] > p.z * (1 + 0x1p-30);
-        }
-        return !(outside[0] || outside[1] || outside[2] || outside[3]);
+    /// Whether a caster needs no list of its triangles under parallel light.
+    static bool is_swept(const caster& c) { return c.grid != nullptr && c.may_skip == skip::facing_its_own; }
+    /// Whether caster `number` blocks the light of a point.
+    bool is_blocked_by_grid(std::uint32_t number, const points& at, std::size_t i) const {
+        const bool is_own = at.mesh[i] == number;
+        const auto decide = [&](std::uint32_t triangle) {
+            return !(is_own && at.triangle[i] == triangle) && is_blocked_by(number, triangle, at[i]);
+        };
+        return is_own && at.face_light ? grids_[number]->blocks_own(at[i], decide)
+                                       : grids_[number]->blocks(at[i], decide);
     }
-
-    /// What is known beforehand of most points of a heightfield on a grid.
-    template <executor E>
-    void add_horizon(const caster& c, const light_frame& frame, E& ex) {
-        horizon_state& state = horizons_.emplace_back();
-        if (c.grid == nullptr || c.may_skip != skip::facing_its_own) return;
-        state.to_mesh = inverse(c.placement);
-        state.travel = transform_direction(state.to_mesh, -frame.to_light());
-        state.bounds.emplace(c.mesh, *c.grid, state.travel, shared_mesh_grid_error, ex);
+    bool is_blocked_by(std::uint32_t number, std::uint32_t triangle, const glm::dvec3& p) const {
+        const caster& c = casters_[number];
+        const glm::uvec3& t = c.mesh.triangles[triangle];
+        const auto corner = [&](int j) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]])); };
+        return rays_.are_blocked(corner(0), corner(1), corner(2), p);
     }
-    /// The part of a near light's plane that a box is over.
-    static std::pair<glm::dvec2, glm::dvec2> seen_part(const detail::light_plane& plane, const bounding_box& box) {
-        glm::dvec2 lower(1), upper(-1);
-        for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 p = plane(box.corner(i));
-            if (!(p.z > 0)) return {glm::dvec2(-1), glm::dvec2(1)};
-            for (int axis = 0; axis < 2; ++axis) {
-                lower[axis] = (std::max)(-1.0, (std::min)(lower[axis], p[axis] / p.z));
-                upper[axis] = (std::min)(1.0, (std::max)(upper[axis], p[axis] / p.z));
-            }
-        }
-        return {lower, upper};
-    }
-
     template <executor E>
     void add_plane(const detail::light_plane& plane, detail::plane_tiles tiles, double error, double least_depth,
                    E& ex) {
@@ -251,13 +219,26 @@ class exact_occlusion {
         tiles.lower -= margin;
         tiles.size += 2 * margin;
         plane_state state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
-        for (const caster& c : casters_) state.casters.emplace_back(c, plane, tiles, least_depth, ex);
         state.occupant.assign(tiles.count(), no_caster);
-        for (std::size_t tile = 0; tile < tiles.count(); ++tile)
-            for (std::size_t i = 0; i < state.casters.size(); ++i)
-                if (!state.casters[i].bin(tile).empty())
-                    state.occupant[tile] =
-                        state.occupant[tile] == no_caster ? static_cast<std::uint32_t>(i) : several_casters;
+        const auto occupy = [&](std::size_t tile, std::size_t i) {
+            std::uint32_t& occupant = state.occupant[tile];
+            occupant = occupant == no_caster ? static_cast<std::uint32_t>(i) : several_casters;
+        };
+        for (std::size_t i = 0; i < casters_.size(); ++i) {
+            const caster& c = casters_[i];
+            if (grids_[i]) {
+                state.casters.emplace_back();
+                const auto [first, last] = tiles_under(c, state);
+                for (int row = first.y; row <= last.y; ++row)
+                    for (int column = first.x; column <= last.x; ++column)
+                        occupy(static_cast<std::size_t>(row * tiles.columns + column), i);
+                continue;
+            }
+            insonify::detail::require_indices(c.mesh, ex);
+            const auto& built = state.casters.emplace_back(c, plane, tiles, least_depth, level_, ex);
+            for (std::size_t tile = 0; tile < tiles.count(); ++tile)
+                if (!built.bin(tile).empty()) occupy(tile, i);
+        }
         planes_.push_back(std::move(state));
     }
 
@@ -330,33 +311,57 @@ class exact_occlusion {
                   row = hold((seen.y - state.tiles.lower.y) * state.scale.y, state.tiles.rows);
         return static_cast<std::size_t>(row * state.tiles.columns + column);
     }
+    /// The first and the last tile that a caster's box may be over, as columns and rows.
+    static std::pair<glm::ivec2, glm::ivec2> tiles_under(const caster& c, const plane_state& state) {
+        glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 at = state.plane(transform_point(c.placement, c.box.corner(i)));
+            lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
+            upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
+        }
+        // A little more than rounding can tell.
+        const auto tile = [&](const glm::dvec2& at, double beside) {
+            const glm::dvec2 in_tiles = (at - state.tiles.lower) * state.scale;
+            return glm::ivec2(hold(in_tiles.x + beside, state.tiles.columns),
+                              hold(in_tiles.y + beside, state.tiles.rows));
+        };
+        return {tile(lower, -0x1p-10), tile(upper, 0x1p-10)};
+    }
     static int hold(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
 
-    void test_tile(std::size_t number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
+    void test_tile(std::size_t tile_number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
                    std::span<const points> at, std::span<const shares> into) const {
-        const auto [state, tile] = plane_of(number);
+        const auto [state, tile] = plane_of(tile_number);
         const glm::dvec2 size = state->tiles.tile();
         const auto columns = static_cast<std::size_t>(state->tiles.columns);
-        const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
-        cells.sort(all, glm::vec2(place * size), glm::vec2(size));
+        const glm::dvec2 from(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
+        cells.sort(all, glm::vec2(from * size), glm::vec2(size));
         for (std::size_t i = 0; i < state->casters.size(); ++i) {
-            cells.close(static_cast<std::uint32_t>(i));
+            const auto number = static_cast<std::uint32_t>(i);
+            cells.close(number);
+            const auto point = [&](std::size_t k) {
+                return std::pair(&at[cells.point[k] >> 16], cells.point[k] & 0xFFFFu);
+            };
+            if (grids_[i]) {
+                for (std::size_t k = 0; k < cells.size(); ++k)
+                    if (cells.caster[k] == detail::receiver_cells::open) {
+                        const auto [batch, place] = point(k);
+                        if (is_blocked_by_grid(number, *batch, place))
+                            cells.caster[k] = static_cast<std::int32_t>(number);
+                    }
+                continue;
+            }
             const detail::plane_caster& caster = state->casters[i];
             if (caster.bin(tile).empty()) continue;
             const shadow::caster& c = casters_[i];
             const auto decide = [&](std::uint32_t triangle, std::size_t k) {
-                const glm::uvec3& t = c.mesh.triangles[triangle];
-                const auto corner = [&](int j) {
-                    return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]]));
-                };
-                return rays_.are_blocked(corner(0), corner(1), corner(2),
-                                         at[cells.point[k] >> 16][cells.point[k] & 0xFFFFu]);
+                const auto [batch, place] = point(k);
+                return is_blocked_by(number, triangle, (*batch)[place]);
             };
             insonify::detail::dispatch(
                 detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{
-                    caster, caster.bin(tile), static_cast<std::uint32_t>(i), c.may_skip, is_turned(c, *state),
-                    state->error, cells, decide},
-                best_isa());
+                    caster, caster.bin(tile), number, c.may_skip, is_turned(c, *state), state->error, cells, decide},
+                level_);
         }
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (cells.caster[i] < 0) continue;
@@ -372,10 +377,11 @@ class exact_occlusion {
     }
 
     std::vector<caster> casters_;
+    isa level_;
     std::optional<point_light> near_light_;
     detail::light_rays rays_;
-    std::vector<plane_state> planes_;      ///< one, or six of which some are empty
-    std::vector<horizon_state> horizons_;  ///< of the casters, under parallel light
+    std::vector<plane_state> planes_;                        ///< one, or six of which some are empty
+    std::vector<std::optional<detail::grid_caster>> grids_;  ///< of the casters, under parallel light
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -383,7 +389,7 @@ class exact_occlusion {
 template <executor E>
 exact_occlusion exact::build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
                              E& ex) const {
-    return {casters, light, bounds.box, ex};
+    return {casters, light, bounds, ex};
 }
 
 }  // namespace shadow

@@ -32,7 +32,7 @@ class penumbra_occlusion {
             const double share = i == 0 ? 0 : numeric::square_root((i + 0.5) / samples);
             const auto [sine, cosine] = numeric::sin_cos_turns(0.6180339887498949 * i);
             const auto at = sample_of(light, radius * share * glm::dvec2(cosine, sine));
-            if (at) lights_.push_back({exact_occlusion(casters, *at, bounds.box, ex), *at});
+            if (at) lights_.push_back({exact_occlusion(casters, *at, bounds, ex), *at});
         }
     }
 

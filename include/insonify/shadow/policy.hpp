@@ -7,6 +7,7 @@
 
 #include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/executor.hpp>
+#include <insonify/core/simd/dispatch.hpp>
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/transform.hpp>
@@ -62,10 +63,11 @@ struct shares {
     INSONIFY_MEMBER std::size_t size() const { return lit.size(); }
 };
 
-/// Where points will be tested.
+/// Where points will be tested, and how. `level` changes no answer.
 struct point_bounds {
-    bounding_box box;    ///< around all of them
-    double spacing = 0;  ///< metres from one to the next on level ground; 0 if unknown
+    bounding_box box;        ///< around all of them
+    double spacing = 0;      ///< metres from one to the next on level ground; 0 if unknown
+    isa level = best_isa();  ///< the widest instruction set to use
 };
 
 inline namespace INSONIFY_FLAGS {

@@ -2,6 +2,7 @@
 // at the ends of what there is, and the same answer however it is computed.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/cube.hpp>
+#include <insonify/geometry/shared_mesh.hpp>
 #include <insonify/geometry/sphere.hpp>
 #include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
@@ -240,6 +241,37 @@ TEST_CASE("Level ground, and rubble under light from straight above, are lit eve
     const lit::mesh rubble(seabed_of(in::seabed::rock{}, 33, false), parallel(17, 90));
     CHECK(count_dark(rubble.dark(rubble.facing(500, 2))) == 0);
     CHECK(count_dark(rubble.dark(std::vector<glm::dvec3>(rubble->positions.begin(), rubble->positions.end()))) == 0);
+}
+
+TEST_CASE("A heightfield on a grid is swept, and its own points and others come out as with a list of triangles") {
+    in::serial_executor serial;
+    double azimuth = 10;
+    for (const in::seabed::any& recipe : {in::seabed::any(in::seabed::ripples{.wavelength = 0.6f, .steepness = 0.1f}),
+                                          in::seabed::any(in::seabed::rock{})})
+        for (const bool falls : {false, true})
+            for (const double elevation : {0.5, 6.0, 30.0})
+                for (int turn = 0; turn < 3; ++turn) {
+                    azimuth += 49;  // all octants come by
+                    const shadow::directional_light light = parallel(azimuth, elevation);
+                    const lit::mesh bottom(seabed_of(recipe, 41, falls), light);
+                    const auto grid = in::regular_grid_of(*bottom, serial, in::shared_mesh::grid_error);
+                    REQUIRE(grid);
+                    shadow::caster swept = lit::caster_of(*bottom);
+                    swept.may_skip = shadow::skip::facing_its_own;
+                    swept.grid = &*grid;
+                    const lit::point_list own = bottom.facing(200, 7);
+                    lit::point_list others = own.detached();
+                    for (std::size_t i = 0; i < own.size(); ++i) {
+                        others.add(own[i] + glm::dvec3(0.1, -0.1, 0.02 + 0.001 * static_cast<double>(i)));
+                        others.add(own[i] - glm::dvec3(0, 0, 0.03));
+                    }
+                    CAPTURE(recipe.legend().front().name, falls, elevation, azimuth);
+                    in::bounding_box box = others.box();
+                    box.lower -= glm::dvec3(0.5), box.upper += glm::dvec3(0.5);
+                    const auto built = shadow::exact{}.build(std::span(&swept, 1), light, {box}, serial);
+                    for (const lit::point_list* points : {&own, static_cast<const lit::point_list*>(&others)})
+                        CHECK(bottom.wrong(*points, lit::test(built, *points).dark()) == 0);
+                }
 }
 
 TEST_CASE("Points before a grid, behind it, beside it and above it") {

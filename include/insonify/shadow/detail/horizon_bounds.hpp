@@ -36,13 +36,19 @@ struct lit_grid {
     double slope = 0;           ///< in [0, 1]
     double drop = 0;            ///< columns that the light passes while it sinks by 1 m
     std::ptrdiff_t first = 0, along = 1, across = 1;  ///< number of vertex (0, 0) in the mesh, and steps to the next
+    std::ptrdiff_t pitch = 1;                         ///< vertices from one row of the mesh to the next
     glm::dvec2 x_of, y_of;                            ///< X = dot(x_of, p - origin), Y alike, in the mesh's frame
     glm::dvec2 origin{0};
 
     lit_grid() = default;
     /// @param travel  where the light goes, in the mesh's frame: down
     lit_grid(const regular_grid& grid, const glm::dvec3& travel)
-        : columns(grid.columns), rows(grid.rows), is_rising(grid.is_rising), across(grid.columns), origin(grid.origin) {
+        : columns(grid.columns),
+          rows(grid.rows),
+          is_rising(grid.is_rising),
+          across(grid.columns),
+          pitch(grid.columns),
+          origin(grid.origin) {
         glm::dvec2 x = grid.right, y = grid.up;
         const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
         double travel_x = cross(glm::dvec2(travel), y) / cross(x, y),
@@ -74,6 +80,15 @@ struct lit_grid {
         const double dx = p.x - origin.x, dy = p.y - origin.y;
         return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
     }
+    /// The vertex of a cell with the lowest number.
+    INSONIFY_INLINE std::ptrdiff_t corner(int x, int y) const {
+        return first + (x + (along < 0 ? 1 : 0)) * along + (y + (across < 0 ? 1 : 0)) * across;
+    }
+    /// The first triangle of a cell; the other follows.
+    INSONIFY_INLINE std::size_t first_triangle(int x, int y) const {
+        const std::ptrdiff_t vertex = corner(x, y);
+        return static_cast<std::size_t>(2 * (vertex - vertex / pitch));
+    }
 };
 
 /// u of a grid's vertices, column by column, with nothing around them.
@@ -101,17 +116,23 @@ struct grid_heights {
                 std::fill_n(column(x) - around, around, nothing);
                 std::fill_n(column(x) + grid.rows, around, nothing);
             }
-            for (int bottom = 0; bottom < grid.rows; bottom += square)
-                for (int x = left; x < right; ++x) {
-                    const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
-                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y) {
-                        insonify::detail::prefetch(vertex + (std::min)(y + square, grid.rows - 1) * grid.across);
-                        const float z = vertex[y * grid.across].z;
-                        low = (std::min)(low, z);
-                        high = (std::max)(high, z);
-                        column(x)[y] = static_cast<float>(x) + drop * z;
-                    }
+            const auto note = [&](int x, int y, float z) {
+                low = (std::min)(low, z);
+                high = (std::max)(high, z);
+                column(x)[y] = static_cast<float>(x) + drop * z;
+            };
+            const glm::vec3* const first = m.positions.data() + grid.first;
+            for (int bottom = 0; bottom < grid.rows; bottom += square) {
+                const int top = (std::min)(bottom + square, grid.rows);
+                // Along the mesh's own rows.
+                if (grid.across == 1 || grid.across == -1) {
+                    for (int x = left; x < right; ++x)
+                        for (int y = bottom; y < top; ++y) note(x, y, first[x * grid.along + y * grid.across].z);
+                } else {
+                    for (int y = bottom; y < top; ++y)
+                        for (int x = left; x < right; ++x) note(x, y, first[x * grid.along + y * grid.across].z);
                 }
+            }
             ranges[from / square] = {low, high};
         });
         least = ranges.front().x, greatest = ranges.front().y;
@@ -134,10 +155,10 @@ struct horizon_bound {
 struct horizon_kernel {
     const lit_grid& grid;
     const grid_heights& heights;
-    int first_strip;        ///< strips count from this
-    int from, to, strips;   ///< these, of so many
-    float margin;           ///< of u
-    horizon_bound* bounds;  ///< by column, then strip
+    int first_strip;       ///< strips count from this
+    int from, to, strips;  ///< these, of so many
+    float margin;          ///< of u
+    float* bounds;         ///< by column: what each strip's rays met, then what they may meet
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -194,7 +215,9 @@ struct horizon_kernel {
             unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { next = ahead[i] > next ? ahead[i] : next; });
             may_meet = rises ? may_meet : floats(next > may_meet ? next : may_meet);
             floats stored = rises ? may_meet : floats{} + std::numeric_limits<float>::infinity();
-            store_pairs<N>(&bounds[static_cast<std::ptrdiff_t>(x) * strips + k].met, floats(met), stored);
+            float* const of_column = bounds + static_cast<std::ptrdiff_t>(x) * 2 * strips + k;
+            store(of_column, met);
+            store(of_column + strips, stored);
             was_rising = rises;
         }
     }
@@ -222,8 +245,9 @@ class horizon_bounds {
     /// @param m       the mesh, a regular grid whose vertices lie within `off` steps of the lattice
     /// @param travel  where the light goes, in the mesh's frame: down
     template <executor E>
-    horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, double off, E& ex)
-        : grid_(lattice, travel), heights_(m, grid_, ex) {
+    horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, double off, isa level,
+                   E& ex)
+        : grid_(lattice, travel), heights_(m, grid_, ex), off_(off) {
         const auto greatest = static_cast<double>(heights_.greatest), least = static_cast<double>(heights_.least);
         const double relief = grid_.drop * (greatest - least);
         const double size =
@@ -231,14 +255,14 @@ class horizon_bounds {
         margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
-        bounds_ = insonify::detail::uninitialized_vector<horizon_bound>(
-            static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_),
+        bounds_ = insonify::detail::uninitialized_vector<float>(
+            2 * static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_),
             insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(strips_), 128, [&](std::size_t from, std::size_t to) {
             insonify::detail::dispatch(
                 horizon_kernel{grid_, heights_, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
                                static_cast<float>(margin_), bounds_.data()},
-                best_isa());
+                level);
         });
     }
 
@@ -249,8 +273,8 @@ class horizon_bounds {
         if (!(x >= 0 && x <= grid_.columns - 1)) return known::nothing;
         const auto column = static_cast<int>(x);
         const int strip = static_cast<int>(y - grid_.slope * x - first_strip_);
-        if (strip < 0 || strip >= strips_) return known::nothing;
-        const horizon_bound& b = bound(column, strip);
+        if (!has_strip(strip)) return known::nothing;
+        const horizon_bound b = bound(column, strip);
         const double u = x + grid_.drop * p.z;
         if (u < static_cast<double>(b.met) - margin_) return known::dark;
         return u > static_cast<double>(b.may_meet) + margin_ ? known::lit : known::nothing;
@@ -260,19 +284,22 @@ class horizon_bounds {
     const grid_heights& heights() const { return heights_; }
     /// By which u may be off, in columns.
     double margin() const { return margin_; }
+    /// By which vertices may lie beside the lattice, in steps.
+    double off() const { return off_; }
+    bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
-    const horizon_bound& bound(int column, int strip) const {
-        return bounds_[static_cast<std::size_t>(column) * static_cast<std::size_t>(strips_) +
-                       static_cast<std::size_t>(strip)];
-    }
+    horizon_bound bound(int column, int strip) const { return {met(column)[strip], may_meet(column)[strip]}; }
+    /// By strip.
+    const float* met(int column) const { return bounds_.data() + static_cast<std::ptrdiff_t>(column) * 2 * strips_; }
+    const float* may_meet(int column) const { return met(column) + strips_; }
 
   private:
     lit_grid grid_;
     grid_heights heights_;
-    double margin_ = 0;
+    double off_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
-    insonify::detail::uninitialized_vector<horizon_bound> bounds_;
+    insonify::detail::uninitialized_vector<float> bounds_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS

@@ -9,6 +9,7 @@
 #include <insonify/shadow/detail/horizon_bounds.hpp>
 #include <insonify/shadow/detail/light_planes.hpp>
 
+#include <cstring>
 #include <utility>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -55,9 +56,9 @@ class horizon_triangles {
   public:
     /// @param m    the mesh, of which `horizon` is
     /// @param eye  the camera, in the mesh's frame
-    horizon_triangles(const mesh_view& m, const regular_grid& lattice, const horizon_bounds& horizon,
-                      const glm::dvec3& travel, const glm::dvec3& eye)
-        : horizon_(horizon), grid_(horizon.grid()), columns_(lattice.columns) {
+    horizon_triangles(const mesh_view& m, const horizon_bounds& horizon, const glm::dvec3& travel,
+                      const glm::dvec3& eye)
+        : horizon_(horizon), grid_(horizon.grid()) {
         eye_ = grid_.steps(glm::dvec2(eye));
         eye_u_ = eye_.x + grid_.drop * eye.z;
         // The sine is u's slope along the light, times the light's own sine, over the length of the facet's normal.
@@ -70,19 +71,24 @@ class horizon_triangles {
         constexpr double grazed = 0x1p-20;  // a triangle closer to the light's direction is left to points
         rise_ = horizon.margin() + grazed * steepest / sine;
         // The first triangle of each cell leaves one corner out; of the two here, `lower` is opposite another.
-        const std::ptrdiff_t corner = corner_of(0, 0);
+        const std::ptrdiff_t corner = grid_.corner(0, 0);
         const std::ptrdiff_t apex = grid_.first + (grid_.is_rising ? grid_.along : 0) - corner;
         const glm::uvec3& t = m.triangles[0];
-        const std::ptrdiff_t opposite = columns_ + 1 - apex;
+        const std::ptrdiff_t opposite = grid_.pitch + 1 - apex;
         lower_is_first_ = static_cast<std::ptrdiff_t>(t.x) != opposite &&
                           static_cast<std::ptrdiff_t>(t.y) != opposite && static_cast<std::ptrdiff_t>(t.z) != opposite;
     }
 
     /// Writes the answers of some columns of cells, by triangle.
-    void find(int first_column, int last_column, known* into) const {
-        for (int low = 0; low < grid_.rows - 1; low += square)
-            for (int x = first_column; x < last_column; ++x)
-                for (int y = low; y < (std::min)(low + square, grid_.rows - 1); ++y) decide(x, y, into);
+    void find(int first_column, int last_column, known* into, isa level) const {
+        for (int left = first_column; left < last_column; left += square)
+            for (int bottom = 0; bottom < grid_.rows - 1; bottom += square) {
+                answers found;
+                const int right = (std::min)(left + square, last_column),
+                          top = (std::min)(bottom + square, grid_.rows - 1);
+                insonify::detail::dispatch(kernel{*this, left, bottom, right, top, found}, level);
+                write(found, left, bottom, right, top, into);
+            }
     }
 
     /// Takes the answers back of cells over which others may cast: where rays through some u and w pass within the
@@ -100,65 +106,127 @@ class horizon_triangles {
         const int bottom = held(lower.y - up * greatest - 2, grid_.rows - 1),
                   top = held(upper.y - up * least + 2, grid_.rows - 1);
         for (int x = left; x < right; ++x)
-            for (int y = bottom; y < top; ++y) into[triangle_of(x, y)] = into[triangle_of(x, y) + 1] = known::nothing;
+            for (int y = bottom; y < top; ++y)
+                into[grid_.first_triangle(x, y)] = into[grid_.first_triangle(x, y) + 1] = known::nothing;
     }
 
   private:
     static constexpr int square = 32;  ///< cells, so that what is read and what is written stays in the cache
 
-    /// The vertex of a cell with the lowest number.
-    std::ptrdiff_t corner_of(int x, int y) const {
-        return grid_.first + (x + (grid_.along < 0 ? 1 : 0)) * grid_.along +
-               (y + (grid_.across < 0 ? 1 : 0)) * grid_.across;
-    }
-    /// The first triangle of a cell.
-    std::size_t triangle_of(int x, int y) const {
-        const std::ptrdiff_t corner = corner_of(x, y);
-        return static_cast<std::size_t>(2 * (corner - corner / columns_));
+    /// Answers for a square's cells, the two of each side by side.
+    struct answers {
+        known of[square][square][2];  ///< by row, then column
+    };
+
+    /// A square's answers as they lie in the mesh.
+    void write(const answers& found, int left, int bottom, int right, int top, known* into) const {
+        for (int y = bottom; y < top; ++y) {
+            const auto& row = found.of[y - bottom];
+            if (grid_.along == 1)
+                std::memcpy(into + grid_.first_triangle(left, y), row, static_cast<std::size_t>(2 * (right - left)));
+            else
+                for (int x = left; x < right; ++x) std::memcpy(into + grid_.first_triangle(x, y), row[x - left], 2);
+        }
     }
 
-    void decide(int x, int y, known* into) const {
-        const float *const here = horizon_.heights().column(x) + y, *const ahead = horizon_.heights().column(x + 1) + y;
-        const float a = here[0], c = here[1], b = ahead[0], d = ahead[1];
-        // The strips that the cell lies in.
-        constexpr double beside = 0x1p-8;
-        const double from = y - horizon_.first_strip() - grid_.slope * x;
-        float met = std::numeric_limits<float>::infinity(), may_meet = -met;
-        const int last = static_cast<int>(from + 1 + beside);
-        for (int strip = static_cast<int>(from - grid_.slope - beside); strip <= last; ++strip) {
-            const horizon_bound& bound = horizon_.bound(x, strip);
-            met = bound.met < met ? bound.met : met;
-            may_meet = bound.may_meet > may_meet ? bound.may_meet : may_meet;
+    struct kernel {
+        const horizon_triangles& whole;
+        int left, bottom, right, top;
+        answers& into;
+
+        template <int N>
+        INSONIFY_INLINE void run() const {
+            for (int x = left; x < right; ++x) {
+                int y = bottom;
+                for (; y + N <= top; y += N) decide<N>(x, y);
+                for (; y < top; ++y) decide<1>(x, y);
+            }
         }
-        const auto margin = static_cast<float>(horizon_.margin());
-        const auto of = [&](float p, float q, float r, float along_x, float along_y, float base) {
-            const float highest = (std::max)((std::max)(p, q), r), lowest = (std::min)((std::min)(p, q), r);
-            const float rise = along_x + static_cast<float>(grid_.slope) * along_y;
-            const auto dx = static_cast<float>(eye_.x - x), dy = static_cast<float>(eye_.y - y);
-            const float error = 4 * margin * (2 + numeric::magnitude(dx) + numeric::magnitude(dy));
-            const bool is_above = base + along_x * dx + along_y * dy < static_cast<float>(eye_u_) - error;
-            const auto enough = static_cast<float>(rise_);
-            const bool is_facing = rise > enough, is_averted = rise < -enough;
-            if (is_above && is_averted) return known::dark;
-            if ((is_above || is_facing) && highest < met - margin) return known::dark;
-            return is_above && is_facing && lowest > may_meet + margin ? known::lit : known::nothing;
-        };
-        known lower, upper;
-        if (grid_.is_rising) {
-            lower = of(a, b, d, b - a, d - b, a);
-            upper = of(a, d, c, d - c, c - a, a);
-        } else {
-            lower = of(a, b, c, b - a, c - a, a);
-            upper = of(b, d, c, d - c, d - b, b + c - d);
+
+      private:
+        /// N cells of a column.
+        template <int N>
+        INSONIFY_INLINE void decide(int x, int y) const {
+            using namespace insonify::detail;
+            using floats = lanes<float, N>;
+            const horizon_bounds& horizon = whole.horizon_;
+            const lit_grid& grid = whole.grid_;
+            floats a, b, c, d;  // (0,0) (1,0) (0,1) (1,1)
+            load(a, horizon.heights().column(x) + y);
+            load(c, horizon.heights().column(x) + y + 1);
+            load(b, horizon.heights().column(x + 1) + y);
+            load(d, horizon.heights().column(x + 1) + y + 1);
+            // The strips that the cells lie in.
+            constexpr double beside = 0x1p-8;
+            const double from = y - horizon.first_strip() - grid.slope * x;
+            floats met = floats{} + std::numeric_limits<float>::infinity(), may_meet = 0.0f - met;
+            const int last = static_cast<int>(from + 1 + beside);
+            for (int strip = static_cast<int>(from - grid.slope - beside); strip <= last; ++strip) {
+                floats least, most;
+                load(least, horizon.met(x) + strip);
+                load(most, horizon.may_meet(x) + strip);
+                met = least < met ? least : met;
+                may_meet = most > may_meet ? most : may_meet;
+            }
+            const auto margin = static_cast<float>(horizon.margin());
+            met = met - margin;
+            may_meet = may_meet + margin;
+            floats row;
+            count_up<float, N>(row);
+            const auto dx = static_cast<float>(whole.eye_.x - x);
+            const floats dy = static_cast<float>(whole.eye_.y - y) - row;
+            const floats error = 4 * margin * ((2 + numeric::magnitude(dx)) + (dy < 0.0f ? 0.0f - dy : dy));
+            const floats eye = static_cast<float>(whole.eye_u_) - error;
+            const triangle_lanes<N> known_of{
+                met, may_meet, eye, dy, dx, static_cast<float>(grid.slope), static_cast<float>(whole.rise_)};
+            lanes<std::int32_t, N> lower, upper;
+            if (grid.is_rising) {
+                known_of(lower, a, b, d, b - a, d - b, a);
+                known_of(upper, a, d, c, d - c, c - a, a);
+            } else {
+                known_of(lower, a, b, c, b - a, c - a, a);
+                known_of(upper, b, d, c, d - c, d - b, b + c - d);
+            }
+            const auto& first = whole.lower_is_first_ ? lower : upper;
+            const auto& second = whole.lower_is_first_ ? upper : lower;
+            for (int k = 0; k < N; ++k) {
+                known* const cell = into.of[y + k - bottom][x - left];
+                cell[0] = static_cast<known>(lane(first, k));
+                cell[1] = static_cast<known>(lane(second, k));
+            }
         }
-        known* const cell = into + triangle_of(x, y);
-        cell[0] = lower_is_first_ ? lower : upper;
-        cell[1] = lower_is_first_ ? upper : lower;
-    }
+    };
+
+    /// Decides one triangle of each of N cells.
+    template <int N>
+    struct triangle_lanes {
+        using floats = insonify::detail::lanes<float, N>;
+        using ints = insonify::detail::lanes<std::int32_t, N>;
+        floats met, may_meet;  ///< surely below the one is dark, above the other lit
+        floats eye;            ///< what the plane has to pass below at the camera
+        floats dy;             ///< from the cell to the camera
+        float dx, slope, enough;
+
+        /// @param along_x, along_y  how u rises in it
+        /// @param base              u of its plane at the cell's corner (0, 0)
+        INSONIFY_INLINE void operator()(ints& answer, const floats& p, const floats& q, const floats& r,
+                                        const floats& along_x, const floats& along_y, const floats& base) const {
+            floats highest = p > q ? p : q, lowest = p < q ? p : q;
+            highest = highest > r ? highest : r;
+            lowest = lowest < r ? lowest : r;
+            const floats rise = along_x + slope * along_y;
+            const ints is_above = ints(base + along_x * dx + along_y * dy < eye);
+            const ints is_facing = ints(rise > enough), is_averted = ints(rise < 0.0f - enough);
+            const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(highest < met));
+            const ints is_lit = is_above & is_facing & ints(lowest > may_meet);
+            answer = is_lit ? ints{} + static_cast<std::int32_t>(known::lit)
+                            : ints{} + static_cast<std::int32_t>(known::nothing);
+            answer = is_dark ? ints{} + static_cast<std::int32_t>(known::dark) : answer;
+        }
+    };
 
     const horizon_bounds& horizon_;
     const lit_grid& grid_;
-    int columns_;
     glm::dvec2 eye_{0};  ///< in the grid's steps
     double eye_u_ = 0;
     double rise_ = 0;  ///< of u along the light, a column, above which a triangle faces it

@@ -6,10 +6,12 @@
 #pragma once
 
 #include <insonify/core/linear.hpp>
+#include <insonify/geometry/bounds.hpp>
 #include <insonify/shadow/light.hpp>
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -60,6 +62,30 @@ class light_plane {
     glm::dvec3 origin_{0};
     bool is_near_ = false;
 };
+
+/// Whether anything within a box may lie over a plane of a near light.
+inline bool is_seen(const light_plane& plane, const bounding_box& box) {
+    bool outside[4] = {true, true, true, true};
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 p = plane(box.corner(i));
+        for (int k = 0; k < 4; ++k) outside[k] = outside[k] && (k % 2 == 0 ? 1 : -1) * p[k / 2] > p.z * (1 + 0x1p-30);
+    }
+    return !(outside[0] || outside[1] || outside[2] || outside[3]);
+}
+
+/// The part of a near light's plane that a box is over.
+inline std::pair<glm::dvec2, glm::dvec2> seen_part(const light_plane& plane, const bounding_box& box) {
+    glm::dvec2 lower(1), upper(-1);
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 p = plane(box.corner(i));
+        if (!(p.z > 0)) return {glm::dvec2(-1), glm::dvec2(1)};
+        for (int axis = 0; axis < 2; ++axis) {
+            lower[axis] = (std::max)(-1.0, (std::min)(lower[axis], p[axis] / p.z));
+            upper[axis] = (std::min)(1.0, (std::max)(upper[axis], p[axis] / p.z));
+        }
+    }
+    return {lower, upper};
+}
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI

@@ -1,0 +1,60 @@
+// A heightfield on a regular grid as a caster: what it blocks is known without a list of its triangles.
+#pragma once
+
+#include <insonify/shadow/detail/horizon_triangles.hpp>
+#include <insonify/shadow/detail/horizon_walk.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail::inline INSONIFY_FLAGS {
+
+/// A heightfield on a regular grid under parallel light. Light and camera are above it (skip::facing_its_own).
+class grid_caster {
+  public:
+    /// @param off  by which vertices may lie beside the lattice, in steps
+    template <executor E>
+    grid_caster(const caster& c, const light_frame& frame, double off, isa level, E& ex)
+        : mesh_(c.mesh),
+          to_mesh_(inverse(c.placement)),
+          travel_(transform_direction(to_mesh_, -frame.to_light())),
+          bounds_(mesh_, *c.grid, travel_, off, level, ex),
+          blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
+
+    /// Whether it blocks the light of one of its own points that faces the light.
+    /// @param p       in the frame of the light
+    /// @param decide  decide(triangle): whether that blocks it, in doubles; not for the point's own
+    template <class Decide>
+    bool blocks_own(const glm::dvec3& p, const Decide& decide) const {
+        const glm::dvec3 at = transform_point(to_mesh_, p);
+        const known answer = bounds_.at(at);
+        if (answer != known::nothing) return answer == known::dark;
+        return horizon_walk(bounds_, blocks_, at).leads_from_surface(decide);
+    }
+    /// The same of any point.
+    template <class Decide>
+    bool blocks(const glm::dvec3& p, const Decide& decide) const {
+        return horizon_walk(bounds_, blocks_, transform_point(to_mesh_, p)).leads_from_anywhere(decide);
+    }
+
+    /// See horizon_triangles.
+    /// @param eye  the camera, in the frame of the light
+    horizon_triangles triangles(const glm::dvec3& eye) const {
+        return {mesh_, bounds_, travel_, transform_point(to_mesh_, eye)};
+    }
+    const lit_grid& grid() const { return bounds_.grid(); }
+
+  private:
+    mesh_view mesh_;
+    affine to_mesh_;
+    glm::dvec3 travel_;  ///< of the light, in the mesh's frame
+    horizon_bounds bounds_;
+    block_heights blocks_;
+};
+
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

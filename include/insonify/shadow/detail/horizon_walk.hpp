@@ -1,0 +1,248 @@
+// Whether a heightfield on a regular grid blocks the light of one point: a walk up the light along the point's ray.
+//
+// In the grid's own steps a ray of the light is a straight line across cells. Along it the surface's u
+// (horizon_bounds.hpp) is piecewise linear, with its ends on the edges that the line crosses, and the ray is blocked if
+// u rises above the point's own somewhere before it. The walk passes over blocks of cells whose highest vertex lies
+// below, and ends where the horizon's bounds tell the rest. Where u comes closer to the point's than its error, the
+// triangles of that column are tested in doubles.
+#pragma once
+
+#include <insonify/shadow/detail/horizon_bounds.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail::inline INSONIFY_FLAGS {
+
+/// The largest u of square blocks of cells.
+class block_heights {
+  public:
+    static constexpr int side = 8;  ///< cells
+
+    template <executor E>
+    block_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
+        : columns_((grid.columns - 2) / side + 1), rows_((grid.rows - 2) / side + 1) {
+        highest_ = insonify::detail::uninitialized_vector<float>(
+            static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
+        bulk_ranges(ex, static_cast<std::size_t>(columns_), 4, [&](std::size_t from, std::size_t to) {
+            std::vector<float> row(static_cast<std::size_t>(grid.rows));
+            for (auto column = static_cast<int>(from); column < static_cast<int>(to); ++column)
+                insonify::detail::dispatch(kernel{grid, heights, column * side, row.data(),
+                                                  highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_, rows_},
+                                           level);
+        });
+    }
+
+    /// The largest u of the vertices of the cells in a column of blocks, between two rows of cells.
+    float highest(int column, int first_row, int last_row) const {
+        const float* const blocks = highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
+        const int first = (std::max)(first_row / side, 0), last = (std::min)(last_row / side, rows_ - 1);
+        float highest = grid_heights::nothing;
+        for (int block = first; block <= last; ++block) highest = (std::max)(highest, blocks[block]);
+        return highest;
+    }
+
+  private:
+    /// One column of blocks.
+    struct kernel {
+        const lit_grid& grid;
+        const grid_heights& heights;
+        int first;   ///< column of vertices
+        float* row;  ///< room for the largest u of each row
+        float* into;
+        int blocks;
+
+        template <int N>
+        INSONIFY_INLINE void run() const {
+            const int last = (std::min)(first + side, grid.columns - 1);
+            int y = 0;
+            for (; y + N <= grid.rows; y += N) highest_of<N>(y, last);
+            for (; y < grid.rows; ++y) highest_of<1>(y, last);
+            for (int block = 0; block < blocks; ++block) {
+                const int low = block * side, high = (std::min)(low + side, grid.rows - 1);
+                float highest = row[low];
+                for (int i = low + 1; i <= high; ++i) highest = (std::max)(highest, row[i]);
+                into[block] = highest;
+            }
+        }
+        template <int N>
+        INSONIFY_INLINE void highest_of(int y, int last) const {
+            using namespace insonify::detail;
+            lanes<float, N> highest, other;
+            load(highest, heights.column(first) + y);
+            for (int x = first + 1; x <= last; ++x) {
+                load(other, heights.column(x) + y);
+                highest = other > highest ? other : highest;
+            }
+            store(row + y, highest);
+        }
+    };
+
+    int columns_, rows_;
+    insonify::detail::uninitialized_vector<float> highest_;
+};
+
+/// Walks along one ray.
+class horizon_walk {
+  public:
+    /// @param p  where the ray begins, in the mesh's frame
+    horizon_walk(const horizon_bounds& horizon, const block_heights& blocks, const glm::dvec3& p)
+        : horizon_(horizon),
+          blocks_(blocks),
+          grid_(horizon.grid()),
+          x_(grid_.steps(glm::dvec2(p)).x),
+          w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
+          u_(x_ + grid_.drop * p.z),
+          beside_(2 * horizon.off() + 0x1p-30 * grid_.columns) {}
+
+    /// Whether the surface blocks the ray. Expects a point on the surface where that faces the light.
+    /// @param decide  decide(triangle): whether it does, in doubles; not for the triangle of the point
+    template <class Decide>
+    bool leads_from_surface(const Decide& decide) const {
+        return walk(true, decide);
+    }
+    /// The same for any point.
+    template <class Decide>
+    bool leads_from_anywhere(const Decide& decide) const {
+        return walk(lies_above(), decide);
+    }
+
+  private:
+    static constexpr double nothing = -std::numeric_limits<double>::infinity();
+
+    /// u on the edges that the ray crosses in one column of cells.
+    struct crossing {
+        double lowest = -nothing, highest = nothing;
+        double surely = nothing;  ///< the highest of those that lie before the point without doubt
+    };
+
+    double row_at(double column) const { return w_ + grid_.slope * column; }
+    int held_row(double y) const {
+        return static_cast<int>((std::min)((std::max)(y, 0.0), static_cast<double>(grid_.rows - 2)));
+    }
+
+    /// Whether the point lies over the surface, farther off than u may be.
+    bool lies_above() const {
+        const double y = row_at(x_);
+        if (!(x_ >= beside_ && x_ <= grid_.columns - 1 - beside_ && y >= beside_ && y <= grid_.rows - 1 - beside_))
+            return false;
+        for (const double x : {x_ - beside_, x_ + beside_})
+            for (int row = held_row(y - beside_); row <= held_row(y + beside_); ++row)
+                if (!(highest(static_cast<int>(x), row, row) < u_ - horizon_.margin())) return false;
+        return true;
+    }
+    /// The largest u of the corners of some cells of a column.
+    double highest(int column, int first_row, int last_row) const {
+        const float *const here = horizon_.heights().column(column), *const ahead =
+                                                                         horizon_.heights().column(column + 1);
+        float largest = grid_heights::nothing;
+        for (int y = first_row; y <= last_row + 1; ++y) largest = (std::max)({largest, here[y], ahead[y]});
+        return static_cast<double>(largest);
+    }
+
+    /// @param is_above  the ray begins on or over the surface, so that it meets whatever rises above it
+    template <class Decide>
+    bool walk(bool is_above, const Decide& decide) const {
+        const double doubt = u_ - horizon_.margin();
+        const auto greatest = static_cast<double>(horizon_.heights().greatest);
+        int column = static_cast<int>((std::min)(x_ + beside_, static_cast<double>(grid_.columns - 2)));
+        if (x_ + beside_ < 0) return false;
+        for (bool is_first = true; column >= 0; --column, is_first = false) {
+            // The ray passes these rows of cells here.
+            const double low = row_at(column), high = low + grid_.slope;
+            if (high < -beside_ || column + 1 + grid_.drop * greatest < doubt) return false;
+            if (!is_first && column % block_heights::side == block_heights::side - 1) {
+                const known rest = is_above ? known_before(column) : known::nothing;
+                if (rest != known::nothing) return rest == known::dark;
+                const int before = column - (block_heights::side - 1);
+                const float highest_before = blocks_.highest(
+                    before / block_heights::side, held_row(row_at(before) - beside_), held_row(high + beside_));
+                if (static_cast<double>(highest_before) < doubt) {
+                    column = before;
+                    continue;
+                }
+            }
+            if (low > grid_.rows - 1 + beside_) continue;
+            const int first_row = held_row(low - beside_), last_row = held_row(high + beside_);
+            if (highest(column, first_row, last_row) < doubt) continue;
+            const double limit = is_first && is_above ? x_ - column : 2;
+            const crossing met = cross(column, limit);
+            if (met.highest < doubt) continue;
+            const bool is_inside = low >= beside_ && high <= grid_.rows - 1 - beside_;
+            if (is_above && is_inside && met.surely > u_ + horizon_.margin()) return true;
+            if (!is_above && met.lowest > u_ + horizon_.margin()) continue;
+            for (int row = first_row; row <= last_row; ++row) {
+                const auto triangle = static_cast<std::uint32_t>(grid_.first_triangle(column, row));
+                if (decide(triangle) || decide(triangle + 1)) return true;
+            }
+        }
+        return false;
+    }
+
+    /// What the bounds of a column tell of all that lies before it, if the ray has been followed down to its end.
+    known known_before(int column) const {
+        const int strip = static_cast<int>(w_ - horizon_.first_strip());
+        if (!horizon_.has_strip(strip)) return known::nothing;
+        const horizon_bound b = horizon_.bound(column, strip);
+        if (u_ < static_cast<double>(b.met) - horizon_.margin()) return known::dark;
+        return u_ > static_cast<double>(b.may_meet) + horizon_.margin() ? known::lit : known::nothing;
+    }
+
+    /// @param limit  where the point lies, in columns from this one
+    crossing cross(int column, double limit) const {
+        const double slope = grid_.slope, low = row_at(column), high = low + slope;
+        const int row = held_row(low);
+        const float *const here = horizon_.heights().column(column) + row, *const ahead =
+                                                                               horizon_.heights().column(column + 1) +
+                                                                               row;
+        const auto a = static_cast<double>(here[0]), b = static_cast<double>(ahead[0]),
+                   c = static_cast<double>(here[1]), d = static_cast<double>(ahead[1]);
+        crossing met;
+        // An edge is crossed a share s of the column from its beginning, a share t along it.
+        const auto add = [&](double s, double first, double last, double t) {
+            if (s > limit + beside_) return;
+            const double u = first + t * (last - first);
+            met.lowest = (std::min)(met.lowest, u);
+            met.highest = (std::max)(met.highest, u);
+            if (s <= limit - beside_) met.surely = (std::max)(met.surely, u);
+        };
+        if (high <= 0 || low >= grid_.rows - 1) {  // along the border, by a hair
+            add(0, a, c, high <= 0 ? 0 : 1);
+            add(1, b, d, high <= 0 ? 0 : 1);
+            return met;
+        }
+        const double start = low - row, end = start + slope, up = (1 - start) / slope;
+        const bool stays = end <= 1;
+        if (start >= 0)
+            add(0, a, c, start);
+        else
+            add(-start / slope, a, b, -start / slope);  // it comes in over the border
+        if (stays)
+            add(1, b, d, end);
+        else
+            add(up, c, d, up);
+        if (grid_.is_rising) {
+            if (stays && start >= 0 && start < 1 - slope) add(start / (1 - slope), a, d, start / (1 - slope));
+        } else {
+            add((1 - start) / (1 + slope), c, b, (1 - start) / (1 + slope));
+        }
+        if (stays || row + 2 >= grid_.rows) return met;
+        const auto e = static_cast<double>(here[2]), f = static_cast<double>(ahead[2]);
+        add(1, d, f, end - 1);
+        if (!grid_.is_rising) add((2 - start) / (1 + slope), e, d, (2 - start) / (1 + slope));
+        return met;
+    }
+
+    const horizon_bounds& horizon_;
+    const block_heights& blocks_;
+    const lit_grid& grid_;
+    double x_, w_, u_;
+    double beside_;  ///< columns or rows by which a vertex may lie beside its place on the lattice, and a little more
+};
+
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
