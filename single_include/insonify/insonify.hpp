@@ -10193,10 +10193,11 @@ struct shares {
     INSONIFY_MEMBER std::size_t size() const { return lit.size(); }
 };
 
-/// Where points will be tested.
+/// Where points will be tested, and how. `level` changes no answer.
 struct point_bounds {
-    bounding_box box;    ///< around all of them
-    double spacing = 0;  ///< metres from one to the next on level ground; 0 if unknown
+    bounding_box box;        ///< around all of them
+    double spacing = 0;      ///< metres from one to the next on level ground; 0 if unknown
+    isa level = best_isa();  ///< the widest instruction set to use
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -15073,13 +15074,19 @@ struct lit_grid {
     double slope = 0;           ///< in [0, 1]
     double drop = 0;            ///< columns that the light passes while it sinks by 1 m
     std::ptrdiff_t first = 0, along = 1, across = 1;  ///< number of vertex (0, 0) in the mesh, and steps to the next
+    std::ptrdiff_t pitch = 1;                         ///< vertices from one row of the mesh to the next
     glm::dvec2 x_of, y_of;                            ///< X = dot(x_of, p - origin), Y alike, in the mesh's frame
     glm::dvec2 origin{0};
 
     lit_grid() = default;
     /// @param travel  where the light goes, in the mesh's frame: down
     lit_grid(const regular_grid& grid, const glm::dvec3& travel)
-        : columns(grid.columns), rows(grid.rows), is_rising(grid.is_rising), across(grid.columns), origin(grid.origin) {
+        : columns(grid.columns),
+          rows(grid.rows),
+          is_rising(grid.is_rising),
+          across(grid.columns),
+          pitch(grid.columns),
+          origin(grid.origin) {
         glm::dvec2 x = grid.right, y = grid.up;
         const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
         double travel_x = cross(glm::dvec2(travel), y) / cross(x, y),
@@ -15111,6 +15118,15 @@ struct lit_grid {
         const double dx = p.x - origin.x, dy = p.y - origin.y;
         return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
     }
+    /// The vertex of a cell with the lowest number.
+    INSONIFY_INLINE std::ptrdiff_t corner(int x, int y) const {
+        return first + (x + (along < 0 ? 1 : 0)) * along + (y + (across < 0 ? 1 : 0)) * across;
+    }
+    /// The first triangle of a cell; the other follows.
+    INSONIFY_INLINE std::size_t first_triangle(int x, int y) const {
+        const std::ptrdiff_t vertex = corner(x, y);
+        return static_cast<std::size_t>(2 * (vertex - vertex / pitch));
+    }
 };
 
 /// u of a grid's vertices, column by column, with nothing around them.
@@ -15138,17 +15154,23 @@ struct grid_heights {
                 std::fill_n(column(x) - around, around, nothing);
                 std::fill_n(column(x) + grid.rows, around, nothing);
             }
-            for (int bottom = 0; bottom < grid.rows; bottom += square)
-                for (int x = left; x < right; ++x) {
-                    const glm::vec3* const vertex = m.positions.data() + grid.first + x * grid.along;
-                    for (int y = bottom; y < (std::min)(bottom + square, grid.rows); ++y) {
-                        insonify::detail::prefetch(vertex + (std::min)(y + square, grid.rows - 1) * grid.across);
-                        const float z = vertex[y * grid.across].z;
-                        low = (std::min)(low, z);
-                        high = (std::max)(high, z);
-                        column(x)[y] = static_cast<float>(x) + drop * z;
-                    }
+            const auto note = [&](int x, int y, float z) {
+                low = (std::min)(low, z);
+                high = (std::max)(high, z);
+                column(x)[y] = static_cast<float>(x) + drop * z;
+            };
+            const glm::vec3* const first = m.positions.data() + grid.first;
+            for (int bottom = 0; bottom < grid.rows; bottom += square) {
+                const int top = (std::min)(bottom + square, grid.rows);
+                // Along the mesh's own rows.
+                if (grid.across == 1 || grid.across == -1) {
+                    for (int x = left; x < right; ++x)
+                        for (int y = bottom; y < top; ++y) note(x, y, first[x * grid.along + y * grid.across].z);
+                } else {
+                    for (int y = bottom; y < top; ++y)
+                        for (int x = left; x < right; ++x) note(x, y, first[x * grid.along + y * grid.across].z);
                 }
+            }
             ranges[from / square] = {low, high};
         });
         least = ranges.front().x, greatest = ranges.front().y;
@@ -15171,10 +15193,10 @@ struct horizon_bound {
 struct horizon_kernel {
     const lit_grid& grid;
     const grid_heights& heights;
-    int first_strip;        ///< strips count from this
-    int from, to, strips;   ///< these, of so many
-    float margin;           ///< of u
-    horizon_bound* bounds;  ///< by column, then strip
+    int first_strip;       ///< strips count from this
+    int from, to, strips;  ///< these, of so many
+    float margin;          ///< of u
+    float* bounds;         ///< by column: what each strip's rays met, then what they may meet
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -15231,7 +15253,9 @@ struct horizon_kernel {
             unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { next = ahead[i] > next ? ahead[i] : next; });
             may_meet = rises ? may_meet : floats(next > may_meet ? next : may_meet);
             floats stored = rises ? may_meet : floats{} + std::numeric_limits<float>::infinity();
-            store_pairs<N>(&bounds[static_cast<std::ptrdiff_t>(x) * strips + k].met, floats(met), stored);
+            float* const of_column = bounds + static_cast<std::ptrdiff_t>(x) * 2 * strips + k;
+            store(of_column, met);
+            store(of_column + strips, stored);
             was_rising = rises;
         }
     }
@@ -15259,8 +15283,9 @@ class horizon_bounds {
     /// @param m       the mesh, a regular grid whose vertices lie within `off` steps of the lattice
     /// @param travel  where the light goes, in the mesh's frame: down
     template <executor E>
-    horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, double off, E& ex)
-        : grid_(lattice, travel), heights_(m, grid_, ex) {
+    horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, double off, isa level,
+                   E& ex)
+        : grid_(lattice, travel), heights_(m, grid_, ex), off_(off) {
         const auto greatest = static_cast<double>(heights_.greatest), least = static_cast<double>(heights_.least);
         const double relief = grid_.drop * (greatest - least);
         const double size =
@@ -15268,14 +15293,14 @@ class horizon_bounds {
         margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
-        bounds_ = insonify::detail::uninitialized_vector<horizon_bound>(
-            static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_),
+        bounds_ = insonify::detail::uninitialized_vector<float>(
+            2 * static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_),
             insonify::detail::memory_of(ex));
         bulk_ranges(ex, static_cast<std::size_t>(strips_), 128, [&](std::size_t from, std::size_t to) {
             insonify::detail::dispatch(
                 horizon_kernel{grid_, heights_, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
                                static_cast<float>(margin_), bounds_.data()},
-                best_isa());
+                level);
         });
     }
 
@@ -15286,8 +15311,8 @@ class horizon_bounds {
         if (!(x >= 0 && x <= grid_.columns - 1)) return known::nothing;
         const auto column = static_cast<int>(x);
         const int strip = static_cast<int>(y - grid_.slope * x - first_strip_);
-        if (strip < 0 || strip >= strips_) return known::nothing;
-        const horizon_bound& b = bound(column, strip);
+        if (!has_strip(strip)) return known::nothing;
+        const horizon_bound b = bound(column, strip);
         const double u = x + grid_.drop * p.z;
         if (u < static_cast<double>(b.met) - margin_) return known::dark;
         return u > static_cast<double>(b.may_meet) + margin_ ? known::lit : known::nothing;
@@ -15297,19 +15322,22 @@ class horizon_bounds {
     const grid_heights& heights() const { return heights_; }
     /// By which u may be off, in columns.
     double margin() const { return margin_; }
+    /// By which vertices may lie beside the lattice, in steps.
+    double off() const { return off_; }
+    bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
-    const horizon_bound& bound(int column, int strip) const {
-        return bounds_[static_cast<std::size_t>(column) * static_cast<std::size_t>(strips_) +
-                       static_cast<std::size_t>(strip)];
-    }
+    horizon_bound bound(int column, int strip) const { return {met(column)[strip], may_meet(column)[strip]}; }
+    /// By strip.
+    const float* met(int column) const { return bounds_.data() + static_cast<std::ptrdiff_t>(column) * 2 * strips_; }
+    const float* may_meet(int column) const { return met(column) + strips_; }
 
   private:
     lit_grid grid_;
     grid_heights heights_;
-    double margin_ = 0;
+    double off_, margin_ = 0;
     int first_strip_ = 0, strips_ = 0;
-    insonify::detail::uninitialized_vector<horizon_bound> bounds_;
+    insonify::detail::uninitialized_vector<float> bounds_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -15375,6 +15403,30 @@ class light_plane {
     bool is_near_ = false;
 };
 
+/// Whether anything within a box may lie over a plane of a near light.
+inline bool is_seen(const light_plane& plane, const bounding_box& box) {
+    bool outside[4] = {true, true, true, true};
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 p = plane(box.corner(i));
+        for (int k = 0; k < 4; ++k) outside[k] = outside[k] && (k % 2 == 0 ? 1 : -1) * p[k / 2] > p.z * (1 + 0x1p-30);
+    }
+    return !(outside[0] || outside[1] || outside[2] || outside[3]);
+}
+
+/// The part of a near light's plane that a box is over.
+inline std::pair<glm::dvec2, glm::dvec2> seen_part(const light_plane& plane, const bounding_box& box) {
+    glm::dvec2 lower(1), upper(-1);
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 p = plane(box.corner(i));
+        if (!(p.z > 0)) return {glm::dvec2(-1), glm::dvec2(1)};
+        for (int axis = 0; axis < 2; ++axis) {
+            lower[axis] = (std::max)(-1.0, (std::min)(lower[axis], p[axis] / p.z));
+            upper[axis] = (std::min)(1.0, (std::max)(upper[axis], p[axis] / p.z));
+        }
+    }
+    return {lower, upper};
+}
+
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
@@ -15433,9 +15485,9 @@ class horizon_triangles {
   public:
     /// @param m    the mesh, of which `horizon` is
     /// @param eye  the camera, in the mesh's frame
-    horizon_triangles(const mesh_view& m, const regular_grid& lattice, const horizon_bounds& horizon,
-                      const glm::dvec3& travel, const glm::dvec3& eye)
-        : horizon_(horizon), grid_(horizon.grid()), columns_(lattice.columns) {
+    horizon_triangles(const mesh_view& m, const horizon_bounds& horizon, const glm::dvec3& travel,
+                      const glm::dvec3& eye)
+        : horizon_(horizon), grid_(horizon.grid()) {
         eye_ = grid_.steps(glm::dvec2(eye));
         eye_u_ = eye_.x + grid_.drop * eye.z;
         // The sine is u's slope along the light, times the light's own sine, over the length of the facet's normal.
@@ -15448,19 +15500,24 @@ class horizon_triangles {
         constexpr double grazed = 0x1p-20;  // a triangle closer to the light's direction is left to points
         rise_ = horizon.margin() + grazed * steepest / sine;
         // The first triangle of each cell leaves one corner out; of the two here, `lower` is opposite another.
-        const std::ptrdiff_t corner = corner_of(0, 0);
+        const std::ptrdiff_t corner = grid_.corner(0, 0);
         const std::ptrdiff_t apex = grid_.first + (grid_.is_rising ? grid_.along : 0) - corner;
         const glm::uvec3& t = m.triangles[0];
-        const std::ptrdiff_t opposite = columns_ + 1 - apex;
+        const std::ptrdiff_t opposite = grid_.pitch + 1 - apex;
         lower_is_first_ = static_cast<std::ptrdiff_t>(t.x) != opposite &&
                           static_cast<std::ptrdiff_t>(t.y) != opposite && static_cast<std::ptrdiff_t>(t.z) != opposite;
     }
 
     /// Writes the answers of some columns of cells, by triangle.
-    void find(int first_column, int last_column, known* into) const {
-        for (int low = 0; low < grid_.rows - 1; low += square)
-            for (int x = first_column; x < last_column; ++x)
-                for (int y = low; y < (std::min)(low + square, grid_.rows - 1); ++y) decide(x, y, into);
+    void find(int first_column, int last_column, known* into, isa level) const {
+        for (int left = first_column; left < last_column; left += square)
+            for (int bottom = 0; bottom < grid_.rows - 1; bottom += square) {
+                answers found;
+                const int right = (std::min)(left + square, last_column),
+                          top = (std::min)(bottom + square, grid_.rows - 1);
+                insonify::detail::dispatch(kernel{*this, left, bottom, right, top, found}, level);
+                write(found, left, bottom, right, top, into);
+            }
     }
 
     /// Takes the answers back of cells over which others may cast: where rays through some u and w pass within the
@@ -15478,69 +15535,436 @@ class horizon_triangles {
         const int bottom = held(lower.y - up * greatest - 2, grid_.rows - 1),
                   top = held(upper.y - up * least + 2, grid_.rows - 1);
         for (int x = left; x < right; ++x)
-            for (int y = bottom; y < top; ++y) into[triangle_of(x, y)] = into[triangle_of(x, y) + 1] = known::nothing;
+            for (int y = bottom; y < top; ++y)
+                into[grid_.first_triangle(x, y)] = into[grid_.first_triangle(x, y) + 1] = known::nothing;
     }
 
   private:
     static constexpr int square = 32;  ///< cells, so that what is read and what is written stays in the cache
 
-    /// The vertex of a cell with the lowest number.
-    std::ptrdiff_t corner_of(int x, int y) const {
-        return grid_.first + (x + (grid_.along < 0 ? 1 : 0)) * grid_.along +
-               (y + (grid_.across < 0 ? 1 : 0)) * grid_.across;
-    }
-    /// The first triangle of a cell.
-    std::size_t triangle_of(int x, int y) const {
-        const std::ptrdiff_t corner = corner_of(x, y);
-        return static_cast<std::size_t>(2 * (corner - corner / columns_));
+    /// Answers for a square's cells, the two of each side by side.
+    struct answers {
+        known of[square][square][2];  ///< by row, then column
+    };
+
+    /// A square's answers as they lie in the mesh.
+    void write(const answers& found, int left, int bottom, int right, int top, known* into) const {
+        for (int y = bottom; y < top; ++y) {
+            const auto& row = found.of[y - bottom];
+            if (grid_.along == 1)
+                std::memcpy(into + grid_.first_triangle(left, y), row, static_cast<std::size_t>(2 * (right - left)));
+            else
+                for (int x = left; x < right; ++x) std::memcpy(into + grid_.first_triangle(x, y), row[x - left], 2);
+        }
     }
 
-    void decide(int x, int y, known* into) const {
-        const float *const here = horizon_.heights().column(x) + y, *const ahead = horizon_.heights().column(x + 1) + y;
-        const float a = here[0], c = here[1], b = ahead[0], d = ahead[1];
-        // The strips that the cell lies in.
-        constexpr double beside = 0x1p-8;
-        const double from = y - horizon_.first_strip() - grid_.slope * x;
-        float met = std::numeric_limits<float>::infinity(), may_meet = -met;
-        const int last = static_cast<int>(from + 1 + beside);
-        for (int strip = static_cast<int>(from - grid_.slope - beside); strip <= last; ++strip) {
-            const horizon_bound& bound = horizon_.bound(x, strip);
-            met = bound.met < met ? bound.met : met;
-            may_meet = bound.may_meet > may_meet ? bound.may_meet : may_meet;
+    struct kernel {
+        const horizon_triangles& whole;
+        int left, bottom, right, top;
+        answers& into;
+
+        template <int N>
+        INSONIFY_INLINE void run() const {
+            for (int x = left; x < right; ++x) {
+                int y = bottom;
+                for (; y + N <= top; y += N) decide<N>(x, y);
+                for (; y < top; ++y) decide<1>(x, y);
+            }
         }
-        const auto margin = static_cast<float>(horizon_.margin());
-        const auto of = [&](float p, float q, float r, float along_x, float along_y, float base) {
-            const float highest = (std::max)((std::max)(p, q), r), lowest = (std::min)((std::min)(p, q), r);
-            const float rise = along_x + static_cast<float>(grid_.slope) * along_y;
-            const auto dx = static_cast<float>(eye_.x - x), dy = static_cast<float>(eye_.y - y);
-            const float error = 4 * margin * (2 + numeric::magnitude(dx) + numeric::magnitude(dy));
-            const bool is_above = base + along_x * dx + along_y * dy < static_cast<float>(eye_u_) - error;
-            const auto enough = static_cast<float>(rise_);
-            const bool is_facing = rise > enough, is_averted = rise < -enough;
-            if (is_above && is_averted) return known::dark;
-            if ((is_above || is_facing) && highest < met - margin) return known::dark;
-            return is_above && is_facing && lowest > may_meet + margin ? known::lit : known::nothing;
-        };
-        known lower, upper;
-        if (grid_.is_rising) {
-            lower = of(a, b, d, b - a, d - b, a);
-            upper = of(a, d, c, d - c, c - a, a);
-        } else {
-            lower = of(a, b, c, b - a, c - a, a);
-            upper = of(b, d, c, d - c, d - b, b + c - d);
+
+      private:
+        /// N cells of a column.
+        template <int N>
+        INSONIFY_INLINE void decide(int x, int y) const {
+            using namespace insonify::detail;
+            using floats = lanes<float, N>;
+            const horizon_bounds& horizon = whole.horizon_;
+            const lit_grid& grid = whole.grid_;
+            floats a, b, c, d;  // (0,0) (1,0) (0,1) (1,1)
+            load(a, horizon.heights().column(x) + y);
+            load(c, horizon.heights().column(x) + y + 1);
+            load(b, horizon.heights().column(x + 1) + y);
+            load(d, horizon.heights().column(x + 1) + y + 1);
+            // The strips that the cells lie in.
+            constexpr double beside = 0x1p-8;
+            const double from = y - horizon.first_strip() - grid.slope * x;
+            floats met = floats{} + std::numeric_limits<float>::infinity(), may_meet = 0.0f - met;
+            const int last = static_cast<int>(from + 1 + beside);
+            for (int strip = static_cast<int>(from - grid.slope - beside); strip <= last; ++strip) {
+                floats least, most;
+                load(least, horizon.met(x) + strip);
+                load(most, horizon.may_meet(x) + strip);
+                met = least < met ? least : met;
+                may_meet = most > may_meet ? most : may_meet;
+            }
+            const auto margin = static_cast<float>(horizon.margin());
+            met = met - margin;
+            may_meet = may_meet + margin;
+            floats row;
+            count_up<float, N>(row);
+            const auto dx = static_cast<float>(whole.eye_.x - x);
+            const floats dy = static_cast<float>(whole.eye_.y - y) - row;
+            const floats error = 4 * margin * ((2 + numeric::magnitude(dx)) + (dy < 0.0f ? 0.0f - dy : dy));
+            const floats eye = static_cast<float>(whole.eye_u_) - error;
+            const triangle_lanes<N> known_of{
+                met, may_meet, eye, dy, dx, static_cast<float>(grid.slope), static_cast<float>(whole.rise_)};
+            lanes<std::int32_t, N> lower, upper;
+            if (grid.is_rising) {
+                known_of(lower, a, b, d, b - a, d - b, a);
+                known_of(upper, a, d, c, d - c, c - a, a);
+            } else {
+                known_of(lower, a, b, c, b - a, c - a, a);
+                known_of(upper, b, d, c, d - c, d - b, b + c - d);
+            }
+            const auto& first = whole.lower_is_first_ ? lower : upper;
+            const auto& second = whole.lower_is_first_ ? upper : lower;
+            for (int k = 0; k < N; ++k) {
+                known* const cell = into.of[y + k - bottom][x - left];
+                cell[0] = static_cast<known>(lane(first, k));
+                cell[1] = static_cast<known>(lane(second, k));
+            }
         }
-        known* const cell = into + triangle_of(x, y);
-        cell[0] = lower_is_first_ ? lower : upper;
-        cell[1] = lower_is_first_ ? upper : lower;
-    }
+    };
+
+    /// Decides one triangle of each of N cells.
+    template <int N>
+    struct triangle_lanes {
+        using floats = insonify::detail::lanes<float, N>;
+        using ints = insonify::detail::lanes<std::int32_t, N>;
+        floats met, may_meet;  ///< surely below the one is dark, above the other lit
+        floats eye;            ///< what the plane has to pass below at the camera
+        floats dy;             ///< from the cell to the camera
+        float dx, slope, enough;
+
+        /// @param along_x, along_y  how u rises in it
+        /// @param base              u of its plane at the cell's corner (0, 0)
+        INSONIFY_INLINE void operator()(ints& answer, const floats& p, const floats& q, const floats& r,
+                                        const floats& along_x, const floats& along_y, const floats& base) const {
+            floats highest = p > q ? p : q, lowest = p < q ? p : q;
+            highest = highest > r ? highest : r;
+            lowest = lowest < r ? lowest : r;
+            const floats rise = along_x + slope * along_y;
+            const ints is_above = ints(base + along_x * dx + along_y * dy < eye);
+            const ints is_facing = ints(rise > enough), is_averted = ints(rise < 0.0f - enough);
+            const ints is_dark = (is_above & is_averted) | ((is_above | is_facing) & ints(highest < met));
+            const ints is_lit = is_above & is_facing & ints(lowest > may_meet);
+            answer = is_lit ? ints{} + static_cast<std::int32_t>(known::lit)
+                            : ints{} + static_cast<std::int32_t>(known::nothing);
+            answer = is_dark ? ints{} + static_cast<std::int32_t>(known::dark) : answer;
+        }
+    };
 
     const horizon_bounds& horizon_;
     const lit_grid& grid_;
-    int columns_;
     glm::dvec2 eye_{0};  ///< in the grid's steps
     double eye_u_ = 0;
     double rise_ = 0;  ///< of u along the light, a column, above which a triangle faces it
     bool lower_is_first_ = true;
+};
+
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/horizon_walk.hpp ---------------------------------------------------
+// Whether a heightfield on a regular grid blocks the light of one point: a walk up the light along the point's ray.
+//
+// In the grid's own steps a ray of the light is a straight line across cells. Along it the surface's u
+// (horizon_bounds.hpp) is piecewise linear, with its ends on the edges that the line crosses, and the ray is blocked if
+// u rises above the point's own somewhere before it. The walk passes over blocks of cells whose highest vertex lies
+// below, and ends where the horizon's bounds tell the rest. Where u comes closer to the point's than its error, the
+// triangles of that column are tested in doubles.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail::inline INSONIFY_FLAGS {
+
+/// The largest u of square blocks of cells.
+class block_heights {
+  public:
+    static constexpr int side = 8;  ///< cells
+
+    template <executor E>
+    block_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
+        : columns_((grid.columns - 2) / side + 1), rows_((grid.rows - 2) / side + 1) {
+        highest_ = insonify::detail::uninitialized_vector<float>(
+            static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), insonify::detail::memory_of(ex));
+        bulk_ranges(ex, static_cast<std::size_t>(columns_), 4, [&](std::size_t from, std::size_t to) {
+            std::vector<float> row(static_cast<std::size_t>(grid.rows));
+            for (auto column = static_cast<int>(from); column < static_cast<int>(to); ++column)
+                insonify::detail::dispatch(kernel{grid, heights, column * side, row.data(),
+                                                  highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_, rows_},
+                                           level);
+        });
+    }
+
+    /// The largest u of the vertices of the cells in a column of blocks, between two rows of cells.
+    float highest(int column, int first_row, int last_row) const {
+        const float* const blocks = highest_.data() + static_cast<std::ptrdiff_t>(column) * rows_;
+        const int first = (std::max)(first_row / side, 0), last = (std::min)(last_row / side, rows_ - 1);
+        float highest = grid_heights::nothing;
+        for (int block = first; block <= last; ++block) highest = (std::max)(highest, blocks[block]);
+        return highest;
+    }
+
+  private:
+    /// One column of blocks.
+    struct kernel {
+        const lit_grid& grid;
+        const grid_heights& heights;
+        int first;   ///< column of vertices
+        float* row;  ///< room for the largest u of each row
+        float* into;
+        int blocks;
+
+        template <int N>
+        INSONIFY_INLINE void run() const {
+            const int last = (std::min)(first + side, grid.columns - 1);
+            int y = 0;
+            for (; y + N <= grid.rows; y += N) highest_of<N>(y, last);
+            for (; y < grid.rows; ++y) highest_of<1>(y, last);
+            for (int block = 0; block < blocks; ++block) {
+                const int low = block * side, high = (std::min)(low + side, grid.rows - 1);
+                float highest = row[low];
+                for (int i = low + 1; i <= high; ++i) highest = (std::max)(highest, row[i]);
+                into[block] = highest;
+            }
+        }
+        template <int N>
+        INSONIFY_INLINE void highest_of(int y, int last) const {
+            using namespace insonify::detail;
+            lanes<float, N> highest, other;
+            load(highest, heights.column(first) + y);
+            for (int x = first + 1; x <= last; ++x) {
+                load(other, heights.column(x) + y);
+                highest = other > highest ? other : highest;
+            }
+            store(row + y, highest);
+        }
+    };
+
+    int columns_, rows_;
+    insonify::detail::uninitialized_vector<float> highest_;
+};
+
+/// Walks along one ray.
+class horizon_walk {
+  public:
+    /// @param p  where the ray begins, in the mesh's frame
+    horizon_walk(const horizon_bounds& horizon, const block_heights& blocks, const glm::dvec3& p)
+        : horizon_(horizon),
+          blocks_(blocks),
+          grid_(horizon.grid()),
+          x_(grid_.steps(glm::dvec2(p)).x),
+          w_(grid_.steps(glm::dvec2(p)).y - grid_.slope * x_),
+          u_(x_ + grid_.drop * p.z),
+          beside_(2 * horizon.off() + 0x1p-30 * grid_.columns) {}
+
+    /// Whether the surface blocks the ray. Expects a point on the surface where that faces the light.
+    /// @param decide  decide(triangle): whether it does, in doubles; not for the triangle of the point
+    template <class Decide>
+    bool leads_from_surface(const Decide& decide) const {
+        return walk(true, decide);
+    }
+    /// The same for any point.
+    template <class Decide>
+    bool leads_from_anywhere(const Decide& decide) const {
+        return walk(lies_above(), decide);
+    }
+
+  private:
+    static constexpr double nothing = -std::numeric_limits<double>::infinity();
+
+    /// u on the edges that the ray crosses in one column of cells.
+    struct crossing {
+        double lowest = -nothing, highest = nothing;
+        double surely = nothing;  ///< the highest of those that lie before the point without doubt
+    };
+
+    double row_at(double column) const { return w_ + grid_.slope * column; }
+    int held_row(double y) const {
+        return static_cast<int>((std::min)((std::max)(y, 0.0), static_cast<double>(grid_.rows - 2)));
+    }
+
+    /// Whether the point lies over the surface, farther off than u may be.
+    bool lies_above() const {
+        const double y = row_at(x_);
+        if (!(x_ >= beside_ && x_ <= grid_.columns - 1 - beside_ && y >= beside_ && y <= grid_.rows - 1 - beside_))
+            return false;
+        for (const double x : {x_ - beside_, x_ + beside_})
+            for (int row = held_row(y - beside_); row <= held_row(y + beside_); ++row)
+                if (!(highest(static_cast<int>(x), row, row) < u_ - horizon_.margin())) return false;
+        return true;
+    }
+    /// The largest u of the corners of some cells of a column.
+    double highest(int column, int first_row, int last_row) const {
+        const float *const here = horizon_.heights().column(column), *const ahead =
+                                                                         horizon_.heights().column(column + 1);
+        float largest = grid_heights::nothing;
+        for (int y = first_row; y <= last_row + 1; ++y) largest = (std::max)({largest, here[y], ahead[y]});
+        return static_cast<double>(largest);
+    }
+
+    /// @param is_above  the ray begins on or over the surface, so that it meets whatever rises above it
+    template <class Decide>
+    bool walk(bool is_above, const Decide& decide) const {
+        const double doubt = u_ - horizon_.margin();
+        const auto greatest = static_cast<double>(horizon_.heights().greatest);
+        int column = static_cast<int>((std::min)(x_ + beside_, static_cast<double>(grid_.columns - 2)));
+        if (x_ + beside_ < 0) return false;
+        for (bool is_first = true; column >= 0; --column, is_first = false) {
+            // The ray passes these rows of cells here.
+            const double low = row_at(column), high = low + grid_.slope;
+            if (high < -beside_ || column + 1 + grid_.drop * greatest < doubt) return false;
+            if (!is_first && column % block_heights::side == block_heights::side - 1) {
+                const known rest = is_above ? known_before(column) : known::nothing;
+                if (rest != known::nothing) return rest == known::dark;
+                const int before = column - (block_heights::side - 1);
+                const float highest_before = blocks_.highest(
+                    before / block_heights::side, held_row(row_at(before) - beside_), held_row(high + beside_));
+                if (static_cast<double>(highest_before) < doubt) {
+                    column = before;
+                    continue;
+                }
+            }
+            if (low > grid_.rows - 1 + beside_) continue;
+            const int first_row = held_row(low - beside_), last_row = held_row(high + beside_);
+            if (highest(column, first_row, last_row) < doubt) continue;
+            const double limit = is_first && is_above ? x_ - column : 2;
+            const crossing met = cross(column, limit);
+            if (met.highest < doubt) continue;
+            const bool is_inside = low >= beside_ && high <= grid_.rows - 1 - beside_;
+            if (is_above && is_inside && met.surely > u_ + horizon_.margin()) return true;
+            if (!is_above && met.lowest > u_ + horizon_.margin()) continue;
+            for (int row = first_row; row <= last_row; ++row) {
+                const auto triangle = static_cast<std::uint32_t>(grid_.first_triangle(column, row));
+                if (decide(triangle) || decide(triangle + 1)) return true;
+            }
+        }
+        return false;
+    }
+
+    /// What the bounds of a column tell of all that lies before it, if the ray has been followed down to its end.
+    known known_before(int column) const {
+        const int strip = static_cast<int>(w_ - horizon_.first_strip());
+        if (!horizon_.has_strip(strip)) return known::nothing;
+        const horizon_bound b = horizon_.bound(column, strip);
+        if (u_ < static_cast<double>(b.met) - horizon_.margin()) return known::dark;
+        return u_ > static_cast<double>(b.may_meet) + horizon_.margin() ? known::lit : known::nothing;
+    }
+
+    /// @param limit  where the point lies, in columns from this one
+    crossing cross(int column, double limit) const {
+        const double slope = grid_.slope, low = row_at(column), high = low + slope;
+        const int row = held_row(low);
+        const float *const here = horizon_.heights().column(column) + row, *const ahead =
+                                                                               horizon_.heights().column(column + 1) +
+                                                                               row;
+        const auto a = static_cast<double>(here[0]), b = static_cast<double>(ahead[0]),
+                   c = static_cast<double>(here[1]), d = static_cast<double>(ahead[1]);
+        crossing met;
+        // An edge is crossed a share s of the column from its beginning, a share t along it.
+        const auto add = [&](double s, double first, double last, double t) {
+            if (s > limit + beside_) return;
+            const double u = first + t * (last - first);
+            met.lowest = (std::min)(met.lowest, u);
+            met.highest = (std::max)(met.highest, u);
+            if (s <= limit - beside_) met.surely = (std::max)(met.surely, u);
+        };
+        if (high <= 0 || low >= grid_.rows - 1) {  // along the border, by a hair
+            add(0, a, c, high <= 0 ? 0 : 1);
+            add(1, b, d, high <= 0 ? 0 : 1);
+            return met;
+        }
+        const double start = low - row, end = start + slope, up = (1 - start) / slope;
+        const bool stays = end <= 1;
+        if (start >= 0)
+            add(0, a, c, start);
+        else
+            add(-start / slope, a, b, -start / slope);  // it comes in over the border
+        if (stays)
+            add(1, b, d, end);
+        else
+            add(up, c, d, up);
+        if (grid_.is_rising) {
+            if (stays && start >= 0 && start < 1 - slope) add(start / (1 - slope), a, d, start / (1 - slope));
+        } else {
+            add((1 - start) / (1 + slope), c, b, (1 - start) / (1 + slope));
+        }
+        if (stays || row + 2 >= grid_.rows) return met;
+        const auto e = static_cast<double>(here[2]), f = static_cast<double>(ahead[2]);
+        add(1, d, f, end - 1);
+        if (!grid_.is_rising) add((2 - start) / (1 + slope), e, d, (2 - start) / (1 + slope));
+        return met;
+    }
+
+    const horizon_bounds& horizon_;
+    const block_heights& blocks_;
+    const lit_grid& grid_;
+    double x_, w_, u_;
+    double beside_;  ///< columns or rows by which a vertex may lie beside its place on the lattice, and a little more
+};
+
+}  // namespace shadow::detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/shadow/detail/grid_caster.hpp ----------------------------------------------------
+// A heightfield on a regular grid as a caster: what it blocks is known without a list of its triangles.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace shadow::detail::inline INSONIFY_FLAGS {
+
+/// A heightfield on a regular grid under parallel light. Light and camera are above it (skip::facing_its_own).
+class grid_caster {
+  public:
+    /// @param off  by which vertices may lie beside the lattice, in steps
+    template <executor E>
+    grid_caster(const caster& c, const light_frame& frame, double off, isa level, E& ex)
+        : mesh_(c.mesh),
+          to_mesh_(inverse(c.placement)),
+          travel_(transform_direction(to_mesh_, -frame.to_light())),
+          bounds_(mesh_, *c.grid, travel_, off, level, ex),
+          blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
+
+    /// Whether it blocks the light of one of its own points that faces the light.
+    /// @param p       in the frame of the light
+    /// @param decide  decide(triangle): whether that blocks it, in doubles; not for the point's own
+    template <class Decide>
+    bool blocks_own(const glm::dvec3& p, const Decide& decide) const {
+        const glm::dvec3 at = transform_point(to_mesh_, p);
+        const known answer = bounds_.at(at);
+        if (answer != known::nothing) return answer == known::dark;
+        return horizon_walk(bounds_, blocks_, at).leads_from_surface(decide);
+    }
+    /// The same of any point.
+    template <class Decide>
+    bool blocks(const glm::dvec3& p, const Decide& decide) const {
+        return horizon_walk(bounds_, blocks_, transform_point(to_mesh_, p)).leads_from_anywhere(decide);
+    }
+
+    /// See horizon_triangles.
+    /// @param eye  the camera, in the frame of the light
+    horizon_triangles triangles(const glm::dvec3& eye) const {
+        return {mesh_, bounds_, travel_, transform_point(to_mesh_, eye)};
+    }
+    const lit_grid& grid() const { return bounds_.grid(); }
+
+  private:
+    mesh_view mesh_;
+    affine to_mesh_;
+    glm::dvec3 travel_;  ///< of the light, in the mesh's frame
+    horizon_bounds bounds_;
+    block_heights blocks_;
 };
 
 }  // namespace shadow::detail::inline INSONIFY_FLAGS
@@ -15741,21 +16165,22 @@ class plane_caster {
     /// @param c            its mesh's indices all have positions
     /// @param least_depth  nearer to a point light than this, directions are not told apart
     template <executor E>
-    plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double least_depth, E& ex)
+    plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double least_depth, isa level,
+                 E& ex)
         : triangles_(c.mesh.triangles), vertices_(c.mesh.positions.size(), insonify::detail::memory_of(ex)) {
         affine to_plane{{}, plane(c.placement.offset)};
         for (int i = 0; i < 3; ++i) to_plane.linear[i] = plane.direction(c.placement.linear[i]);
         bulk_ranges(ex, vertices_.size(), 16384, [&](std::size_t first, std::size_t last) {
             insonify::detail::dispatch(plane_vertices_kernel{&c.mesh.positions[first], &vertices_[first], last - first,
                                                              plane, to_plane, tiles.lower, least_depth},
-                                       best_isa());
+                                       level);
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (triangles_.size() / 64 + 16) / 16 * 16);
         std::vector<insonify::detail::tile_runs> chunks((triangles_.size() + grain - 1) / grain);
         bulk_ranges(ex, triangles_.size(), grain, [&](std::size_t first, std::size_t last) {
             insonify::detail::dispatch(
                 tile_assembly_kernel{vertices_.data(), triangles_.data(), first, last, tiles, chunks[first / grain]},
-                best_isa());
+                level);
         });
         bins_ = insonify::detail::tile_bins(chunks, insonify::detail::tile_grid(tiles.columns, tiles.rows, 0), ex);
     }
@@ -16117,20 +16542,23 @@ class exact_occlusion {
     /// See casting_policy.
     /// @throws invalid_input for an index without a position, or a light as light_frame refuses it
     template <executor E>
-    exact_occlusion(std::span<const caster> casters, const any_light& light, const bounding_box& bounds, E& ex)
-        : casters_(casters.begin(), casters.end()), rays_(light, reach_of(bounds)) {
+    exact_occlusion(std::span<const caster> casters, const any_light& light, const point_bounds& where, E& ex)
+        : casters_(casters.begin(), casters.end()),
+          level_(where.level),
+          rays_(light, reach_of(where.box)),
+          grids_(casters.size()) {
+        const bounding_box& bounds = where.box;
         if (const auto* point = std::get_if<point_light>(&light)) near_light_ = *point;
         std::size_t triangles = 0;
-        for (const caster& c : casters_) {
-            insonify::detail::require_indices(c.mesh, ex);
-            triangles += c.mesh.triangles.size();
-        }
+        for (const caster& c : casters_) triangles += c.mesh.triangles.size();
         if (triangles == 0 || bounds.empty()) return;
         int side = 4;
         while (side < 64 && static_cast<std::size_t>(side * side) * 1024 < triangles) side *= 2;
         const double reach = reach_of(bounds);
         if (const auto* parallel = std::get_if<directional_light>(&light)) {
             const light_frame frame(*parallel);
+            for (std::size_t i = 0; i < casters_.size(); ++i)
+                if (is_swept(casters_[i])) grids_[i].emplace(casters_[i], frame, shared_mesh_grid_error, level_, ex);
             const detail::light_plane plane(frame);
             glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
             for (int i = 0; i < 8; ++i) {
@@ -16139,16 +16567,15 @@ class exact_occlusion {
                 upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
             }
             add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach * (1 + frame.cot_elevation()), 0, ex);
-            for (const caster& c : casters_) add_horizon(c, frame, ex);
         } else {
             const auto& point = std::get<point_light>(light);
             for (int i = 0; i < 6; ++i) {
                 const detail::light_plane plane(point, i);
-                if (!is_seen(plane, bounds)) {
+                if (!detail::is_seen(plane, bounds)) {
                     planes_.emplace_back();
                     continue;
                 }
-                const auto [lower, upper] = seen_part(plane, bounds);
+                const auto [lower, upper] = detail::seen_part(plane, bounds);
                 add_plane(plane, {lower, upper - lower, side, side}, 0x1p-40, 0x1p-20 * reach, ex);
             }
         }
@@ -16158,26 +16585,17 @@ class exact_occlusion {
     void screen(const points& at, const shares& into) const {
         std::fill(into.caster.begin(), into.caster.end(), invalid_id);
         if (planes_.empty()) return std::fill(into.lit.begin(), into.lit.end(), 1.0f);
-        const horizon_state* own = nullptr;
-        std::uint32_t mesh = invalid_id;
+        if (near_light_) return std::fill(into.lit.begin(), into.lit.end(), unknown);
+        const plane_state& state = planes_.front();
         for (std::size_t i = 0; i < at.size(); ++i) {
+            const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(at[i]))];
             into.lit[i] = unknown;
-            if (at.mesh[i] != mesh) {
-                mesh = at.mesh[i];
-                own = at.face_light && mesh < horizons_.size() && horizons_[mesh].bounds ? &horizons_[mesh] : nullptr;
-            }
-            const glm::dvec3 p = at[i];
-            auto answer = known::nothing;
-            if (own != nullptr) answer = own->bounds->at(transform_point(own->to_mesh, p));
-            if (near_light_) continue;
-            const plane_state& state = planes_.front();
-            const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(p))];
             if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
                 into.lit[i] = 1;
-            } else if (occupant == mesh && answer != known::nothing) {
-                const bool is_dark = answer == known::dark;
+            } else if (occupant == at.mesh[i] && grids_[occupant]) {
+                const bool is_dark = is_blocked_by_grid(occupant, at, i);
                 into.lit[i] = is_dark ? 0.0f : 1.0f;
-                if (is_dark) into.caster[i] = mesh;
+                if (is_dark) into.caster[i] = occupant;
             }
         }
     }
@@ -16187,21 +16605,17 @@ class exact_occlusion {
     template <executor E>
     insonify::detail::uninitialized_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye,
                                                                   E& ex) const {
-        insonify::detail::uninitialized_vector<known> answers;
-        if (caster >= horizons_.size() || !horizons_[caster].bounds) return answers;
+        if (caster >= grids_.size() || !grids_[caster]) return {};
         const shadow::caster& c = casters_[caster];
-        const horizon_state& state = horizons_[caster];
-        const detail::horizon_triangles triangles(c.mesh, *c.grid, *state.bounds, state.travel,
-                                                  transform_point(state.to_mesh, eye));
-        answers =
-            insonify::detail::uninitialized_vector<known>(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
-        bulk_ranges(ex, static_cast<std::size_t>(state.bounds->grid().columns - 1), 32,
-                    [&](std::size_t first, std::size_t last) {
-                        triangles.find(static_cast<int>(first), static_cast<int>(last), answers.data());
-                    });
+        const detail::lit_grid& grid = grids_[caster]->grid();
+        const detail::horizon_triangles triangles = grids_[caster]->triangles(eye);
+        insonify::detail::uninitialized_vector<known> answers(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
+        bulk_ranges(ex, static_cast<std::size_t>(grid.columns - 1), 32, [&](std::size_t first, std::size_t last) {
+            triangles.find(static_cast<int>(first), static_cast<int>(last), answers.data(), level_);
+        });
         // Where others may cast, too, points decide.
         const plane_state& plane = planes_.front();
-        const detail::ray_feet feet(plane.plane, c.placement, state.bounds->grid());
+        const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
             if (plane.occupant[tile] == caster || plane.occupant[tile] == no_caster) continue;
             const glm::dvec2 size = plane.tiles.tile();
@@ -16221,7 +16635,8 @@ class exact_occlusion {
         for (std::size_t first = 0; first < at.size(); first += most_points) {
             const std::size_t count = (std::min)(most_points, at.size() - first);
             parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
-                             at.mesh.subspan(first, count), at.triangle.subspan(first, count), at.casters});
+                             at.mesh.subspan(first, count), at.triangle.subspan(first, count), at.casters,
+                             at.face_light});
             results.push_back({into.lit.subspan(first, count), into.caster.subspan(first, count)});
         }
         test(std::span<const points>(parts), std::span<const shares>(results), serial);
@@ -16274,11 +16689,6 @@ class exact_occlusion {
         std::vector<std::uint32_t> occupant{};  ///< of each tile: the caster whose triangles alone touch it,
                                                 ///< or one of the following
     };
-    struct horizon_state {
-        affine to_mesh;
-        glm::dvec3 travel{0};  ///< of the light, in the mesh's frame
-        std::optional<detail::horizon_bounds> bounds;
-    };
     using receivers_of = insonify::detail::uninitialized_vector<detail::receiver>;
     /// Points of a run of batches by tile.
     struct sorted_points {
@@ -16297,40 +16707,23 @@ class exact_occlusion {
         for (int i = 0; i < 3 && !bounds.empty(); ++i) reach = (std::max)({reach, -bounds.lower[i], bounds.upper[i]});
         return reach;
     }
-    /// Whether anything within a box may lie over a plane of a near light.
-    static bool is_seen(const detail::light_plane& plane, const bounding_box& box) {
-        bool outside[4] = {true, true, true, true};
-        for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 p = plane(box.corner(i));
-            for (int k = 0; k < 4; ++k)
-                outside[k] = outside[k] && (k % 2 == 0 ? 1 : -1) * p[k / 2] > p.z * (1 + 0x1p-30);
-        }
-        return !(outside[0] || outside[1] || outside[2] || outside[3]);
+    /// Whether a caster needs no list of its triangles under parallel light.
+    static bool is_swept(const caster& c) { return c.grid != nullptr && c.may_skip == skip::facing_its_own; }
+    /// Whether caster `number` blocks the light of a point.
+    bool is_blocked_by_grid(std::uint32_t number, const points& at, std::size_t i) const {
+        const bool is_own = at.mesh[i] == number;
+        const auto decide = [&](std::uint32_t triangle) {
+            return !(is_own && at.triangle[i] == triangle) && is_blocked_by(number, triangle, at[i]);
+        };
+        return is_own && at.face_light ? grids_[number]->blocks_own(at[i], decide)
+                                       : grids_[number]->blocks(at[i], decide);
     }
-
-    /// What is known beforehand of most points of a heightfield on a grid.
-    template <executor E>
-    void add_horizon(const caster& c, const light_frame& frame, E& ex) {
-        horizon_state& state = horizons_.emplace_back();
-        if (c.grid == nullptr || c.may_skip != skip::facing_its_own) return;
-        state.to_mesh = inverse(c.placement);
-        state.travel = transform_direction(state.to_mesh, -frame.to_light());
-        state.bounds.emplace(c.mesh, *c.grid, state.travel, shared_mesh_grid_error, ex);
+    bool is_blocked_by(std::uint32_t number, std::uint32_t triangle, const glm::dvec3& p) const {
+        const caster& c = casters_[number];
+        const glm::uvec3& t = c.mesh.triangles[triangle];
+        const auto corner = [&](int j) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]])); };
+        return rays_.are_blocked(corner(0), corner(1), corner(2), p);
     }
-    /// The part of a near light's plane that a box is over.
-    static std::pair<glm::dvec2, glm::dvec2> seen_part(const detail::light_plane& plane, const bounding_box& box) {
-        glm::dvec2 lower(1), upper(-1);
-        for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 p = plane(box.corner(i));
-            if (!(p.z > 0)) return {glm::dvec2(-1), glm::dvec2(1)};
-            for (int axis = 0; axis < 2; ++axis) {
-                lower[axis] = (std::max)(-1.0, (std::min)(lower[axis], p[axis] / p.z));
-                upper[axis] = (std::min)(1.0, (std::max)(upper[axis], p[axis] / p.z));
-            }
-        }
-        return {lower, upper};
-    }
-
     template <executor E>
     void add_plane(const detail::light_plane& plane, detail::plane_tiles tiles, double error, double least_depth,
                    E& ex) {
@@ -16338,13 +16731,26 @@ class exact_occlusion {
         tiles.lower -= margin;
         tiles.size += 2 * margin;
         plane_state state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
-        for (const caster& c : casters_) state.casters.emplace_back(c, plane, tiles, least_depth, ex);
         state.occupant.assign(tiles.count(), no_caster);
-        for (std::size_t tile = 0; tile < tiles.count(); ++tile)
-            for (std::size_t i = 0; i < state.casters.size(); ++i)
-                if (!state.casters[i].bin(tile).empty())
-                    state.occupant[tile] =
-                        state.occupant[tile] == no_caster ? static_cast<std::uint32_t>(i) : several_casters;
+        const auto occupy = [&](std::size_t tile, std::size_t i) {
+            std::uint32_t& occupant = state.occupant[tile];
+            occupant = occupant == no_caster ? static_cast<std::uint32_t>(i) : several_casters;
+        };
+        for (std::size_t i = 0; i < casters_.size(); ++i) {
+            const caster& c = casters_[i];
+            if (grids_[i]) {
+                state.casters.emplace_back();
+                const auto [first, last] = tiles_under(c, state);
+                for (int row = first.y; row <= last.y; ++row)
+                    for (int column = first.x; column <= last.x; ++column)
+                        occupy(static_cast<std::size_t>(row * tiles.columns + column), i);
+                continue;
+            }
+            insonify::detail::require_indices(c.mesh, ex);
+            const auto& built = state.casters.emplace_back(c, plane, tiles, least_depth, level_, ex);
+            for (std::size_t tile = 0; tile < tiles.count(); ++tile)
+                if (!built.bin(tile).empty()) occupy(tile, i);
+        }
         planes_.push_back(std::move(state));
     }
 
@@ -16417,33 +16823,57 @@ class exact_occlusion {
                   row = hold((seen.y - state.tiles.lower.y) * state.scale.y, state.tiles.rows);
         return static_cast<std::size_t>(row * state.tiles.columns + column);
     }
+    /// The first and the last tile that a caster's box may be over, as columns and rows.
+    static std::pair<glm::ivec2, glm::ivec2> tiles_under(const caster& c, const plane_state& state) {
+        glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 at = state.plane(transform_point(c.placement, c.box.corner(i)));
+            lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
+            upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
+        }
+        // A little more than rounding can tell.
+        const auto tile = [&](const glm::dvec2& at, double beside) {
+            const glm::dvec2 in_tiles = (at - state.tiles.lower) * state.scale;
+            return glm::ivec2(hold(in_tiles.x + beside, state.tiles.columns),
+                              hold(in_tiles.y + beside, state.tiles.rows));
+        };
+        return {tile(lower, -0x1p-10), tile(upper, 0x1p-10)};
+    }
     static int hold(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
 
-    void test_tile(std::size_t number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
+    void test_tile(std::size_t tile_number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
                    std::span<const points> at, std::span<const shares> into) const {
-        const auto [state, tile] = plane_of(number);
+        const auto [state, tile] = plane_of(tile_number);
         const glm::dvec2 size = state->tiles.tile();
         const auto columns = static_cast<std::size_t>(state->tiles.columns);
-        const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
-        cells.sort(all, glm::vec2(place * size), glm::vec2(size));
+        const glm::dvec2 from(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
+        cells.sort(all, glm::vec2(from * size), glm::vec2(size));
         for (std::size_t i = 0; i < state->casters.size(); ++i) {
-            cells.close(static_cast<std::uint32_t>(i));
+            const auto number = static_cast<std::uint32_t>(i);
+            cells.close(number);
+            const auto point = [&](std::size_t k) {
+                return std::pair(&at[cells.point[k] >> 16], cells.point[k] & 0xFFFFu);
+            };
+            if (grids_[i]) {
+                for (std::size_t k = 0; k < cells.size(); ++k)
+                    if (cells.caster[k] == detail::receiver_cells::open) {
+                        const auto [batch, place] = point(k);
+                        if (is_blocked_by_grid(number, *batch, place))
+                            cells.caster[k] = static_cast<std::int32_t>(number);
+                    }
+                continue;
+            }
             const detail::plane_caster& caster = state->casters[i];
             if (caster.bin(tile).empty()) continue;
             const shadow::caster& c = casters_[i];
             const auto decide = [&](std::uint32_t triangle, std::size_t k) {
-                const glm::uvec3& t = c.mesh.triangles[triangle];
-                const auto corner = [&](int j) {
-                    return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]]));
-                };
-                return rays_.are_blocked(corner(0), corner(1), corner(2),
-                                         at[cells.point[k] >> 16][cells.point[k] & 0xFFFFu]);
+                const auto [batch, place] = point(k);
+                return is_blocked_by(number, triangle, (*batch)[place]);
             };
             insonify::detail::dispatch(
                 detail::occlusion_kernel<std::remove_const_t<decltype(decide)>>{
-                    caster, caster.bin(tile), static_cast<std::uint32_t>(i), c.may_skip, is_turned(c, *state),
-                    state->error, cells, decide},
-                best_isa());
+                    caster, caster.bin(tile), number, c.may_skip, is_turned(c, *state), state->error, cells, decide},
+                level_);
         }
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (cells.caster[i] < 0) continue;
@@ -16459,10 +16889,11 @@ class exact_occlusion {
     }
 
     std::vector<caster> casters_;
+    isa level_;
     std::optional<point_light> near_light_;
     detail::light_rays rays_;
-    std::vector<plane_state> planes_;      ///< one, or six of which some are empty
-    std::vector<horizon_state> horizons_;  ///< of the casters, under parallel light
+    std::vector<plane_state> planes_;                        ///< one, or six of which some are empty
+    std::vector<std::optional<detail::grid_caster>> grids_;  ///< of the casters, under parallel light
 };
 
 }  // namespace INSONIFY_FLAGS
@@ -16470,7 +16901,7 @@ class exact_occlusion {
 template <executor E>
 exact_occlusion exact::build(std::span<const caster> casters, const any_light& light, const point_bounds& bounds,
                              E& ex) const {
-    return {casters, light, bounds.box, ex};
+    return {casters, light, bounds, ex};
 }
 
 }  // namespace shadow
@@ -17368,7 +17799,7 @@ class overhead_painter {
             std::vector<shadow::caster> casters;
             for (const placed_mesh& t : targets_) casters.push_back(as_caster(view_, t));
             if (has_bottom()) casters.push_back(as_caster(view_, bottom_in_rig_));
-            const shadow::point_bounds bounds{receivers(), view_.ground_sampling()};
+            const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
             const auto occlusion =
                 options_.shadow.build(std::span<const shadow::caster>(casters), light_of(view_), bounds, ex);
             shadow_pass<Labels>(view_, surfaces_, ids_, rest_, out_.image, out_.labels, targets_.size(), options_.tile,
@@ -22525,7 +22956,7 @@ class penumbra_occlusion {
             const double share = i == 0 ? 0 : numeric::square_root((i + 0.5) / samples);
             const auto [sine, cosine] = numeric::sin_cos_turns(0.6180339887498949 * i);
             const auto at = sample_of(light, radius * share * glm::dvec2(cosine, sine));
-            if (at) lights_.push_back({exact_occlusion(casters, *at, bounds.box, ex), *at});
+            if (at) lights_.push_back({exact_occlusion(casters, *at, bounds, ex), *at});
         }
     }
 
