@@ -14,6 +14,11 @@
 
 #if defined(INSONIFY_COMPILED)
 
+#include <insonify/filter/colormap.hpp>
+#include <insonify/filter/histogram.hpp>
+#include <insonify/filter/match.hpp>
+#include <insonify/filter/noise.hpp>
+#include <insonify/filter/pipe.hpp>
 #include <insonify/seabed/flat.hpp>
 #include <insonify/seabed/mud.hpp>
 #include <insonify/seabed/ripples.hpp>
@@ -36,7 +41,40 @@ std::shared_ptr<const detail::model_interface> hold(rock m);
 
 }  // namespace seabed::inline INSONIFY_ONCE
 
+inline namespace INSONIFY_ONCE {
+
+using matched_speckle = filter_chain<match_histogram, speckle>;
+using matched_gaussian = filter_chain<match_histogram, gaussian>;
+using equalized_speckle = filter_chain<equalize, speckle>;
+
+// Filters of what `render` draws. Others are compiled where they are used.
+#define INSONIFY_FILTERS(each)                                                                                       \
+    each(float, equalize) each(float, match_histogram) each(float, match_binned) each(float, gaussian)               \
+        each(float, speckle) each(float, salt_and_pepper) each(float, matched_speckle) each(float, matched_gaussian) \
+            each(float, equalized_speckle) each(rgb8, color_table)
+#define INSONIFY_FILTER(Result, Filter)                               \
+    image<Result> operator|(const image<float>& in, const Filter& f); \
+    image<Result> operator|(image<float>&& in, const Filter& f);
+INSONIFY_FILTERS(INSONIFY_FILTER)
+#undef INSONIFY_FILTER
+
+}  // namespace INSONIFY_ONCE
+
 #if defined(INSONIFY_IMPLEMENTATION)
+
+inline namespace INSONIFY_ONCE {
+
+#define INSONIFY_FILTER(Result, Filter)                                \
+    image<Result> operator|(const image<float>& in, const Filter& f) { \
+        return apply(in, f);                                           \
+    }                                                                  \
+    image<Result> operator|(image<float>&& in, const Filter& f) {      \
+        return apply(std::move(in), f);                                \
+    }
+INSONIFY_FILTERS(INSONIFY_FILTER)
+#undef INSONIFY_FILTER
+
+}  // namespace INSONIFY_ONCE
 
 namespace seabed::inline INSONIFY_ONCE {
 
@@ -78,6 +116,7 @@ visibility see(const scene& s, const overhead& rig, built_in<shadow::none, label
 }  // namespace detail::inline INSONIFY_ONCE
 
 #endif
+#undef INSONIFY_FILTERS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

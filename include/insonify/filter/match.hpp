@@ -60,10 +60,13 @@ inline void sort_keys(std::vector<std::uint32_t>& keys) {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
 
 /// Counts the finite pixels; others are passed over.
-inline distribution distribution_of(image_view<const float> source) {
+INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source) {
     std::vector<std::uint32_t> keys;
     keys.reserve(source.size());
     for (int y = 0; y < source.height(); ++y) {
@@ -81,6 +84,11 @@ inline distribution distribution_of(image_view<const float> source) {
     }
     return result;
 }
+#endif
+
+}  // namespace INSONIFY_ONCE
+
+inline namespace INSONIFY_FLAGS {
 
 /// Counts codes; the values are code / 255 or code / 65535.
 template <pixel_code Code, executor_argument E = serial_executor>

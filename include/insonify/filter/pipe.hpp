@@ -226,8 +226,6 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-inline namespace INSONIFY_FLAGS {
-
 /// Filters in a row, made by `f | g`. Stages are kept by value; the same chain serves any number of images.
 template <class... Stages>
 struct filter_chain {
@@ -236,13 +234,13 @@ struct filter_chain {
 
     template <class Pixel>
         requires(detail::chain_takes<Pixel, Stages...>())
-    auto operator()(image<Pixel> in) const {
+    INSONIFY_TAGGED auto operator()(image<Pixel> in) const {
         const serial_executor ex;
         return run(std::move(in), detail::run_context<const serial_executor, detail::into_image>{ex, {}, {}});
     }
 
     template <class Source, class Context>
-    auto run(Source&& source, const Context& context) const {
+    INSONIFY_TAGGED auto run(Source&& source, const Context& context) const {
         return std::apply(
             [&](const Stages&... each) {
                 return detail::run_stages(std::forward<Source>(source), detail::untouched{}, context, each...);
@@ -250,8 +248,6 @@ struct filter_chain {
             stages);
     }
 };
-
-}  // namespace INSONIFY_FLAGS
 
 namespace detail::inline INSONIFY_FLAGS {
 
