@@ -113,7 +113,7 @@ bounding_box bounds(const mesh_view& m, E&& ex = {}) {
         dispatch(detail::bounds_kernel{&m.positions[first], last - first, lower, upper, all_finite}, best_isa());
         bounding_box& part = parts[first / grain];
         if (all_finite)
-            part = {lower, upper};
+            part = {glm::dvec3(lower), glm::dvec3(upper)};
         else
             for (std::size_t i = first; i < last; ++i) part = include(part, glm::dvec3(m.positions[i]));
     });

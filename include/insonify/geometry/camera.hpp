@@ -75,7 +75,7 @@ class camera_view {
 
 /// A position in OpenGL's clip space, where -w <= z <= w, in the library's: without it all that lies between the near
 /// plane and twice its distance would be clipped.
-constexpr glm::vec4 from_gl_clip(const glm::vec4& p) {
+inline glm::vec4 from_gl_clip(const glm::vec4& p) {
     return {p.x, p.y, 0.5f * (p.z + p.w), p.w};
 }
 

@@ -29,7 +29,8 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     validate(m);
     std::vector<glm::dvec3> sums(m.positions.size(), glm::dvec3(0));
     for (const glm::uvec3& t : m.triangles) {
-        const glm::dvec3 corners[3] = {m.positions[t.x], m.positions[t.y], m.positions[t.z]};
+        const glm::dvec3 corners[3] = {glm::dvec3(m.positions[t.x]), glm::dvec3(m.positions[t.y]),
+                                       glm::dvec3(m.positions[t.z])};
         const glm::dvec3 area = numeric::cross(corners[1] - corners[0], corners[2] - corners[0]);
         const double length = numeric::square_root(numeric::dot(area, area));
         if (!(length > 0 && numeric::is_finite(length))) continue;

@@ -107,8 +107,8 @@ inline affine to_world(const pose& p) {
 /// The mesh under the map, each coordinate rounded to float once. A mirroring map also swaps the winding, so that
 /// triangles keep facing outwards.
 inline mesh transformed(mesh m, const affine& map) {
-    for (glm::vec3& position : m.positions) position = glm::vec3(transform_point(map, position));
-    for (glm::vec3& normal : m.normals) normal = glm::vec3(transform_normal(map, normal));
+    for (glm::vec3& position : m.positions) position = glm::vec3(transform_point(map, glm::dvec3(position)));
+    for (glm::vec3& normal : m.normals) normal = glm::vec3(transform_normal(map, glm::dvec3(normal)));
     if (numeric::determinant(map.linear) < 0) {
         for (glm::uvec3& triangle : m.triangles) std::swap(triangle.y, triangle.z);
     }

@@ -102,7 +102,7 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
     const auto bottom = seabed.prepare();
     double clearance = std::numeric_limits<double>::infinity();
     for (const glm::vec3& p : shape.positions) {
-        const glm::dvec3 world = transform_point(map, p);
+        const glm::dvec3 world = transform_point(map, glm::dvec3(p));
         const float height = insonify::seabed::at(bottom, world.x, world.y).height;
         if (numeric::is_finite(height)) clearance = (std::min)(clearance, world.z - static_cast<double>(height));
     }

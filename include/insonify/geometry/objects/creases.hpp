@@ -41,8 +41,8 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
     std::vector<corner> corners;
     corners.reserve(3 * m.triangles.size());
     for (std::uint32_t t = 0; t < m.triangles.size(); ++t) {
-        const glm::dvec3 p[3] = {m.positions[m.triangles[t].x], m.positions[m.triangles[t].y],
-                                 m.positions[m.triangles[t].z]};
+        const glm::dvec3 p[3] = {glm::dvec3(m.positions[m.triangles[t].x]), glm::dvec3(m.positions[m.triangles[t].y]),
+                                 glm::dvec3(m.positions[m.triangles[t].z])};
         const glm::dvec3 area = numeric::cross(p[1] - p[0], p[2] - p[0]);
         const double length = numeric::square_root(numeric::dot(area, area));
         if (length > 0 && numeric::is_finite(length)) facets[t] = area / length;

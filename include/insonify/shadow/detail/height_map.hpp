@@ -62,7 +62,7 @@ map_extent extent_of(const mesh_view& m, const affine& to_world, const light_fra
     bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
         map_extent part;
         for (std::size_t i = first; i < last; ++i) {
-            const glm::dvec3 world = transform_point(to_world, m.positions[i]);
+            const glm::dvec3 world = transform_point(to_world, glm::dvec3(m.positions[i]));
             if (numeric::is_finite(world.x + world.y + world.z)) part.include(frame(world));
         }
         parts[first / grain] = part;

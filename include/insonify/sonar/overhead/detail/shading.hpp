@@ -167,7 +167,9 @@ class surface_shader {
         for (int k = 0; k < N; ++k) {
             if (lane(where, k) == 0) continue;
             const glm::uvec3& t = object_.mesh.triangles[f.triangles[k]];
-            const auto corner = [&](int i) { return transform_point(object_.to_rig, object_.mesh.positions[t[i]]); };
+            const auto corner = [&](int i) {
+                return transform_point(object_.to_rig, glm::dvec3(object_.mesh.positions[t[i]]));
+            };
             const glm::dvec3 facet = unit(numeric::cross(corner(1) - corner(0), corner(2) - corner(0)));
             for (int i = 0; i < 3; ++i) set_lane(normal[i], k, static_cast<float>(facet[i]));
         }
