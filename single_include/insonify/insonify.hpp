@@ -3885,10 +3885,13 @@ inline void sort_keys(std::vector<std::uint32_t>& keys) {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-inline namespace INSONIFY_FLAGS {
+inline namespace INSONIFY_ONCE {
 
 /// Counts the finite pixels; others are passed over.
-inline distribution distribution_of(image_view<const float> source) {
+INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source);
+
+#if INSONIFY_BODIES
+INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source) {
     std::vector<std::uint32_t> keys;
     keys.reserve(source.size());
     for (int y = 0; y < source.height(); ++y) {
@@ -3906,6 +3909,11 @@ inline distribution distribution_of(image_view<const float> source) {
     }
     return result;
 }
+#endif
+
+}  // namespace INSONIFY_ONCE
+
+inline namespace INSONIFY_FLAGS {
 
 /// Counts codes; the values are code / 255 or code / 65535.
 template <pixel_code Code, executor_argument E = serial_executor>
@@ -4618,8 +4626,6 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-inline namespace INSONIFY_FLAGS {
-
 /// Filters in a row, made by `f | g`. Stages are kept by value; the same chain serves any number of images.
 template <class... Stages>
 struct filter_chain {
@@ -4628,13 +4634,13 @@ struct filter_chain {
 
     template <class Pixel>
         requires(detail::chain_takes<Pixel, Stages...>())
-    auto operator()(image<Pixel> in) const {
+    INSONIFY_TAGGED auto operator()(image<Pixel> in) const {
         const serial_executor ex;
         return run(std::move(in), detail::run_context<const serial_executor, detail::into_image>{ex, {}, {}});
     }
 
     template <class Source, class Context>
-    auto run(Source&& source, const Context& context) const {
+    INSONIFY_TAGGED auto run(Source&& source, const Context& context) const {
         return std::apply(
             [&](const Stages&... each) {
                 return detail::run_stages(std::forward<Source>(source), detail::untouched{}, context, each...);
@@ -4642,8 +4648,6 @@ struct filter_chain {
             stages);
     }
 };
-
-}  // namespace INSONIFY_FLAGS
 
 namespace detail::inline INSONIFY_FLAGS {
 
@@ -5465,8 +5469,8 @@ inline affine to_world(const pose& p) {
 /// The mesh under the map, each coordinate rounded to float once. A mirroring map also swaps the winding, so that
 /// triangles keep facing outwards.
 inline mesh transformed(mesh m, const affine& map) {
-    for (glm::vec3& position : m.positions) position = glm::vec3(transform_point(map, position));
-    for (glm::vec3& normal : m.normals) normal = glm::vec3(transform_normal(map, normal));
+    for (glm::vec3& position : m.positions) position = glm::vec3(transform_point(map, glm::dvec3(position)));
+    for (glm::vec3& normal : m.normals) normal = glm::vec3(transform_normal(map, glm::dvec3(normal)));
     if (numeric::determinant(map.linear) < 0) {
         for (glm::uvec3& triangle : m.triangles) std::swap(triangle.y, triangle.z);
     }
@@ -5552,7 +5556,7 @@ class camera_view {
 
 /// A position in OpenGL's clip space, where -w <= z <= w, in the library's: without it all that lies between the near
 /// plane and twice its distance would be clipped.
-constexpr glm::vec4 from_gl_clip(const glm::vec4& p) {
+inline glm::vec4 from_gl_clip(const glm::vec4& p) {
     return {p.x, p.y, 0.5f * (p.z + p.w), p.w};
 }
 
@@ -6013,7 +6017,7 @@ bounding_box bounds(const mesh_view& m, E&& ex = {}) {
         dispatch(detail::bounds_kernel{&m.positions[first], last - first, lower, upper, all_finite}, best_isa());
         bounding_box& part = parts[first / grain];
         if (all_finite)
-            part = {lower, upper};
+            part = {glm::dvec3(lower), glm::dvec3(upper)};
         else
             for (std::size_t i = first; i < last; ++i) part = include(part, glm::dvec3(m.positions[i]));
     });
@@ -6273,7 +6277,8 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     validate(m);
     std::vector<glm::dvec3> sums(m.positions.size(), glm::dvec3(0));
     for (const glm::uvec3& t : m.triangles) {
-        const glm::dvec3 corners[3] = {m.positions[t.x], m.positions[t.y], m.positions[t.z]};
+        const glm::dvec3 corners[3] = {glm::dvec3(m.positions[t.x]), glm::dvec3(m.positions[t.y]),
+                                       glm::dvec3(m.positions[t.z])};
         const glm::dvec3 area = numeric::cross(corners[1] - corners[0], corners[2] - corners[0]);
         const double length = numeric::square_root(numeric::dot(area, area));
         if (!(length > 0 && numeric::is_finite(length))) continue;
@@ -10645,7 +10650,7 @@ inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose
     const auto bottom = seabed.prepare();
     double clearance = std::numeric_limits<double>::infinity();
     for (const glm::vec3& p : shape.positions) {
-        const glm::dvec3 world = transform_point(map, p);
+        const glm::dvec3 world = transform_point(map, glm::dvec3(p));
         const float height = insonify::seabed::at(bottom, world.x, world.y).height;
         if (numeric::is_finite(height)) clearance = (std::min)(clearance, world.z - static_cast<double>(height));
     }
@@ -17141,7 +17146,9 @@ class surface_shader {
         for (int k = 0; k < N; ++k) {
             if (lane(where, k) == 0) continue;
             const glm::uvec3& t = object_.mesh.triangles[f.triangles[k]];
-            const auto corner = [&](int i) { return transform_point(object_.to_rig, object_.mesh.positions[t[i]]); };
+            const auto corner = [&](int i) {
+                return transform_point(object_.to_rig, glm::dvec3(object_.mesh.positions[t[i]]));
+            };
             const glm::dvec3 facet = unit(numeric::cross(corner(1) - corner(0), corner(2) - corner(0)));
             for (int i = 0; i < 3; ++i) set_lane(normal[i], k, static_cast<float>(facet[i]));
         }
@@ -19097,8 +19104,8 @@ inline mesh with_creases(const mesh& m, float angle = 0.7f) {
     std::vector<corner> corners;
     corners.reserve(3 * m.triangles.size());
     for (std::uint32_t t = 0; t < m.triangles.size(); ++t) {
-        const glm::dvec3 p[3] = {m.positions[m.triangles[t].x], m.positions[m.triangles[t].y],
-                                 m.positions[m.triangles[t].z]};
+        const glm::dvec3 p[3] = {glm::dvec3(m.positions[m.triangles[t].x]), glm::dvec3(m.positions[m.triangles[t].y]),
+                                 glm::dvec3(m.positions[m.triangles[t].z])};
         const glm::dvec3 area = numeric::cross(p[1] - p[0], p[2] - p[0]);
         const double length = numeric::square_root(numeric::dot(area, area));
         if (length > 0 && numeric::is_finite(length)) facets[t] = area / length;
@@ -22543,7 +22550,7 @@ map_extent extent_of(const mesh_view& m, const affine& to_world, const light_fra
     bulk_ranges(ex, m.positions.size(), grain, [&](std::size_t first, std::size_t last) {
         map_extent part;
         for (std::size_t i = first; i < last; ++i) {
-            const glm::dvec3 world = transform_point(to_world, m.positions[i]);
+            const glm::dvec3 world = transform_point(to_world, glm::dvec3(m.positions[i]));
             if (numeric::is_finite(world.x + world.y + world.z)) part.include(frame(world));
         }
         parts[first / grain] = part;
@@ -26262,7 +26269,40 @@ std::shared_ptr<const detail::model_interface> hold(rock m);
 
 }  // namespace seabed::inline INSONIFY_ONCE
 
+inline namespace INSONIFY_ONCE {
+
+using matched_speckle = filter_chain<match_histogram, speckle>;
+using matched_gaussian = filter_chain<match_histogram, gaussian>;
+using equalized_speckle = filter_chain<equalize, speckle>;
+
+// Filters of what `render` draws. Others are compiled where they are used.
+#define INSONIFY_FILTERS(each)                                                                                       \
+    each(float, equalize) each(float, match_histogram) each(float, match_binned) each(float, gaussian)               \
+        each(float, speckle) each(float, salt_and_pepper) each(float, matched_speckle) each(float, matched_gaussian) \
+            each(float, equalized_speckle) each(rgb8, color_table)
+#define INSONIFY_FILTER(Result, Filter)                               \
+    image<Result> operator|(const image<float>& in, const Filter& f); \
+    image<Result> operator|(image<float>&& in, const Filter& f);
+INSONIFY_FILTERS(INSONIFY_FILTER)
+#undef INSONIFY_FILTER
+
+}  // namespace INSONIFY_ONCE
+
 #if defined(INSONIFY_IMPLEMENTATION)
+
+inline namespace INSONIFY_ONCE {
+
+#define INSONIFY_FILTER(Result, Filter)                                \
+    image<Result> operator|(const image<float>& in, const Filter& f) { \
+        return apply(in, f);                                           \
+    }                                                                  \
+    image<Result> operator|(image<float>&& in, const Filter& f) {      \
+        return apply(std::move(in), f);                                \
+    }
+INSONIFY_FILTERS(INSONIFY_FILTER)
+#undef INSONIFY_FILTER
+
+}  // namespace INSONIFY_ONCE
 
 namespace seabed::inline INSONIFY_ONCE {
 
@@ -26304,6 +26344,7 @@ visibility see(const scene& s, const overhead& rig, built_in<shadow::none, label
 }  // namespace detail::inline INSONIFY_ONCE
 
 #endif
+#undef INSONIFY_FILTERS
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
