@@ -2,6 +2,8 @@
 
 #include <insonify/version.hpp>
 
+#include "views.hpp"
+
 namespace generator {
 
 namespace fs = std::filesystem;
@@ -9,7 +11,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Of the folder and of what is drawn into it: raised with each change of either.
-constexpr int format = 3;
+constexpr int format = 4;
 
 std::string version() {
     const auto text = [](int number) { return std::to_string(number); };
@@ -67,6 +69,8 @@ json configuration_of(const options& o, const std::vector<input>& inputs) {
             {"aspect", pair(o.aspect)},
             {"tilt", pair(o.tilt)},
             {"burial", pair(o.burial)},
+            {"aspects", o.aspects},
+            {"place", o.place},
             {"mode", o.mode},
             {"chip", o.chip},
             {"altitude", pair(o.altitude)},
@@ -86,7 +90,18 @@ json configuration_of(const options& o, const std::vector<input>& inputs) {
 }
 
 json shards_of(const options& o) {
-    return {{"first", o.first}, {"count", o.count}, {"shards", o.shard.of}};
+    json shards{{"first", o.first}, {"count", o.count}, {"shards", o.shard.of}};
+    if (!o.table || !o.table->has_ids()) return shards;
+    // A plan may leave ids out: runs of them, the first and the last.
+    json& runs = shards["ids"] = json::array();
+    for (std::uint64_t i = o.first; i < o.first + o.count; ++i) {
+        const std::uint64_t id = image_id(o, i);
+        if (!runs.empty() && runs.back()[1] == id - 1)
+            runs.back()[1] = id;
+        else
+            runs.push_back({id, id});
+    }
+    return shards;
 }
 
 json pinned(const fs::path& root, const std::string& name) {

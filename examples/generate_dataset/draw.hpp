@@ -43,13 +43,35 @@ struct drawn {
     facts known;
 };
 
+/// The target in its own frame: length along x, width along y, height along z.
+inline in::mesh target_of(const plan& p, const stock& shared) {
+    const auto [length, width, height] = std::tuple(p.extents.x, p.extents.y, p.extents.z);
+    const auto of = [](double metres) { return static_cast<float>(metres); };
+    const auto scaled = [](in::mesh m, double x, double y, double z) {
+        return x == 1 && y == 1 && z == 1
+                   ? m
+                   : in::transformed(std::move(m), {glm::dmat3({x, 0, 0}, {0, y, 0}, {0, 0, z}), {}});
+    };
+    if (p.class_name == "cylinder")
+        return scaled(to_mesh(in::cylinder{.radius = of(height / 2), .length = of(length)}), 1, width / height, 1);
+    if (p.class_name == "cube") return to_mesh(in::cube{.size = {of(length), of(width), of(height)}});
+    if (p.class_name == "cone")
+        return scaled(to_mesh(in::cone{.radius = of(length / 2), .height = of(height)}), 1, width / length, 1);
+    if (p.class_name == "sphere")
+        return to_mesh(in::sphere{.radius = of(height / 2), .aspect = {of(length / height), of(width / height), 1}});
+    const glm::dvec3 unit = shared.extents_of_mesh(p.class_name);
+    const auto factor = [&](double to, double from) { return from > 0 ? to / from : 1; };
+    return scaled(shared.unit_mesh(p.class_name), factor(length, unit.x), factor(width, unit.y),
+                  factor(height, unit.z));
+}
+
 /// Level first, tilted in place then: what one end rises, the other sinks in, and no light passes below.
 inline in::pose laid_down(const plan& p, const in::scene& scene, const in::mesh& shape, const glm::dvec2& ground) {
     in::pose placement =
         in::rest_on(scene.seabed, shape, {.position = glm::dvec3(ground, 0), .yaw = static_cast<float>(p.yaw)});
     placement.pitch = static_cast<float>(p.pitch);
     placement.roll = static_cast<float>(p.roll);
-    placement.burial = static_cast<float>(p.burial * p.size);
+    placement.burial = static_cast<float>(p.burial * p.extents.z);
     return placement;
 }
 
@@ -67,7 +89,7 @@ inline in::image<float> photograph(const options& o, const plan& p, const stock&
                      .altitude = static_cast<float>(p.altitude),
                      .yaw = static_cast<float>(p.rig_yaw),
                      .size = {o.size, o.size},
-                     .grazing = static_cast<float>(p.grazing),
+                     .grazing = static_cast<float>(p.light),
                      .intensity = static_cast<float>(o.intensity),
                      .sky = static_cast<float>(o.sky)};
     if (o.chip > 0) rig.field_of_view = static_cast<float>(2 * in::numeric::atan2(0.5 * o.chip, p.altitude));
@@ -75,12 +97,11 @@ inline in::image<float> photograph(const options& o, const plan& p, const stock&
     const in::overhead_geometry view(rig);
     const glm::dvec2 half = view.half_extent(0);
     const auto [sine, cosine] = in::numeric::sin_cos(p.rig_yaw);
-    const glm::dvec2 share =
-        o.chip > 0 ? glm::dvec2(2 * p.third - 1, 2 * p.halfway - 1) : glm::dvec2(p.offset_x, p.offset_y);
+    const glm::dvec2 share(2 * p.across - 1, 2 * p.along - 1);
     const glm::dvec2 offset{share.x * half.x, share.y * half.y};
     const glm::dvec2 ground =
         rig.position + glm::dvec2(offset.x * cosine - offset.y * sine, offset.x * sine + offset.y * cosine);
-    const in::mesh shape = shared.target(p);
+    const in::mesh shape = target_of(p, shared);
     d.placement = laid_down(p, scene, shape, ground);
     scene.add(shape, d.placement, p.class_name, {static_cast<float>(o.reflectivity)});
 
@@ -98,7 +119,7 @@ in::image<float> recording_of(const options& o, const plan& p, const stock& shar
     const double centre = Axis == in::across_track::slant_range
                               ? in::range_geometry::slant_range(ground_range, p.altitude)
                               : ground_range;
-    const double first = (std::max)(0.0, centre - p.third * o.chip);
+    const double first = (std::max)(0.0, centre - p.across * o.chip);
     in::side_scan_rig<Axis> rig{.altitude = static_cast<float>(p.altitude),
                                 .yaw = static_cast<float>(p.rig_yaw),
                                 .ping_spacing = static_cast<float>(pixel),
@@ -109,9 +130,9 @@ in::image<float> recording_of(const options& o, const plan& p, const stock& shar
                                 .side = p.port ? in::side::port : in::side::starboard};
     // The target lies at the place, and the track beside it.
     const glm::dvec2 ground = place_of(p, shared);
-    rig.position = ground - in::ping_frame(in::ping_of(rig, 0), rig.side).world(ground_range, p.halfway * o.chip);
+    rig.position = ground - in::ping_frame(in::ping_of(rig, 0), rig.side).world(ground_range, p.along * o.chip);
     d.rig = rig.position;
-    const in::mesh shape = shared.target(p);
+    const in::mesh shape = target_of(p, shared);
     d.placement = laid_down(p, scene, shape, ground);
     scene.add(shape, d.placement, p.class_name, {static_cast<float>(o.reflectivity)});
 

@@ -31,8 +31,12 @@ class input_reader {
         } catch (const insonify::io_error& error) {
             throw insonify::io_error(option + " " + error.what());
         }
-        list_.push_back({option, std::filesystem::path(path).filename().string(), bytes.size(), sha256(bytes)});
+        add(option, path, bytes);
         return bytes;
+    }
+    /// Keeps account of what was read elsewhere.
+    void add(const std::string& option, const std::string& path, const std::string& bytes) {
+        list_.push_back({option, std::filesystem::path(path).filename().string(), bytes.size(), sha256(bytes)});
     }
 
     insonify::image<float> read_picture(const std::string& option, const std::string& path) {

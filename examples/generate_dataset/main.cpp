@@ -15,6 +15,7 @@
 #include "pictures.hpp"
 #include "record.hpp"
 #include "tables.hpp"
+#include "views.hpp"
 #include "writer.hpp"
 
 namespace {
@@ -68,7 +69,7 @@ int verify(const generator::options& o, const generator::stock& shared, insonify
     };
     for_each_index(pool, work, [&](const auto& next) {
         for (std::uint64_t i = next(); i < work.last; i = next()) {
-            if (const auto fault = generator::fault_of(root, i, true)) report(*fault);
+            if (const auto fault = generator::fault_of(root, generator::image_id(o, i), true)) report(*fault);
             bar.finished_one();
         }
     });
@@ -101,10 +102,11 @@ int generate(const generator::options& o, const generator::stock& shared, insoni
     for_each_index(pool, work, [&](const auto& next) {
         generator::writer files(into);
         for (std::uint64_t i = next(); i < work.last; i = next()) {
-            if (const auto fault = generator::fault_of(root, i, false)) {
+            const std::uint64_t id = generator::image_id(o, i);
+            if (const auto fault = generator::fault_of(root, id, false)) {
                 files.add(generator::files_of(o, i, shared));
                 ++made;
-                if (std::filesystem::exists(root / generator::record_path(i)) && ++repaired <= 100)
+                if (std::filesystem::exists(root / generator::record_path(id)) && ++repaired <= 100)
                     std::fprintf(stderr, "%s; made again\n", fault->c_str());
             }
             bar.finished_one();
@@ -131,6 +133,7 @@ int generate(const generator::options& o, const generator::stock& shared, insoni
 int main(int argc, char** argv) try {
     const generator::options o = generator::parse(argc, argv);
     const generator::stock shared(o);
+    generator::check_plan(o, shared);
     std::signal(SIGINT, request_stop);
     std::signal(SIGTERM, request_stop);
     generator::set_packing();

@@ -50,13 +50,20 @@ void take(const fs::path& root, const fs::path& from, generator::staging& into) 
 void check_complete(const fs::path& root, const json& shards) {
     const auto first = shards.at("first").get<std::uint64_t>(), count = shards.at("count").get<std::uint64_t>(),
                of = shards.at("shards").get<std::uint64_t>();
-    std::uint64_t expected = first, missing = 0;
+    std::vector<std::uint64_t> ids;  // of a plan that leaves some out
+    for (const json& run : shards.value("ids", json::array()))
+        for (auto id = run.at(0).get<std::uint64_t>(); id <= run.at(1).get<std::uint64_t>() && ids.size() < count; ++id)
+            ids.push_back(id);
+    if (shards.contains("ids") && ids.size() != count) throw io_error(root.string() + "/shards.json: is damaged");
+    std::uint64_t missing = 0;
     std::string text;
     for (std::uint64_t k = 0; k < of; ++k) {
         const generator::index_range range = generator::range_of(first, count, {k, of});
         std::uint64_t lacking = 0, example = 0;
-        for (expected = range.first; expected < range.last; ++expected)
+        for (std::uint64_t i = range.first; i < range.last; ++i) {
+            const std::uint64_t expected = ids.empty() ? i : ids[static_cast<std::size_t>(i - first)];
             if (!fs::exists(root / generator::record_path(expected)) && lacking++ == 0) example = expected;
+        }
         if (lacking > 0 && missing < 1'000'000 && text.size() < 2000)
             text += "\n  shard " + std::to_string(k) + "/" + std::to_string(of) + " lacks " + std::to_string(lacking) +
                     " images, the first is " + generator::id_of(example);

@@ -6,8 +6,9 @@
 #include "config_text.hpp"
 #include "formats.hpp"
 #include "layout.hpp"
-#include "plan.hpp"
+#include "plan_options.hpp"
 #include "values.hpp"
+#include "views.hpp"
 
 namespace generator {
 
@@ -70,7 +71,7 @@ options parsed(int argc, const char* const* argv,
     app.config_formatter(std::make_shared<strict_config>(app));
 
     std::uint64_t input_limit = examples::usual_input_limit >> 20;
-    std::string shard, target_size, aspect, tilt, burial, altitude, grazing, distance, beam;
+    std::string shard, plan, aspects, target_size, aspect, tilt, burial, altitude, grazing, distance, beam;
     const CLI::Validator target_names =
         CLI::IsMember({"cylinder", "cube", "cone", "sphere", "ship", "plane", "truncated_cone", "wedge", "tyre", "pipe",
                        "boulder", "crate", "lobster_pot"});
@@ -118,7 +119,23 @@ options parsed(int argc, const char* const* argv,
         ->check(CLI::IsMember({"sonar", "published"}))
         ->group(what);
 
+    app.add_option(
+           "--plan", plan,
+           "CSV with a line for each image or target, that gives what is drawn at random otherwise: the\n"
+           "manifest.csv of a set, which makes it again, or a table of targets (id, shape, length, width, height,\n"
+           "orientation), each shown at every aspect on every seabed")
+        ->check(CLI::ExistingFile)
+        ->group(what);
+
     const char* const scene = "Scene";
+    app.add_option("--aspects", aspects,
+                   "first:step:last or a list, degrees from the line of sight: each target at each of them; or random\n"
+                   "(recipe published from overhead: 0:10:350; otherwise random)")
+        ->group(scene);
+    app.add_option("--place", o.place,
+                   "Where a picture has its target: at one third, or anywhere (as the recipe has it)")
+        ->check(CLI::IsMember({"third", "anywhere"}))
+        ->group(scene);
     app.add_option("--visible-share", o.visible_share,
                    "Recipe sonar: share of its outline that a target shows at least, or it is drawn again (0.1)")
         ->check(number(0, 1))
@@ -142,7 +159,8 @@ options parsed(int argc, const char* const* argv,
         ->delimiter(',')
         ->check(seabed_names)
         ->group(scene);
-    app.add_option("--heightmap", o.heightmap, "PGM or PFM with heights, for the seabed `heightmap`")
+    app.add_option("--heightmap", o.heightmap,
+                   "PNG of 8 or 16 bits, PGM or PFM with heights, for the seabed `heightmap`")
         ->check(CLI::ExistingFile)
         ->group(scene);
     app.add_option("--heightmap-spacing", o.heightmap_spacing, "Metres from pixel to pixel (0.02)")
@@ -202,15 +220,21 @@ options parsed(int argc, const char* const* argv,
     try {
         app.parse(argc, argv);
         const auto given = [&](const char* name) { return !app.get_option(name)->empty(); };
+        o.input_limit = input_limit << 20;
+        if (!plan.empty()) take_plan(o, plan, given);
         if (o.is_sonar()) {
             // What only the other recipe has is refused, not left out in silence.
             for (const char* const name :
-                 {"--demo",     "--mesh",   "--seabeds",   "--heightmap", "--target-size",  "--aspect",
-                  "--tilt",     "--burial", "--mode",      "--chip",      "--altitude",     "--grazing",
-                  "--distance", "--beam",   "--intensity", "--sky",       "--reflectivity", "--reference",
-                  "--match",    "--noise",  "--colormap"})
+                 {"--demo", "--mesh",         "--heightmap", "--target-size", "--aspect",   "--tilt",    "--burial",
+                  "--mode", "--chip",         "--altitude",  "--grazing",     "--distance", "--beam",    "--intensity",
+                  "--sky",  "--reflectivity", "--reference", "--match",       "--noise",    "--colormap"})
                 if (given(name))
                     throw CLI::ValidationError(name, "belongs to --recipe published; the recipe sonar draws its own");
+            if (given("--seabeds") && !o.table)
+                throw CLI::ValidationError("--seabeds", "belongs to --recipe published, or to a --plan");
+            if (given("--aspects") && !o.table)
+                throw CLI::ValidationError("--aspects", "belongs to --recipe published, or to a --plan");
+            if (!given("--seabeds")) o.seabeds.clear();
             if (!given("--size")) o.size = 128;
             if (!given("--targets")) o.targets = {"ship", "plane"};
         } else {
@@ -226,6 +250,7 @@ options parsed(int argc, const char* const* argv,
             if (!given("--noise")) o.noise = {"seabed"};
             o.altitude = {3, 10};
         }
+        take_aspects(o, aspects);
         const auto take = [](const char* name, const std::string& text, range& into, double lowest, double highest) {
             if (!text.empty()) into = parse_range(name, text);
             if (into.low < lowest || into.high > highest)
@@ -254,7 +279,8 @@ options parsed(int argc, const char* const* argv,
         const bool needs_map = std::find(o.seabeds.begin(), o.seabeds.end(), "heightmap") != o.seabeds.end();
         if (needs_map && o.heightmap.empty())
             throw CLI::ValidationError("--seabeds", "heightmap needs --heightmap FILE");
-        if (!o.heightmap.empty() && !needs_map) o.seabeds = {"heightmap"};
+        if (!o.heightmap.empty() && !needs_map && !(o.table && o.table->has("seabed"))) o.seabeds = {"heightmap"};
+        if (o.table) count_plan(o, given);
         if (o.demo && !given("--count")) o.count = 24;
         if (!o.per_class.empty() && !given("--count")) {
             o.count = 0;
@@ -272,7 +298,6 @@ options parsed(int argc, const char* const* argv,
         if (o.shard.of > o.count)
             throw CLI::ValidationError("--shard", std::to_string(o.shard.of) + " shards are more than --count " +
                                                       std::to_string(o.count) + "; take at most one for each image");
-        o.input_limit = input_limit << 20;
         check_geometry(o);
     } catch (const CLI::ParseError& error) {
         refuse(app, error);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "../common/input_file.hpp"
+#include "plan_table.hpp"
 #include "shard.hpp"
 
 namespace generator {
@@ -26,7 +28,10 @@ struct options {
 
     // What decides pixels: pinned in the folder's config.json.
 
-    std::string recipe = "sonar";  ///< or "published"
+    std::string recipe = "sonar";             ///< or "published"
+    std::shared_ptr<const plan_table> table;  ///< of `--plan`, or null
+    std::vector<double> aspects;              ///< of each target, degrees; none: at random
+    std::string place;                        ///< of targets: "third", "anywhere", or empty, as the recipe has it
     std::uint64_t seed = 1;
     int size = 2048;
     double visible_share = 0.1;          ///< of a target's outline, recipe sonar

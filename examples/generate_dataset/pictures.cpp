@@ -4,6 +4,7 @@
 #include "../common/png_bytes.hpp"
 #include "draw.hpp"
 #include "formats.hpp"
+#include "plan_options.hpp"
 #include "record.hpp"
 #include "run_lengths.hpp"
 #include "sonar_pictures.hpp"
@@ -18,50 +19,29 @@ double degrees(double radians) {
 
 /// What was drawn from the ranges, what follows from it, and what was measured: a column of manifest.csv each. What has
 /// no meaning in this image is null.
-json parameters_of(const options& o, const plan& p, const stock& shared, const drawn& d) {
+json parameters_of(const options& o, const plan& p, const drawn& d) {
     const in::target_label& label = d.labels.targets.front();
-    const bool sonar = !o.is_overhead(), rippled = p.seabed == "ripples" || p.seabed == "mixed";
-    const auto only = [](bool known, const json& value) { return known ? value : json(); };
-    return {{"class", p.class_name},
-            {"seabed", p.seabed},
-            {"seed", o.seed},
-            {"reference", p.referenced ? static_cast<int>(p.reference) : -1},
-            {"reference_name", only(p.referenced, p.referenced ? shared.reference_name(p.reference) : "")},
-            {"target_size_m", p.size},
-            {"aspect", p.aspect},
-            {"target_x_m", d.placement.position.x},
-            {"target_y_m", d.placement.position.y},
-            {"target_z_m", d.placement.position.z},
-            {"yaw_deg", degrees(p.yaw)},
-            {"pitch_deg", degrees(p.pitch)},
-            {"roll_deg", degrees(p.roll)},
-            {"burial_m", static_cast<double>(d.placement.burial)},
-            {"rig_x_m", d.rig.x},
-            {"rig_y_m", d.rig.y},
-            {"rig_yaw_deg", degrees(p.rig_yaw)},
-            {"altitude_m", p.altitude},
-            {"mode", o.mode},
-            {"side", only(sonar, p.port ? "port" : "starboard")},
-            {"beam_deg", only(sonar, degrees(p.beam))},
-            {"noise_floor", only(sonar, p.noise)},
-            {"white", only(sonar, p.white)},
-            {"metres_per_pixel", d.known.metres_per_pixel},
-            {"left_edge_m", d.known.left_edge},
-            {"ground_range_m", d.known.ground_range},
-            {"slant_range_m", d.known.slant_range},
-            {"grazing_deg", degrees(d.known.grazing)},
-            {"aspect_deg", degrees(d.known.aspect)},
-            {"target_height_m", d.known.height},
-            {"shadow_m", d.known.shadow},
-            {"shadow_measured_m", d.known.shadow_measured},
-            {"shadow_is_cut", d.known.shadow_is_cut},
-            {"relief", only(rippled || p.seabed == "rock", p.relief)},
-            {"ripple_wavelength_m", only(rippled, p.wavelength)},
-            {"ripple_direction_deg", only(rippled, degrees(p.direction))},
-            {"seabed_seed", p.seabed_seed},
-            {"noise_seed", p.noise_seed},
-            {"target_area_px", label.area},
-            {"shadow_area_px", label.shadow_area}};
+    json parameters = columns_of_options(o);
+    parameters.update(p.values);
+    parameters.update({{"target_x_m", d.placement.position.x},
+                       {"target_y_m", d.placement.position.y},
+                       {"target_z_m", d.placement.position.z},
+                       {"burial_m", static_cast<double>(d.placement.burial)},
+                       {"rig_x_m", d.rig.x},
+                       {"rig_y_m", d.rig.y},
+                       {"metres_per_pixel", d.known.metres_per_pixel},
+                       {"left_edge_m", d.known.left_edge},
+                       {"ground_range_m", d.known.ground_range},
+                       {"slant_range_m", d.known.slant_range},
+                       {"grazing_deg", degrees(d.known.grazing)},
+                       {"aspect_deg", degrees(d.known.aspect)},
+                       {"target_height_m", d.known.height},
+                       {"shadow_m", d.known.shadow},
+                       {"shadow_measured_m", d.known.shadow_measured},
+                       {"shadow_is_cut", d.known.shadow_is_cut},
+                       {"target_area_px", label.area},
+                       {"shadow_area_px", label.shadow_area}});
+    return parameters;
 }
 
 /// What the library calls an argument, and the options that decide it.
@@ -87,9 +67,7 @@ std::string in_words_of_options(std::string message) {
     return message;
 }
 
-}  // namespace
-
-std::vector<file> files_of(const options& o, const plan& p, const stock& shared) try {
+std::vector<file> files_of_published(const options& o, const plan& p, const stock& shared) {
     in::serial_executor alone;
     const drawn d = draw(o, p, shared, alone);
     const in::target_label& label = d.labels.targets.front();
@@ -118,20 +96,39 @@ std::vector<file> files_of(const options& o, const plan& p, const stock& shared)
     record["size"] = o.size;
     record["annotations"] = {annotation(p.class_name, "target_mask", label.box, label.area, target),
                              annotation("shadow", "shadow_mask", label.shadow_box, label.shadow_area, shadow)};
-    record["parameters"] = parameters_of(o, p, shared, d);
+    record["parameters"] = parameters_of(o, p, d);
     files.push_back({record_path(p.index), sealed(record)});
     return files;
-} catch (const in::invalid_input& error) {
-    throw in::io_error("image " + std::to_string(p.index) + ": " + in_words_of_options(error.what()));
 }
 
-std::vector<file> files_of(const options& o, std::uint64_t index, const stock& shared) {
-    if (!o.is_sonar()) return files_of(o, plan_image(o, index, shared.references()), shared);
+}  // namespace
+
+std::vector<file> files_of(const options& all, std::uint64_t i, const stock& shared) {
+    const std::uint64_t index = image_id(all, i);
+    const plan_row line = all.table ? line_of_plan(all, i) : plan_row{};
+    const plan_row* const given = all.table ? &line : nullptr;
+    const std::string where = "image " + std::to_string(index) +
+                              (given ? ", --plan " + line.table + ", line " + std::to_string(line.line) : "") + ": ";
     try {
-        return files_of_sonar(o, index, class_of_image(o, index), nullptr);
-    } catch (const std::exception& error) {
-        throw in::io_error("image " + std::to_string(index) + ": " + error.what());
+        const options o = given ? with_line(all, line) : all;
+        if (o.is_sonar()) return files_of_sonar(o, index, view_of_sonar(all, i), given);
+        return files_of_published(o, plan_image(o, index, view_of(all, i), shared, given), shared);
+    } catch (const plan_error&) {
+        throw;
+    } catch (const in::invalid_input& error) {
+        throw in::io_error(where + in_words_of_options(error.what()));
+    } catch (const in::io_error& error) {
+        throw in::io_error(where + error.what());
     }
+}
+
+void check_plan(const options& o, const stock& shared) {
+    if (!o.table) return;
+    options without = o;
+    without.table = nullptr;
+    if (o.is_sonar()) return check_columns(o, known_to_sonar(without));
+    const plan example = plan_image(without, 0, shared);
+    check_columns(o, {example.values, example.choices, class_names(o)});
 }
 
 void set_packing() {

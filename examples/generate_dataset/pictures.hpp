@@ -8,12 +8,12 @@
 
 namespace generator {
 
-/// The files of an image, and last its record.
-/// @throws io_error, with the index and the options at fault, if the plan can't be drawn
-std::vector<file> files_of(const options& o, const plan& p, const stock& shared);
+/// The files of the i-th image of a set, and last its record.
+/// @throws io_error, with the image and the options or the plan's line at fault, if it can't be drawn
+std::vector<file> files_of(const options& o, std::uint64_t i, const stock& shared);
 
-/// The files of image `index` of whichever recipe.
-std::vector<file> files_of(const options& o, std::uint64_t index, const stock& shared);
+/// @throws plan_error if a line of `--plan` has a column or a value that the recipe has none of
+void check_plan(const options& o, const stock& shared);
 
 /// How PNG files are packed: to be called once, before the first.
 void set_packing();

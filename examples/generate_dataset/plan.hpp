@@ -1,12 +1,13 @@
-// What image i shows: every parameter, drawn from the seed and i alone.
+// What image i of the published recipe shows: every parameter, drawn from the seed and i alone, or given by a plan.
 #pragma once
-
-#include <insonify/core/random.hpp>
 
 #include <algorithm>
 #include <string>
 
 #include "options.hpp"
+#include "sampler.hpp"
+#include "stock.hpp"
+#include "views.hpp"
 
 namespace generator {
 
@@ -16,112 +17,138 @@ struct plan {
     bool referenced;
     std::size_t reference;  ///< which of the references, if any
 
-    double size, aspect, yaw, pitch, roll, burial;  ///< metres, -, radians, share of the height
-    double altitude, grazing, rig_yaw;              ///< metres, radians
-    double offset_x, offset_y;                      ///< of the target, in half pictures from the middle
-    double place_x, place_y;                        ///< of the rig in the world, metres
-    std::uint64_t seabed_seed, noise_seed;
+    double size;                      ///< metres: a height or diameter, of a mesh half of its largest extent
+    glm::dvec3 extents;               ///< length, width and height, metres
+    double yaw, pitch, roll, burial;  ///< radians, share of the height
+    double altitude, light, rig_yaw;  ///< metres, radians
+    double across, along;             ///< where a picture has the target, in pictures from its left and lower edges
+    double place_x, place_y;          ///< of a camera, or of a sonar's target, in the world, metres
+    std::uint32_t seabed_seed, noise_seed;
     double relief, wavelength, direction;  ///< of the seabed: in [0, 1], metres, radians
     double distance, beam;                 ///< of the target from a sonar's track, altitudes; radians
     bool port;                             ///< which side of a sonar's track it is on
-    double third, halfway;                 ///< where a chip has the target, in chips from its left and lower edges
     double noise, white;                   ///< of a sonar: what is heard in a shadow, and what is shown as white
+
+    nlohmann::ordered_json values;  ///< all of it, by the names of columns
+    std::map<std::string, std::vector<std::string>> choices;
 };
 
-/// The classes of a data set, in the order of their category numbers (from 1).
-inline std::vector<std::string> class_names(const options& o) {
-    std::vector<std::string> names = o.targets;
-    for (const std::string& mesh : o.meshes) names.push_back(mesh.substr(0, mesh.find('=')));
-    return names;
+namespace detail {
+
+inline double radians(double degrees) {
+    return insonify::numeric::to_radians(degrees);
 }
 
-/// A class and how many images of it, of `--per-class`.
-struct class_count {
-    std::string name;
-    std::uint64_t count;
-};
-inline std::vector<class_count> class_counts(const options& o) {
-    std::vector<class_count> counts;
-    for (const std::string& text : o.per_class) {
-        const std::size_t equals = text.find('=');
-        counts.push_back({text.substr(0, equals), std::stoull(text.substr(equals + 1))});
+/// All images of a target that has an id show the same one.
+inline void sample_target(sampler& s, plan& p, const options& o, const stock& shared) {
+    const auto from = [&](const char* name, const range& r) { return s.uniform(name, r.low, r.high); };
+    p.size = from("target_size_m", o.target_size);
+    const double a = from("aspect", o.aspect);
+    const glm::dvec3 usual = p.class_name == "cylinder" ? glm::dvec3(3 * a, 1, 1)
+                             : p.class_name == "cube"   ? glm::dvec3(1, a, 1)
+                             : p.class_name == "cone"   ? glm::dvec3(1.2 * a, 1.2 * a, 1.2)
+                             : p.class_name == "sphere" ? glm::dvec3(a, 1, 1)
+                                                        : 2.0 * shared.extents_of_mesh(p.class_name);
+    // A mesh may be flat.
+    p.extents.x = s.derived("length_m", (std::max)(usual.x * p.size, 1e-3));
+    p.extents.y = s.derived("width_m", (std::max)(usual.y * p.size, 1e-3));
+    p.extents.z = s.derived("height_m", (std::max)(usual.z * p.size, 1e-3));
+    p.pitch = radians(from("pitch_deg", o.tilt));
+    p.roll = radians(from("roll_deg", o.tilt));
+    p.burial = from("burial", o.burial);
+}
+
+inline void sample_reference(sampler& s, plan& p, const stock& shared, bool is_drawn) {
+    const auto count = static_cast<int>(shared.references());
+    const auto drawn = static_cast<int>(s.drawn(0, count));
+    int chosen = s.derived_whole("reference", is_drawn && count > 0 ? drawn : -1);
+    if (const std::string* const name = s.given("reference_name")) {
+        const std::optional<std::size_t> found = shared.find_reference(*name, chosen);
+        if (!found) s.refuse("reference_name", "the name of a file of --reference");
+        chosen = static_cast<int>(*found);
+    } else if (chosen >= count) {
+        s.refuse("reference", "-1, or the number of a --reference");
     }
-    return counts;
+    p.referenced = chosen >= 0;
+    p.reference = p.referenced ? static_cast<std::size_t>(chosen) : 0;
+    s.name_of("reference_name", p.referenced ? shared.reference_name(p.reference) : "");
+    if (!p.referenced) s.drop("reference_name");
 }
 
-/// What COCO's categories are, but for shadows.
-inline std::vector<std::string> category_names(const options& o) {
-    if (!o.is_sonar()) return class_names(o);
-    std::vector<std::string> names = o.targets;
-    for (const class_count& c : class_counts(o))
-        if (c.name != "empty" && std::find(names.begin(), names.end(), c.name) == names.end()) names.push_back(c.name);
-    names.push_back("clutter");
-    return names;
-}
+}  // namespace detail
 
-/// Which class an image of the sonar recipe is of: empty ones are spread evenly, targets take turns among the others.
-inline std::string class_of_image(const options& o, std::uint64_t index) {
-    const std::vector<class_count> counts = class_counts(o);
-    std::uint64_t total = 0;
-    for (const class_count& c : counts) total += c.count;
-    if (total > 0) {
-        std::uint64_t at = index % total;
-        for (const class_count& c : counts) {
-            if (at < c.count) return c.name;
-            at -= c.count;
-        }
-    }
-    const auto empties = [&](std::uint64_t images) {
-        return static_cast<std::uint64_t>(static_cast<double>(images) * o.empty);
-    };
-    if (empties(index + 1) > empties(index)) return "empty";
-    return o.targets[(index - empties(index)) % o.targets.size()];
-}
-
-/// Classes and seabeds take turns, so that every run of targets x seabeds images is balanced; the rest is random.
-/// The demonstration shows the same scenes twice: as they are, and with the look of a reference.
-inline plan plan_image(const options& o, std::uint64_t index, std::size_t references) {
-    const std::vector<std::string> classes = class_names(o);
-    const std::uint64_t scenes = classes.size() * o.seabeds.size();
-    const std::uint64_t scene = o.demo ? index % scenes : index;
-
-    insonify::random_sequence random(o.seed, 1, scene);
-    const auto from = [&](const range& r) { return random.uniform(r.low, r.high); };
-    const auto radians = [](double degrees) { return insonify::numeric::to_radians(degrees); };
-    const double full_turn = 2 * insonify::numeric::pi;
+/// @param index  of the image
+/// @param given  a line of a plan, or null
+inline plan plan_image(const options& o, std::uint64_t index, const view_of_target& view, const stock& shared,
+                       const plan_row* given) {
+    using detail::radians;
+    // The demonstration shows the same scenes twice: as they are, and with the look of a reference.
+    const std::uint64_t scenes = class_names(o).size() * (std::max<std::size_t>)(o.seabeds.size(), 1);
+    const insonify::random_sequence of_image(o.seed, 1, o.demo ? index % scenes : index);
+    sampler s(of_image, given);
+    const auto from = [&](const char* name, const range& r) { return s.uniform(name, r.low, r.high); };
     plan p{};
     p.index = index;
-    p.class_name = classes[scene % classes.size()];
-    p.seabed = o.seabeds[scene / classes.size() % o.seabeds.size()];
-    p.referenced = references > 0 && (!o.demo || index >= scenes);
-    p.reference = references > 0 ? random.below(static_cast<std::uint32_t>(references)) : 0;
-    p.size = from(o.target_size);
-    p.aspect = from(o.aspect);
-    p.yaw = random.uniform(0, full_turn);
-    p.pitch = radians(from(o.tilt));
-    p.roll = radians(from(o.tilt));
-    p.burial = from(o.burial);
-    p.altitude = from(o.altitude);
-    p.grazing = radians(from(o.grazing));
-    p.rig_yaw = random.uniform(0, full_turn);
-    // Left of the middle, so that the long shadow has room to the right.
-    p.offset_x = random.uniform(-0.4, -0.2);
-    p.offset_y = random.uniform(-0.2, 0.2);
-    p.place_x = random.uniform(-500, 500);
-    p.place_y = random.uniform(-500, 500);
-    p.seabed_seed = random.word();
-    p.noise_seed = random.word();
-    p.relief = random.uniform();
-    p.wavelength = random.uniform(0.5, 1.1);
-    p.direction = random.uniform(0, full_turn);
-    p.distance = from(o.distance);
-    p.beam = radians(from(o.beam));
-    p.port = random.uniform() < 0.5;
-    p.third = random.uniform(0.28, 0.38);
-    p.halfway = random.uniform(0.42, 0.58);
-    p.noise = random.uniform(0.003, 0.03);
-    p.white = random.uniform(4, 12);
+    p.class_name = s.name_of("class", view.class_name);
+    if (const auto known = class_names(o); std::find(known.begin(), known.end(), p.class_name) == known.end())
+        s.refuse("class", "a class of --targets or --mesh");
+    std::vector<weighted> seabeds;
+    for (const char* const name : {"ripples", "mud", "rock", "sand", "mixed", "heightmap"})
+        if (name != std::string("heightmap") || !o.heightmap.empty()) seabeds.push_back({name});
+    p.seabed = s.choice("seabed", seabeds, view.seabed);
+    const std::string target_id = s.name_of("target_id", view.target_id);
+    if (target_id.empty())
+        s.drop("target_id");
+    else
+        s.draw_from(insonify::random_sequence(o.seed, 2, target_key(target_id)));
+    detail::sample_target(s, p, o, shared);
+    s.draw_from(of_image);
+
+    const bool sonar = !o.is_overhead();
+    p.altitude = from("altitude_m", o.altitude);
+    p.light = radians(from("light_deg", o.grazing));
+    const double rig_yaw = s.uniform("rig_yaw_deg", 0, 360);
+    p.rig_yaw = radians(rig_yaw);
+    p.port = s.choice("side", {{"port"}, {"starboard"}}) == "port";
+    double yaw = s.drawn(0, 360);
+    if (const std::optional<double> aspect = aspect_of(s, view))
+        yaw = rig_yaw + *aspect + (sonar && p.port ? 180.0 : 0.0);
+    p.yaw = radians(s.derived("yaw_deg", yaw));
+    const placing place = placing_of(o);
+    p.across = from("across", place.across);
+    p.along = from("along", place.along);
+    p.place_x = s.uniform("place_x_m", -500, 500);
+    p.place_y = s.uniform("place_y_m", -500, 500);
+    p.seabed_seed = s.word("seabed_seed");
+    p.noise_seed = s.word("noise_seed");
+    p.relief = s.uniform("relief", 0, 1);
+    p.wavelength = s.uniform("ripple_wavelength_m", 0.5, 1.1);
+    p.direction = radians(s.uniform("ripple_direction_deg", 0, 360));
+    p.distance = from("distance", o.distance);
+    p.beam = radians(from("beam_deg", o.beam));
+    p.noise = s.uniform("noise_floor", 0.003, 0.03);
+    p.white = s.uniform("white", 4, 12);
+    detail::sample_reference(s, p, shared, !o.demo || index >= scenes);
+
+    // What has no meaning in this image.
+    const auto drop_unless = [&](bool has_meaning, std::initializer_list<const char*> names) {
+        if (!has_meaning)
+            for (const char* const name : names) s.drop(name);
+    };
+    const bool rippled = p.seabed == "ripples" || p.seabed == "mixed";
+    drop_unless(sonar, {"side", "distance", "beam_deg", "noise_floor", "white"});
+    drop_unless(!sonar, {"light_deg"});
+    drop_unless(rippled || p.seabed == "rock", {"relief"});
+    drop_unless(rippled, {"ripple_wavelength_m", "ripple_direction_deg"});
+    drop_unless(p.seabed != "heightmap", {"place_x_m", "place_y_m"});
+    p.values = s.values();
+    p.choices = s.choices();
     return p;
+}
+
+/// Without a plan.
+inline plan plan_image(const options& o, std::uint64_t index, const stock& shared) {
+    return plan_image(o, index, view_of(o, index), shared, nullptr);
 }
 
 }  // namespace generator

@@ -3,6 +3,7 @@
 
 #include "../common/png_bytes.hpp"
 #include "formats.hpp"
+#include "plan_options.hpp"
 #include "record.hpp"
 #include "run_lengths.hpp"
 #include "sonar_draw.hpp"
@@ -22,27 +23,35 @@ in::image<std::uint8_t> any_of(const in::image<std::uint8_t>& a, const in::image
 
 }  // namespace
 
-std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const std::string& class_name,
+known_columns known_to_sonar(const options& o) {
+    sampler s(numbers_of(o, 0, 0), nullptr);
+    std::vector<in::mesh> shapes;
+    sample_image(o, s, {object_kinds[0].name, "", "", {}}, shapes);
+    known_columns known{s.values(), s.choices(), {empty_class}};
+    for (const object_kind& k : object_kinds) known.classes.push_back(k.name);
+    return known;
+}
+
+std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const view_of_target& view,
                                  const plan_row* given) {
     in::serial_executor alone;
-    std::uint32_t attempt = 0;
-    if (given != nullptr)
-        if (const auto found = given->find("attempt"); found != given->end() && !found->second.empty())
-            attempt = static_cast<std::uint32_t>(std::strtoul(found->second.c_str(), nullptr, 10));
+    // A line that names the attempt is of an image that was drawn before.
+    const bool is_known = given != nullptr && given->find("attempt") != nullptr;
+    auto attempt = static_cast<std::uint32_t>(is_known ? given->whole("attempt", 0, 0, 1'000'000) : 0);
     sonar_plan p;
     sonar_picture d;
     json sampled;
     double shown = 1;
-    for (const std::uint32_t first = attempt;; ++attempt) {
-        sampler s(o.seed, index, attempt, given);
+    for (;; ++attempt) {
+        sampler s(numbers_of(o, index, attempt), given);
         std::vector<in::mesh> shapes;
-        p = sample_image(o, s, class_name, shapes);
+        p = sample_image(o, s, view, shapes);
         d = draw(o, p, shapes, alone);
         sampled = s.values();
         shown = 1;
         for (std::size_t i = 0; i < p.targets.size(); ++i)
             shown = std::min(shown, static_cast<double>(d.labels.targets[i].area) / std::max(d.footprint[i], 1.0));
-        if (shown >= o.visible_share || given != nullptr || attempt + 1 >= first + most_attempts) break;
+        if (shown >= o.visible_share || is_known || attempt + 1 >= most_attempts) break;
     }
     if (shown < o.visible_share)
         std::fprintf(stderr, "image %llu: its target shows %.1f %% of its outline, less than --visible-share\n",
@@ -84,8 +93,9 @@ std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const st
     add_formats(o.formats, index, d.values, files, record);
     record["size"] = o.size;
     record["annotations"] = annotations;
-    json parameters{{"recipe", "sonar"}, {"seed", o.seed}, {"attempt", attempt}};
-    for (const auto& [name, value] : sampled.items()) parameters[name] = value;
+    json parameters = columns_of_options(o);
+    parameters["attempt"] = attempt;
+    parameters.update(sampled);
     const bool any = !p.targets.empty();
     const auto known = [&](const json& value) { return any ? value : json(); };
     parameters["metres_per_pixel"] = d.metres_per_pixel;

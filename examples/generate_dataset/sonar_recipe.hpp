@@ -7,6 +7,7 @@
 #include "objects.hpp"
 #include "options.hpp"
 #include "sampler.hpp"
+#include "views.hpp"
 
 namespace generator {
 
@@ -58,15 +59,16 @@ struct sonar_plan {
 namespace detail {
 
 /// Objects are at most so many pixels wide where nothing else decides the size of a chip.
-inline placed_object sample_object(sampler& s, const std::string& prefix, const std::string& kind, bool used) {
+inline placed_object sample_object(sampler& s, const std::string& prefix, const std::string& kind, bool used,
+                                   const placing& place) {
     const auto name = [&](const char* what) { return prefix + what; };
     const object_kind* const known = kind_named(kind);
-    if (known == nullptr)
-        throw in::io_error("--plan: column " + name("kind") + " has '" + kind + "', no kind of object");
     placed_object o{};
     o.form.kind = kind;
     o.form.seed = s.word(name("form"));
     o.form.length = s.logarithmic(name("length_m"), known->shortest, known->longest);
+    if (prefix == "t1_" && s.given("t1_length_m") == nullptr && s.given("length_m") != nullptr)
+        o.form.length = s.derived("t1_length_m", s.number_or("length_m", 0));
     o.form.damage = s.uniform(name("damage"), 0, 1);
     o.yaw = s.uniform(name("yaw_rad"), 0, 2 * in::numeric::pi);
     o.pitch = s.uniform(name("pitch_rad"), -0.06, 0.06);
@@ -75,8 +77,8 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
                        on_side ? s.uniform(name("list_rad"), 0.9, 1.8) : s.uniform(name("list_rad"), -0.3, 0.3));
     o.burial = s.uniform_or_0(name("burial"), 0.3, 0.02, 0.55);
     o.reflectivity = s.logarithmic(name("reflectivity"), 0.4, 7);
-    o.across = s.uniform(name("across"), 0.28, 0.6);
-    o.along = s.uniform(name("along"), 0.34, 0.66);
+    o.across = s.uniform(name("across"), place.across.low, place.across.high);
+    o.along = s.uniform(name("along"), place.along.low, place.along.high);
     o.scour = s.uniform_or_0(name("scour"), 0.5, 0.03, 0.25);
     if (!used)
         for (const char* const what : {"form", "length_m", "damage", "yaw_rad", "pitch_rad", "on_side", "list_rad",
@@ -85,14 +87,28 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
     return o;
 }
 
+/// A mesh as wide and high as a plan says; others are as they are.
+/// @param is_first  target of a plan's line, whose size may have plain names
+inline in::mesh sized(sampler& s, const std::string& prefix, in::mesh shape, bool is_first) {
+    const glm::dvec3 size = in::bounds(shape).size();
+    const auto factor = [&](const char* plain, double as_it_is) {
+        const double given = is_first ? s.number_or(plain, as_it_is) : as_it_is;
+        return s.derived(prefix + plain, given) / as_it_is;
+    };
+    const double y = factor("width_m", size.y), z = factor("height_m", size.z);
+    if (y == 1 && z == 1) return shape;
+    return in::transformed(std::move(shape), {glm::dmat3({1, 0, 0}, {0, y, 0}, {0, 0, z}), {}});
+}
+
 /// The largest horizontal extent of a mesh, metres.
 inline double extent_of(const in::mesh& m) {
     const in::bounding_box box = in::bounds(m);
     return in::numeric::square_root(box.size().x * box.size().x + box.size().y * box.size().y);
 }
 
-inline void sample_bottom(sampler& s, sonar_plan& p, double pixel) {
-    p.bottom = s.choice("seabed", {{"sand", 0.45}, {"ripples", 0.25}, {"mud", 0.12}, {"rock", 0.04}, {"mixed", 0.12}});
+inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of_target& view) {
+    p.bottom = s.choice("seabed", {{"sand", 0.45}, {"ripples", 0.25}, {"mud", 0.12}, {"rock", 0.04}, {"mixed", 0.12}},
+                        view.seabed);
     p.bottom_seed = s.word("seabed_seed");
     p.feature = s.derived("feature_m", pixel * s.logarithmic("feature_px", 2.2, 20));
     p.steepness = s.logarithmic("steepness", 0.015, 0.09);
@@ -150,7 +166,7 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.water.waves = static_cast<float>(0.01 * p.altitude);
     p.water.seed = p.banding.seed;
 
-    p.looks = static_cast<int>(s.derived("looks", std::floor(s.logarithmic("looks_drawn", 1.2, 17))));
+    p.looks = s.derived_whole("looks", static_cast<int>(s.logarithmic("looks_drawn", 1.2, 17)));
     p.grain_across =
         (std::min)((std::max)(p.sonar.grain_across() / pixel, s.uniform_or_0("grain_across_px", 0.75, 0.3, 1.3)), 16.0);
     p.grain_along =
@@ -169,26 +185,42 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.white_share = s.uniform("white_share", 0, 0.03);
     // Waterfalls run up or down the screen, charts any way.
     const int turned = s.whole("quarter_turns", 0, 7);
-    p.turn = static_cast<int>(s.derived("turn", s.chance("is_chart", 0.6) ? turned : turned / 2 * 2));
+    p.turn = s.derived_whole("turn", s.chance("is_chart", 0.6) ? turned : turned / 2 * 2);
 }
 
 }  // namespace detail
 
-/// What image `index` shows.
+/// The random numbers of one of several draws of an image.
+inline in::random_sequence numbers_of(const options& o, std::uint64_t index, std::uint32_t attempt) {
+    return in::random_sequence(o.seed, 0x736F6E00u + attempt, index);
+}
+
+/// What an image shows.
+/// @param view    what no plan gives
 /// @param shapes  becomes the targets' meshes, in their own frames
-inline sonar_plan sample_image(const options& o, sampler& s, const std::string& class_name,
+inline sonar_plan sample_image(const options& o, sampler& s, const view_of_target& view,
                                std::vector<in::mesh>& shapes) {
     sonar_plan p{};
-    p.class_name = s.name_of("class", class_name);
+    p.class_name = s.name_of("class", view.class_name);
     const bool empty = p.class_name == empty_class;
+    if (!empty && kind_named(p.class_name) == nullptr) s.refuse("class", "empty, or a kind of object");
+    const std::string target_id = s.name_of("target_id", view.target_id);
+    if (target_id.empty()) s.drop("target_id");
     const int more = s.choice("targets", {{"1", 0.9}, {"2", 0.07}, {"3", 0.03}})[0] - '0';
     for (int i = 0; i < most_targets; ++i) {
         const std::string prefix = "t" + std::to_string(i + 1) + "_";
         const bool used = !empty && i < more;
         const std::string kind = s.name_of(prefix + "kind", empty ? "boulder" : p.class_name);
-        placed_object t = detail::sample_object(s, prefix, kind, used);
+        if (kind != (empty ? "boulder" : p.class_name)) s.refuse(prefix + "kind", "the image's class");
+        // All images of a target that has an id show the same one.
+        const bool is_shared = used && i == 0 && !target_id.empty();
+        in::random_sequence of_image(0);
+        if (is_shared) of_image = s.draw_from(in::random_sequence(o.seed, 0x74617200u, target_key(target_id)));
+        placed_object t = detail::sample_object(s, prefix, kind, used, placing_of(o));
+        if (is_shared) s.draw_from(of_image);
         if (!used) s.drop(prefix + "kind");
-        if (used) p.targets.push_back(t), shapes.push_back(mesh_of(t.form));
+        if (used) p.targets.push_back(t), shapes.push_back(detail::sized(s, prefix, mesh_of(t.form), i == 0));
+        if (!used) s.drop(prefix + "width_m"), s.drop(prefix + "height_m");
     }
 
     // The chip is cut around the first target, or as large as one of any size would be.
@@ -197,12 +229,16 @@ inline sonar_plan sample_image(const options& o, sampler& s, const std::string& 
     const double pixel = p.chip / o.size;
 
     // Sonars that reach as far as the chip is wide; the finest ones are not used for the largest chips.
-    std::vector<weighted> fit;
-    for (const in::instrument& i : in::instruments::all)
-        if (static_cast<double>(i.range) > 1.15 * p.chip && static_cast<double>(i.range) < 60 * p.chip)
-            fit.push_back({std::string(i.name)});
-    if (fit.empty()) fit.push_back({p.chip > 20 ? "side_scan_450" : "side_scan_1800"});
-    p.sonar = in::instrument_named(s.choice("sonar", fit));
+    std::vector<weighted> sonars;
+    bool any_fits = false;
+    for (const in::instrument& i : in::instruments::all) {
+        const double range = static_cast<double>(i.range);
+        const bool fits = range > 1.15 * p.chip && range < 60 * p.chip;
+        sonars.push_back({std::string(i.name), fits ? 1.0 : 0.0});
+        any_fits = any_fits || fits;
+    }
+    const std::string otherwise = any_fits ? "" : p.chip > 20 ? "side_scan_450" : "side_scan_1800";
+    p.sonar = in::instrument_named(s.choice("sonar", sonars, otherwise));
     // Nobody shows pixels much finer than the beam.
     const double sharp = p.sonar.is_synthetic_aperture() ? 1e9 : 5 * pixel / static_cast<double>(p.sonar.beam);
     const double reach = (std::max)((std::min)(static_cast<double>(p.sonar.range), sharp), 1.3 * p.chip);
@@ -219,7 +255,11 @@ inline sonar_plan sample_image(const options& o, sampler& s, const std::string& 
     p.place_y = s.uniform("place_y_m", -500, 500);
     p.port = s.chance("port", 0.5);
     p.ground_range = s.chance("ground_range", 0.3);
-    detail::sample_bottom(s, p, pixel);
+    if (const auto aspect = aspect_of(s, view); aspect && !p.targets.empty()) {
+        const double line_of_sight = p.rig_yaw + (p.port ? in::numeric::pi : 0);
+        p.targets.front().yaw = s.derived("t1_yaw_rad", line_of_sight + in::numeric::to_radians(*aspect));
+    }
+    detail::sample_bottom(s, p, pixel, view);
     detail::sample_look(s, p, pixel, slant);
     return p;
 }

@@ -4,9 +4,10 @@
 #include <insonify/insonify.hpp>
 
 #include <map>
+#include <optional>
 
 #include "inputs.hpp"
-#include "plan.hpp"
+#include "options.hpp"
 
 namespace generator {
 
@@ -37,29 +38,37 @@ class stock {
             names_.push_back(std::filesystem::path(path).filename().string());
             references_.push_back(in::distribution_of(with_values(reader.read_picture("--reference", path), path)));
         }
+        if (o.table) reader.add("--plan", o.table->name(), o.table->text());
         inputs_ = std::move(reader).list();
-        if (references_.empty() && o.demo) {
-            names_.push_back("");
+        drawn_references_ = references_.size();
+        // What the demonstration matches with is there for plans of it, too.
+        const bool demo_alone = references_.empty() && o.demo;
+        if (demo_alone || (o.table && o.table->has("reference_name"))) {
+            names_.push_back("made_up");
             references_.push_back(in::distribution_of(made_up_reference()));
+            if (demo_alone) drawn_references_ = 1;
         }
     }
 
-    std::size_t references() const { return references_.size(); }
+    /// How many references there are to choose from.
+    std::size_t references() const { return drawn_references_; }
     const in::distribution& reference(std::size_t i) const { return references_[i]; }
     const std::string& reference_name(std::size_t i) const { return names_[i]; }
     const in::seabed::heightfield& heightmap() const { return heightmap_; }
     const std::vector<input>& inputs() const { return inputs_; }
 
-    /// The target of a plan in its own frame, of the size that the plan says.
-    in::mesh target(const plan& p) const {
-        const auto s = static_cast<float>(p.size), a = static_cast<float>(p.aspect);
-        if (p.class_name == "cylinder") return to_mesh(in::cylinder{.radius = s / 2, .length = 3 * s * a});
-        if (p.class_name == "cube") return to_mesh(in::cube{.size = {s, s * a, s}});
-        if (p.class_name == "cone") return to_mesh(in::cone{.radius = 0.6f * s * a, .height = 1.2f * s});
-        if (p.class_name == "sphere") return to_mesh(in::sphere{.radius = s / 2, .aspect = {a, 1, 1}});
-        const in::mesh& unit = meshes_.at(p.class_name);
-        return in::transformed(unit, {glm::dmat3(2 * p.size), {}});
+    /// A reference by its name, that with the number if there are several.
+    std::optional<std::size_t> find_reference(const std::string& name, int number) const {
+        const auto n = static_cast<std::size_t>(number);
+        if (number >= 0 && n < names_.size() && names_[n] == name) return n;
+        const auto found = std::find(names_.begin(), names_.end(), name);
+        if (found == names_.end()) return std::nullopt;
+        return static_cast<std::size_t>(found - names_.begin());
     }
+
+    /// The mesh of a class, its middle at the origin, its largest extent 1.
+    const in::mesh& unit_mesh(const std::string& class_name) const { return meshes_.at(class_name); }
+    glm::dvec3 extents_of_mesh(const std::string& class_name) const { return in::bounds(unit_mesh(class_name)).size(); }
 
   private:
     static bool has_area(const in::mesh& m) {
@@ -105,6 +114,7 @@ class stock {
     in::seabed::heightfield heightmap_;
     std::vector<in::distribution> references_;
     std::vector<std::string> names_;  ///< of the references
+    std::size_t drawn_references_ = 0;
     std::vector<input> inputs_;
 };
 

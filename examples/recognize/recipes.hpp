@@ -50,8 +50,9 @@ inline std::vector<recipe> recipes() {
 /// What generate_dataset would do with the recipe's command line, for one class.
 /// @param references  folders of pictures to match histograms with, for recipes that do
 inline generator::options options_of(const recipe& r, std::size_t kind, const std::vector<std::string>& references) {
-    std::vector<std::string> words{"generate_dataset", "--recipe", "published", "--out", "-", "--chip", "5",
-                                   "--pixels",         "128",      "--burial",  "0:0.3"};
+    std::vector<std::string> words{
+        "generate_dataset", "--recipe", "published", "--out", "-",        "--aspects", "random",
+        "--chip",           "5",        "--pixels",  "128",   "--burial", "0:0.3"};
     words.insert(words.end(), objects[kind].begin(), objects[kind].end());
     words.insert(words.end(), r.arguments.begin(), r.arguments.end());
     if (r.needs_references && !references.empty()) {
@@ -83,7 +84,7 @@ class artist {
         pool_.bulk(wanted.size(), [&](std::size_t i) {
             const auto [kind, number] = wanted[i];
             in::serial_executor alone;
-            const generator::plan p = generator::plan_image(of_class[kind], number, shared_.references());
+            const generator::plan p = generator::plan_image(of_class[kind], number, shared_);
             set[i] = {generator::draw(of_class[kind], p, shared_, alone).gray, kind};
         });
         return set;

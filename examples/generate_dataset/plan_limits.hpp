@@ -1,0 +1,82 @@
+// What a number of a plan may be: wide enough for every sea, narrow enough that each scene can be drawn.
+#pragma once
+
+#include <string_view>
+
+namespace generator {
+
+struct limits {
+    double low, high;
+};
+
+/// By the name of the column, or by how it ends.
+constexpr limits limits_of(std::string_view column) {
+    struct rule {
+        std::string_view ending;
+        limits within;
+    };
+    constexpr rule rules[] = {
+        // What is counted.
+        {"clutter", {0, 1000}},
+        {"debris", {0, 1000}},
+        {"looks", {1, 1000}},
+        {"quarter_turns", {0, 7}},
+        {"surface_return", {0, 1000}},
+        {"turn", {0, 7}},
+        {"trawls", {0, 100}},
+        {"fill", {0.01, 100}},
+        {"reference", {-1, 1e9}},
+        // Sizes, and where things lie.
+        {"chip_m", {0.01, 1e4}},
+        {"place_x_m", {-1e6, 1e6}},
+        {"place_y_m", {-1e6, 1e6}},
+        {"first_range_m", {0, 1e5}},
+        {"altitude_m", {0.01, 1e4}},
+        {"distance", {0, 1e3}},
+        {"target_size_m", {1e-3, 1e3}},
+        {"length_m", {1e-3, 1e3}},
+        {"width_m", {1e-3, 1e3}},
+        {"height_m", {1e-3, 1e3}},
+        {"wavelength_m", {1e-2, 1e3}},
+        {"feature_m", {1e-3, 1e4}},
+        {"pulse_m", {0, 1e3}},
+        {"clutter_size_m", {1e-3, 1e3}},
+        {"patch_size_m", {1e-3, 1e5}},
+        {"_m", {1e-4, 1e5}},
+        {"_px", {0, 1e5}},
+        {"across", {-1, 2}},
+        {"along", {-1, 2}},
+        // Shares.
+        {"damage", {0, 1}},
+        {"burial", {0, 0.95}},
+        {"scour", {0, 1}},
+        {"cover", {0, 1}},
+        {"relief", {0, 1}},
+        {"share", {0, 1}},
+        // Angles.
+        {"light_deg", {0.01, 90}},
+        {"beam_deg", {1e-3, 20}},
+        {"beam_rad", {1e-6, 1}},
+        {"grazing_deg", {0.01, 90}},
+        {"_deg", {-1e4, 1e4}},
+        {"_rad", {-1e3, 1e3}},
+        // Levels and strengths.
+        {"_db", {-100, 100}},
+        {"reflectivity", {0, 1e6}},
+        {"aspect", {1e-2, 1e2}},
+        {"steepness", {0, 1}},
+        {"swell", {0, 1}},
+        {"roughness", {0, 1}},
+        {"disorder", {0, 1}},
+        {"facets", {0, 100}},
+        {"facet_slope", {0.01, 1}},
+        {"white", {1e-3, 1e6}},
+        {"exponent", {0.01, 10}},
+    };
+    for (const rule& r : rules)
+        if (column.size() >= r.ending.size() && column.substr(column.size() - r.ending.size()) == r.ending)
+            return r.within;
+    return {-1e6, 1e6};
+}
+
+}  // namespace generator

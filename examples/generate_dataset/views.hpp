@@ -1,0 +1,143 @@
+// Which target an image shows, from which side, and on which seabed: of a plan's targets each at every aspect on every
+// seabed; without a plan, classes and seabeds take turns.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "options.hpp"
+
+namespace generator {
+
+/// The classes of a data set, in the order of their category numbers (from 1).
+inline std::vector<std::string> class_names(const options& o) {
+    std::vector<std::string> names = o.targets;
+    for (const std::string& mesh : o.meshes) names.push_back(mesh.substr(0, mesh.find('=')));
+    return names;
+}
+
+/// A class and how many images of it, of `--per-class`.
+struct class_count {
+    std::string name;
+    std::uint64_t count;
+};
+inline std::vector<class_count> class_counts(const options& o) {
+    std::vector<class_count> counts;
+    for (const std::string& text : o.per_class) {
+        const std::size_t equals = text.find('=');
+        counts.push_back({text.substr(0, equals), std::stoull(text.substr(equals + 1))});
+    }
+    return counts;
+}
+
+/// What COCO's categories are, but for shadows.
+inline std::vector<std::string> category_names(const options& o) {
+    std::vector<std::string> names = o.table ? o.table->classes() : o.is_sonar() ? o.targets : class_names(o);
+    const auto add = [&](const std::string& name) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    };
+    std::erase(names, "empty");
+    for (const class_count& c : class_counts(o))
+        if (c.name != "empty") add(c.name);
+    if (o.is_sonar()) add("clutter");
+    return names;
+}
+
+struct view_of_target {
+    std::string class_name;        ///< empty: a plan's line names it
+    std::string seabed;            ///< empty: drawn, or named by a plan's line
+    std::string target_id;         ///< empty: no other image shows this target
+    std::optional<double> aspect;  ///< degrees
+};
+
+/// Images that show the same target of a plan one after the other.
+inline std::uint64_t views_of_each(const options& o) {
+    if (!o.table || o.table->has_ids()) return 1;
+    return (std::max<std::uint64_t>)(o.aspects.size(), 1) * (std::max<std::uint64_t>)(o.seabeds.size(), 1);
+}
+
+/// The i-th image of a set has this id.
+inline std::uint64_t image_id(const options& o, std::uint64_t i) {
+    return o.table && o.table->has_ids() ? o.table->id(static_cast<std::size_t>(i)) : i;
+}
+
+/// The line of the plan that the i-th image is of.
+inline plan_row line_of_plan(const options& o, std::uint64_t i) {
+    return o.table->row(static_cast<std::size_t>(i / views_of_each(o)));
+}
+
+/// How often a class was there before among images of `--per-class`, or among turns.
+struct turn_of_class {
+    std::size_t of_class;
+    std::uint64_t before;
+};
+inline turn_of_class turn_at(const options& o, const std::vector<std::string>& classes, std::uint64_t i) {
+    const std::vector<class_count> counts = class_counts(o);
+    std::uint64_t total = 0;
+    for (const class_count& c : counts) total += c.count;
+    if (total == 0) return {static_cast<std::size_t>(i % classes.size()), i / classes.size()};
+    std::uint64_t at = i % total;
+    for (const class_count& c : counts) {
+        if (at < c.count) {
+            const auto found = std::find(classes.begin(), classes.end(), c.name);
+            return {static_cast<std::size_t>(found - classes.begin()), i / total * c.count + at};
+        }
+        at -= c.count;
+    }
+    return {};
+}
+
+/// Of the i-th image of the published recipe.
+inline view_of_target view_of(const options& o, std::uint64_t i) {
+    const std::uint64_t aspects = (std::max<std::uint64_t>)(o.aspects.size(), 1);
+    const auto aspect = [&](std::uint64_t n) {
+        return o.aspects.empty() ? std::nullopt : std::optional(o.aspects[static_cast<std::size_t>(n % aspects)]);
+    };
+    const std::uint64_t seabeds = (std::max<std::uint64_t>)(o.seabeds.size(), 1);
+    const auto seabed = [&](std::uint64_t n) {
+        return o.seabeds.empty() ? std::string() : o.seabeds[static_cast<std::size_t>(n % seabeds)];
+    };
+    if (o.table) return {"", seabed(i / aspects), "", o.table->has_ids() ? std::nullopt : aspect(i)};
+    const std::vector<std::string> classes = class_names(o);
+    const std::uint64_t scene = o.demo ? i % (classes.size() * seabeds) : i;
+    const auto [of_class, before] = turn_at(o, classes, scene);
+    view_of_target v{classes[of_class], seabed(before), "", aspect(before / seabeds)};
+    if (v.aspect) v.target_id = std::to_string(before / (seabeds * aspects) * classes.size() + of_class + 1);
+    return v;
+}
+
+/// Of the i-th image of the sonar recipe: empty ones are spread evenly, targets take turns among the others.
+inline view_of_target view_of_sonar(const options& o, std::uint64_t i) {
+    if (o.table) return view_of(o, i);
+    if (!o.per_class.empty()) {
+        std::vector<std::string> classes;
+        for (const class_count& c : class_counts(o)) classes.push_back(c.name);
+        return {classes[turn_at(o, classes, i).of_class], "", "", {}};
+    }
+    const auto empties = [&](std::uint64_t images) {
+        return static_cast<std::uint64_t>(static_cast<double>(images) * o.empty);
+    };
+    if (empties(i + 1) > empties(i)) return {"empty", "", "", {}};
+    return {o.targets[(i - empties(i)) % o.targets.size()], "", "", {}};
+}
+
+/// Where pictures have their target, in pictures from the left and from the lower edge.
+struct placing {
+    range across, along;
+};
+inline placing placing_of(const options& o) {
+    if (o.place == "anywhere") return {{0.03, 0.97}, {0.03, 0.97}};
+    // The long shadow has room to the right.
+    if (o.place == "third" || !o.is_sonar()) return {{0.28, 0.38}, {0.42, 0.58}};
+    return {{0.28, 0.6}, {0.34, 0.66}};
+}
+
+/// Numbers a target by its name, so that lines of other targets change nothing of it (FNV-1a).
+inline std::uint64_t target_key(const std::string& id) {
+    std::uint64_t key = 0xCBF29CE484222325u;
+    for (const char c : id) key = (key ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
+    return key;
+}
+
+}  // namespace generator
