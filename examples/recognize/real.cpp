@@ -1,0 +1,86 @@
+// recognize_real: what a generated set teaches about real side-scan images. See --help, and tools/recognize --real DIR.
+#include "real_report.hpp"
+#include <CLI/CLI.hpp>
+
+namespace {
+
+using namespace recognition;
+
+struct options {
+    std::string out, real, generated;
+    std::vector<std::size_t> counts{0, 20, 80, 320};
+    std::size_t seeds = 10;
+    int threads = 0;
+};
+
+options parse(int argc, char** argv) {
+    options o;
+    CLI::App app{
+        "Object or bare bottom, and plane, ship or bare bottom, on real images: what some real images teach, with a\n"
+        "generated set and without, by a linear support vector machine and a forest of random trees.",
+        "recognize_real"};
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    app.add_option("--out", o.out, "Folder for real.md, roc.svg, curves.svg and three.svg; made if need be")
+        ->required();
+    app.add_option("--real", o.real, "Folder with plane/, ship/ and seafloor/")->required();
+    app.add_option("--generated", o.generated, "Set of generate_dataset with the classes plane, ship and empty");
+    app.add_option("--counts", o.counts, "How many real images teach, half of them bare (0,20,80,320)")->delimiter(',');
+    app.add_option("--seeds", o.seeds, "Divisions of the real images (10)")->check(CLI::Range(1, 1000));
+    app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a figure");
+    try {
+        app.parse(argc, argv);
+        for (const std::size_t count : o.counts)
+            if (count % 2 != 0) throw CLI::ValidationError("--counts", std::to_string(count) + " is odd");
+    } catch (const CLI::ParseError& error) {
+        std::exit(app.exit(error) == 0 ? 0 : 2);
+    }
+    return o;
+}
+
+collection read(const std::string& root, const std::array<std::string, 3>& folders) {
+    collection all;
+    for (std::size_t k = 0; k < 3; ++k) all.of_class[k] = chips_in(root + "/" + folders[k], real_classes[k]);
+    return all;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const options o = parse(argc, argv);
+    cv::setNumThreads(1);
+    const collection real = read(o.real, real_classes);
+    const collection made =
+        o.generated.empty() ? collection{} : read(o.generated + "/images", {"plane", "ship", "empty"});
+    const std::size_t most = *std::max_element(o.counts.begin(), o.counts.end());
+    const std::size_t bare = real.of_class[2].size();
+    if (most / 2 >= real.objects() || most / 2 >= bare)
+        throw insonify::io_error("--counts " + std::to_string(most) + ": " + o.real + " has " +
+                                 std::to_string(real.objects()) + " objects and " + std::to_string(bare) +
+                                 " bare bottoms, of which some are left to test on");
+
+    std::vector<std::pair<std::size_t, bool>> wanted;
+    for (const std::size_t count : o.counts)
+        for (const bool generated : {false, true})
+            if (count > 0 ? !generated || !o.generated.empty() : generated && !o.generated.empty())
+                wanted.emplace_back(count, generated);
+    std::vector<lesson> lessons(wanted.size());
+    insonify::thread_pool pool(o.threads);
+    pool.bulk(wanted.size(), [&](std::size_t i) {
+        lessons[i] = learn(real, made, wanted[i].first, wanted[i].second, most, o.seeds);
+        std::printf("%s: %.3f\n", lessons[i].name().c_str(), spread(lessons[i].area[lessons[i].better()]).mean);
+        std::fflush(stdout);
+    });
+    const double apart = o.generated.empty() ? -1 : told_apart(real.of_class[2], made.of_class[2]);
+
+    const std::string report = real_markdown(lessons, o.seeds, real.objects() + bare - most, apart);
+    std::filesystem::create_directories(o.out);
+    insonify::write_file(o.out + "/real.md", report);
+    insonify::write_file(o.out + "/roc.svg", roc_svg(lessons));
+    insonify::write_file(o.out + "/curves.svg", curves_svg(lessons));
+    insonify::write_file(o.out + "/three.svg", confusion_svg(lessons));
+    std::printf("\n%s", report.c_str());
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "recognize_real: %s\n", error.what());
+    return 1;
+}
