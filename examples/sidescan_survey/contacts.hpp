@@ -1,6 +1,7 @@
 // Contacts: where a target and its shadow are in the waterfall, and whether they are where geometry says.
 #pragma once
 
+#include "../common/longest_shadow.hpp"
 #include "sonar.hpp"
 #include "streams.hpp"
 
@@ -8,10 +9,8 @@ namespace survey {
 
 /// Where a target is in the waterfall: a box that grows until the target is out of sight.
 struct contact {
-    std::string class_name;
+    in::target target;
     in::side side;
-    glm::dvec3 position;
-    double yaw, height;
     std::int64_t first_ping = 0, last_ping = -1;
     int first_bin = 1 << 30, last_bin = -1, shadow_end = -1;
     std::int64_t area = 0, shadow_area = 0;
@@ -25,7 +24,8 @@ class contact_list {
     explicit contact_list(const std::string& path)
         : table_(path,
                  "target,class,side,first_ping,last_ping,first_bin,last_bin,shadow_end_bin,target_px,shadow_px,x_m,y_m,"
-                 "height_m,range_m,altitude_m,grazing_deg,aspect_deg,shadow_theory_m,shadow_measured_m") {}
+                 "height_m,range_m,altitude_m,grazing_deg,aspect_deg,shadow_theory_m,shadow_measured_m,shadow_is_cut,"
+                 "target_is_cut") {}
 
     /// Looks through a block for targets and their shadows.
     void look_at(const block& b, const sight& in_sight) {
@@ -50,13 +50,14 @@ class contact_list {
     }
 
     /// Writes and forgets contacts that have not been seen since a ping.
-    void close(std::int64_t before, const in::side_scan& rig) {
+    /// @param is_end  the survey ends there
+    void close(std::int64_t before, const in::side_scan& rig, bool is_end = false) {
         for (auto at = open_.begin(); at != open_.end();) {
             if (at->second.last_ping >= before) {
                 ++at;
                 continue;
             }
-            write(at->first.first, at->second, rig);
+            write(at->first.first, at->second, rig, is_end && at->second.last_ping + 1 == before);
             at = open_.erase(at);
         }
     }
@@ -67,37 +68,42 @@ class contact_list {
         contact& c = entry->second;
         if (is_new) {
             const auto instance = std::find(in_sight.numbers.begin() + 1, in_sight.numbers.end(), number);
-            const in::target& t =
-                in_sight.scene.targets[static_cast<std::size_t>(instance - in_sight.numbers.begin()) - 1];
-            c = {t.class_name, side, t.placement.position, static_cast<double>(t.placement.yaw), -1e30, at.number};
-            const in::affine place = in::to_world(t.placement);
-            for (const glm::vec3& v : t.shape->positions)
-                c.height = (std::max)(c.height, in::transform_point(place, v).z);
+            c = {in_sight.scene.targets[static_cast<std::size_t>(instance - in_sight.numbers.begin()) - 1], side,
+                 at.number};
         }
         c.last_ping = at.number;
-        const double along = in::ping_frame(at.at, side)(c.position).y;
+        const double along = in::ping_frame(at.at, side)(c.target.placement.position).y;
         if (along * along < c.closest_along) c.closest_along = along * along, c.closest = at;
         return c;
     }
 
-    void write(std::uint16_t target, const contact& c, const in::side_scan& rig) {
+    void write(std::uint16_t target, const contact& c, const in::side_scan& rig, bool at_the_end) {
         if (c.area + c.shadow_area == 0) return;
         namespace geometry = in::range_geometry;
         const double altitude = c.closest.at.position.z;
-        const double ground = in::ping_frame(c.closest.at, c.side)(c.position).x;
-        const double turn = 2 * in::numeric::pi, off = (c.yaw - c.closest.at.yaw) / turn;
+        const in::ping_frame frame(c.closest.at, c.side);
+        const glm::dvec3& position = c.target.placement.position;
+        const double ground = frame(position).x;
+        const double turn = 2 * in::numeric::pi;
+        const double off = (static_cast<double>(c.target.placement.yaw) - c.closest.at.yaw) / turn;
         const double aspect = turn * (off - static_cast<double>(in::numeric::floor_to_int(off)));
-        const double echo = geometry::slant_range(ground, altitude, c.height);
-        const double measured = c.shadow_end < 0 ? 0 : (c.shadow_end + 1) * rig.bin() - echo;
-        table_.line(std::to_string(target) + "," + c.class_name + (c.side == in::side::port ? ",port" : ",starboard") +
-                    "," + std::to_string(c.first_ping) + "," + std::to_string(c.last_ping) +
-                    format(",%d,%d,%d", c.first_bin, c.last_bin, c.shadow_end) + "," + std::to_string(c.area) + "," +
-                    std::to_string(c.shadow_area) +
-                    format(",%.3f,%.3f,%.3f,%.3f,%.3f,%.2f,%.1f,%.3f,%.3f", c.position.x, c.position.y, c.height,
+        double farthest = 0;  // slant range of any vertex
+        const examples::longest_shadow shadow = examples::shadow_of(
+            c.target, frame, altitude,
+            [&](const glm::dvec3& v) { farthest = (std::max)(farthest, geometry::slant_range(v.x, altitude, v.z)); });
+        // From the echo of what casts the tip to the tip.
+        const double measured = c.shadow_end < 0 ? 0 : (c.shadow_end + 1) * rig.bin() - shadow.slant_range;
+        const bool at_an_end = at_the_end || c.first_ping == 0;
+        table_.line(std::to_string(target) + "," + c.target.class_name +
+                    (c.side == in::side::port ? ",port" : ",starboard") + "," + std::to_string(c.first_ping) + "," +
+                    std::to_string(c.last_ping) + format(",%d,%d,%d", c.first_bin, c.last_bin, c.shadow_end) + "," +
+                    std::to_string(c.area) + "," + std::to_string(c.shadow_area) +
+                    format(",%.3f,%.3f,%.3f,%.3f,%.3f,%.2f,%.1f,%.3f,%.3f", position.x, position.y, shadow.height,
                            geometry::slant_range(ground, altitude), altitude,
                            in::numeric::to_degrees(geometry::grazing_angle(ground, altitude)),
-                           in::numeric::to_degrees(aspect), geometry::slant_shadow_length(ground, altitude, c.height),
-                           measured));
+                           in::numeric::to_degrees(aspect), shadow.slant_length(altitude), measured) +
+                    (c.shadow_end + 1 >= rig.bins || at_an_end ? ",true" : ",false") +
+                    (farthest > static_cast<double>(rig.range) || at_an_end ? ",true" : ",false"));
     }
 
     std::map<std::pair<std::uint16_t, in::side>, contact> open_;

@@ -39,7 +39,7 @@ class logbook {
     }
 
     void finish(std::int64_t total, const in::side_scan& rig) {
-        contacts_.close(total, rig);
+        contacts_.close(total, rig, true);
         pages_.finish();
         in::write_png(folder_ + "/map.png", map_.picture());
     }

@@ -1,0 +1,42 @@
+// How far a target's shadow reaches on a level bottom, from its vertices: the closed form that measured shadows are
+// compared with.
+#pragma once
+
+#include <insonify/insonify.hpp>
+
+namespace examples {
+
+/// Of the vertex whose shadow reaches farthest. Metres, from the sonar.
+struct longest_shadow {
+    double tip = 0;                            ///< ground range where the shadow ends
+    double ground_range = 0, slant_range = 0;  ///< of the vertex
+    double height = -1e30;                     ///< of the target's highest point above the datum
+
+    /// What the vertex hides, along slant ranges.
+    double slant_length(double altitude) const {
+        return insonify::range_geometry::slant_range(tip, altitude) - slant_range;
+    }
+};
+
+/// @param visit  is called with each vertex as the ping sees it: across and along the track, and up
+template <class Visit>
+longest_shadow shadow_of(const insonify::target& t, const insonify::ping_frame& frame, double altitude,
+                         const Visit& visit) {
+    namespace geometry = insonify::range_geometry;
+    const insonify::affine to_world = insonify::to_world(t.placement);
+    longest_shadow s;
+    for (const glm::vec3& v : t.shape->positions) {
+        const glm::dvec3 world = insonify::transform_point(to_world, v);
+        const glm::dvec2 across_along(frame(world));
+        visit(glm::dvec3(across_along, world.z));
+        s.height = (std::max)(s.height, world.z);
+        const double tip = geometry::shadow_tip(across_along.x, altitude, world.z);
+        if (!(tip > s.tip)) continue;
+        s.tip = tip;
+        s.ground_range = across_along.x;
+        s.slant_range = geometry::slant_range(across_along.x, altitude, world.z);
+    }
+    return s;
+}
+
+}  // namespace examples
