@@ -39,8 +39,14 @@ bool is_measured(const std::string& column) {
 
 /// What says which image, target and class a line is of.
 bool is_bookkeeping(const std::string& column) {
-    for (const char* const name : {"index", "class", "target_id", "recipe", "categories", "aspect_deg",
-                                   "orientation_deg", "length_m", "width_m", "height_m", "seabed", "attempt"})
+    for (const char* const name : {"index", "class", "target_id", "recipe", "categories", "seabed", "attempt"})
+        if (column == name) return true;
+    return false;
+}
+
+/// A target's size and heading, by the names that they have in tables of targets.
+bool is_of_target(const std::string& column) {
+    for (const char* const name : {"aspect_deg", "orientation_deg", "length_m", "width_m", "height_m"})
         if (column == name) return true;
     return false;
 }
@@ -122,6 +128,10 @@ void check_columns(const options& o, const known_columns& known) {
     for (const std::string& column : table.columns()) {
         if (const auto choice = known.choices.find(column); choice != known.choices.end()) lists.insert(*choice);
         if (column.empty() || is_measured(column) || is_bookkeeping(column) || of_options.contains(column)) continue;
+        if (is_of_target(column)) {
+            numbers.push_back(column);
+            continue;
+        }
         if (!known.examples.contains(column))
             throw plan_error("--plan " + table.name() + ": line 1: recipe " + o.recipe + " has no column '" + column +
                              "'; docs/dataset.md lists the columns");
@@ -135,7 +145,7 @@ void check_columns(const options& o, const known_columns& known) {
             const limits within = limits_of(column);
             const bool is_word = column.ends_with("_seed") || column.ends_with("_form");
             const double value = row.number(column, 0, is_word ? 0 : within.low, is_word ? 4294967295.0 : within.high);
-            if (known.examples[column].is_number_integer() && value != std::floor(value))
+            if (!is_of_target(column) && known.examples[column].is_number_integer() && value != std::floor(value))
                 row.refuse(column, "a whole number");
         }
         for (const std::string& column : kinds)
