@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
     std::printf("  frame, shadows          %7.1f ms\n", frame_ms(render_options<shadow::exact, no_labels>{}));
     std::printf("  frame, shadows, labels  %7.1f ms\n", frame_ms(render_options<>{}));
     std::printf("    without a context     %7.1f ms\n",
-                median_ms([&] { in::render(scene, rig, render_options<>{.cells = cells}, pool); }));
+                median_ms([&] { in::render(scene, rig, render_options<>{.cell = side / cells}, pool); }));
     std::printf("  frame with labels, shadows by a map / exact\n");
     const auto by_policy = [&](const char* bottom_name) {
         std::printf("    %-8s %7.1f / %.1f ms\n", bottom_name, frame_ms(render_options<shadow::map>{}),
