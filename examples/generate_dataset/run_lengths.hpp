@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/core/image.hpp>
+#include <insonify/core/rect.hpp>
 
 #include <cstdint>
 #include <vector>
