@@ -15,14 +15,6 @@
 
 namespace generator {
 
-namespace {
-
-struct whole {
-    int x = 0, y = 0, width, height;
-};
-
-}  // namespace
-
 std::optional<std::string> decode_fault(const std::string& bytes, const std::string& name,
                                         const nlohmann::ordered_json& record, const nlohmann::ordered_json& entry) {
     const std::string of = entry.at("of").get<std::string>();
@@ -45,7 +37,7 @@ std::optional<std::string> decode_fault(const std::string& bytes, const std::str
     std::copy_n(pixels.get(), mask.size(), mask.pixels().begin());
     for (const auto& annotation : record.at("annotations"))
         if (annotation.value("mask", "") == of &&
-            run_lengths(mask, whole{.width = width, .height = height}) != annotation.at("segmentation").at("counts"))
+            run_lengths(mask, {0, 0, width, height}) != annotation.at("segmentation").at("counts"))
             return name + ": is not what the annotation says";
     return std::nullopt;
 }
