@@ -1,4 +1,4 @@
-// The bottom's brightness from place to place: drift of its backscatter, streaks, and patches of another sediment.
+// Spatial variation of the seabed's backscatter: drift, streaks, and patches of another sediment.
 //
 // A survey line over "one" bottom is not one gray: grain size, shell and cover change over metres to hundreds of metres
 // (T. K. Stanton. Sonar Estimates of Seafloor Microroughness. JASA 75, 1984; J. A. Goff and others. Correlation of
@@ -17,17 +17,17 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Levels in decibels that are added to a bottom's; all of them 0 is none.
+/// Levels in decibels, added to the seabed's. No variation if all are 0.
 struct bottom_tone {
-    float drift = 0;            ///< rms of what drifts, 0 to 30
-    float drift_length = 20;    ///< metres between the nodes of its coarsest octave, above 0
+    float drift = 0;            ///< rms of the drift, 0 to 30
+    float drift_length = 20;    ///< metres between nodes of its coarsest octave, above 0
     int octaves = 3;            ///< each of half the length and half the level of the one before, 1 to 8
     float streaks = 0;          ///< rms of streaks, 0 to 30
     float streak_width = 1.5f;  ///< metres between nodes across them, above 0
     float streak_length = 40;   ///< metres between nodes along them, above 0
     float direction = 0;        ///< radians from +x: along the streaks
-    float patches = 0;          ///< by how much patches are brighter (or, negative, darker), -30 to 30
-    float patch_size = 15;      ///< metres between the nodes that make their outline, above 0
+    float patches = 0;          ///< level of patches relative to the rest, -30 to 30
+    float patch_size = 15;      ///< metres between the nodes of their outline, above 0
     float patch_share = 0.3f;   ///< of the area, 0.01 to 0.99
     std::uint64_t seed = 1;
 
@@ -55,7 +55,7 @@ inline void validate(const bottom_tone& t) {
     require(t.patch_share >= 0.01f && t.patch_share <= 0.99f, "bottom_tone.patch_share", t.patch_share, "0.01 to 0.99");
 }
 
-/// Where the standard normal distribution reaches a share, to 5e-4 (C. Hastings. Approximations for Digital Computers,
+/// Quantile of the standard normal distribution, to 5e-4 (C. Hastings. Approximations for Digital Computers,
 /// 1955, sheet 67).
 inline double normal_quantile(double share) {
     const double tail = share < 0.5 ? share : 1 - share, t = numeric::square_root(-2 * numeric::log(tail));
@@ -95,7 +95,7 @@ class tone_sampler {
                                                                     streaks_);
         }
         if (t_.patches != 0) {
-            // Two octaves, so that outlines are ragged; a soft border.
+            // Two octaves make ragged outlines, with a soft border.
             const double size = static_cast<double>(t_.patch_size);
             const double field = 0.89442719 * smooth_noise(at.x / size, at.y / size, 0, patches_) +
                                  0.44721360 * smooth_noise(4 * at.x / size, 4 * at.y / size, 1, patches_);
@@ -124,10 +124,10 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
     return detail::tone_sampler(tone)(position);
 }
 
-/// A recording whose bottom has a tone: intensities of pixels that the labels name a seabed for change by the level at
-/// their place on the datum; targets, shadows' noise and the water column stay.
+/// Applies a tone to a recording: pixels with a seabed label change by the level at their position on the datum.
+/// Targets and the water column stay.
 ///
-/// @param r    as `render` made it of this rig: before noise and speckle
+/// @param r    a result of `render` with this rig, before noise and speckle
 /// @throws invalid_input for a rig or a parameter out of its range
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {

@@ -1,6 +1,6 @@
-// From intensities to gray values: the last step, and the only one that isn't linear.
+// Filters from intensities to gray values: the last step, and the only non-linear one.
 //
-// What real pictures show differs more by their display than by their sonar: amplitude or power at a fixed white,
+// Real pictures differ more by their display than by their sonar: amplitude or power at a fixed white,
 // decibels over a range below a reference, or black and white wherever the picture's own extremes are (P. Blondel. The
 // Handbook of Sidescan Sonar, 2009, chapter 4: gain, contrast stretch and dynamic range of displays).
 #pragma once
@@ -18,10 +18,10 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// A filter that makes gray values in [0, 1] of intensities by a power: (intensity / white)^exponent. The default is
-/// their square root, the amplitude, which is what most sonars show. NaN is black.
+/// Gray values in [0, 1] by a power law: (intensity / white)^exponent. The default is amplitude, the square root, which
+/// most sonars show. NaN is black.
 struct display {
-    float white = 6;        ///< the intensity that is white, above 0; brighter ones are cut
+    float white = 6;        ///< intensity shown as white, above 0; brighter ones are clamped
     float exponent = 0.5f;  ///< 0.5: amplitude, 1: power; above 0, at most 4
 
     using is_filter = std::true_type;
@@ -44,7 +44,7 @@ struct display {
 /// Gray values by decibels: black at `range` below white, white at `white`, even steps between. NaN, 0 and below are
 /// black. Sonars record over 60 to 120 dB and show 20 to 50 of them.
 struct decibel_display {
-    float white = 6;   ///< the intensity that is white, above 0
+    float white = 6;   ///< intensity shown as white, above 0
     float range = 40;  ///< decibels from black to white, above 0, at most 400
 
     using is_filter = std::true_type;
@@ -67,17 +67,17 @@ struct decibel_display {
 
 inline namespace INSONIFY_FLAGS {
 
-/// What automatic_display measures in.
+/// The scale on which automatic_display is linear.
 enum class display_scale { power, amplitude, decibels };
 
 }  // namespace INSONIFY_FLAGS
 
-/// Black and white by the picture's own percentiles, as the "auto" of survey software stretches a picture: the share
-/// `black` of the pixels is black, the share `white` of them white.
+/// A contrast stretch by the picture's own percentiles, like "auto" in survey software: a fraction `black` of the
+/// pixels is black, a fraction `white` of them white.
 struct automatic_display {
     display_scale scale = display_scale::amplitude;
-    float black = 0.01f;  ///< share of the pixels, 0 to 0.49
-    float white = 0.01f;  ///< share of the pixels, 0 to 0.49
+    float black = 0.01f;  ///< fraction of the pixels, 0 to 0.49
+    float white = 0.01f;  ///< fraction of the pixels, 0 to 0.49
 
     using is_filter = std::true_type;
 
@@ -110,7 +110,7 @@ struct automatic_display {
     }
 
   private:
-    /// -300 dB stands for no sound at all, 1e30 for an endless one.
+    /// Zero intensity counts as -300 dB, infinite intensity as 300 dB.
     INSONIFY_TAGGED static double measure(double intensity, display_scale as) {
         if (!(intensity > 1e-30)) intensity = as == display_scale::decibels ? 1e-30 : 0.0;
         if (intensity > 1e30) intensity = 1e30;

@@ -1,11 +1,10 @@
-// Classes of sonars by name: what sets their grain, their range and how they are shown.
+// Presets of sonar classes: resolution, range and display.
 //
-// Values are typical of a class, rounded from makers' data sheets of the instruments that are named, and are the middle
-// of what a generator varies: beams are between the -3 dB points of one way, resolutions are c / (2 bandwidth), ranges
-// are usable ones over sand. Absorption is that of salt water (M. A. Ainslie, J. G. McColm. A Simplified Formula for
-// Viscous and Chemical Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m). A towed sonar is flown at 10 to
-// 20 % of its range above the bottom (NOAA. Hydrographic Surveys Field Procedures Manual, 2014, side scan sonar: 8 to
-// 20 %).
+// Values are typical of a class, rounded from data sheets of the instruments that are named; a generator varies them:
+// beams are between the -3 dB points of one way, resolutions are c / (2 bandwidth), ranges are usable ones over sand.
+// Absorption is that of salt water (M. A. Ainslie, J. G. McColm. A Simplified Formula for Viscous and Chemical
+// Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m). A towed sonar is flown at 10 to 20 % of its range
+// above the bottom (NOAA. Hydrographic Surveys Field Procedures Manual, 2014, side scan sonar: 8 to 20 %).
 #pragma once
 
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
@@ -20,16 +19,16 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What a class of sonars has in common.
+/// Properties of a class of sonars.
 struct instrument {
     std::string_view name;
     float frequency;               ///< hertz
     float beam;                    ///< width along the track, radians
     float range_resolution;        ///< metres of slant range
-    float along_track_resolution;  ///< metres at every range of a synthetic aperture; 0: what the beam makes it
+    float along_track_resolution;  ///< metres at every range of a synthetic aperture; 0: given by the beam
     float range;                   ///< metres of slant range to one side
-    int looks;                     ///< intensities that a pixel averages before it is shown
-    float dynamic_range;           ///< decibels that are shown
+    int looks;                     ///< intensities averaged per pixel
+    float dynamic_range;           ///< of the display, decibels
     float absorption_per_km;       ///< decibels, one way
     float vertical_beam;           ///< width, radians
     float tilt;                    ///< of the vertical beam's axis below the horizon, radians
@@ -37,13 +36,13 @@ struct instrument {
     INSONIFY_MEMBER float wavelength() const { return 1500 / frequency; }
     INSONIFY_MEMBER horizontal_beam horizontal() const { return {beam}; }
     INSONIFY_MEMBER bool is_synthetic_aperture() const { return along_track_resolution > 0; }
-    /// Metres along the track that one pixel mixes at a slant range.
+    /// Resolution along the track at a slant range, metres.
     INSONIFY_MEMBER double along_track(double slant_range) const {
         return is_synthetic_aperture() ? static_cast<double>(along_track_resolution)
                                        : slant_range * static_cast<double>(beam);
     }
-    /// Metres over which the correlation of speckle intensities falls to 1 / e, across the track: 0.516 of the
-    /// resolution for a pulse with a flat band, whose correlation is the square of sin(u) / u.
+    /// Correlation length (1 / e) of speckle intensities across the track, metres: 0.516 of the resolution for a pulse
+    /// with a flat band, whose correlation is the square of sin(u) / u.
     INSONIFY_MEMBER double grain_across() const { return 0.516 * static_cast<double>(range_resolution); }
     /// The same along the track: see horizontal_beam::speckle_length.
     INSONIFY_MEMBER double grain_along(double slant_range) const {
@@ -76,7 +75,7 @@ inline constexpr std::array<instrument, 5> all{side_scan_450, side_scan_600, sid
 inline namespace INSONIFY_FLAGS {
 
 /// An instrument by its name.
-/// @throws invalid_input for a name that none has
+/// @throws invalid_input for an unknown name
 inline const instrument& instrument_named(std::string_view name) {
     for (const instrument& i : instruments::all)
         if (i.name == name) return i;

@@ -1,7 +1,7 @@
-// Noise without grain, for what drifts: gain from ping to ping, the brightness of the bottom from place to place.
+// Smooth noise: drift of gain from ping to ping, and of the seabed's brightness.
 //
-// Standard normal numbers at the nodes of a lattice, blended with weights whose squares add up to one: the variance is
-// one everywhere, not only at the nodes. Each value is a function of (key, position).
+// Standard normal numbers at the nodes of a lattice, blended with weights whose squares sum to one, so that the
+// variance is one everywhere. Each value is a function of (key, position).
 #pragma once
 
 #include <insonify/core/random.hpp>
@@ -14,7 +14,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// What a smooth field is drawn for; part of what a seed means.
+/// Random streams of smooth fields. Changing one changes the results of every seed.
 enum class drift_stream : std::uint32_t {
     range_gain = 0x64726900,
     ping_gain,
@@ -25,10 +25,10 @@ enum class drift_stream : std::uint32_t {
     patches
 };
 
-/// Where a position lies between two nodes, and the nodes' weights.
+/// The nodes around a position, and their weights.
 struct lattice_place {
     std::int64_t node;
-    double low, high;  // weights, of squares that add up to one
+    double low, high;  // weights, whose squares sum to one
 
     explicit lattice_place(double position) : node(numeric::floor_to_int(position)) {
         const double t = position - static_cast<double>(node), s = t * t * (3 - 2 * t);
@@ -45,7 +45,7 @@ inline double lattice_normal(std::int64_t i, std::int64_t j, std::uint32_t layer
     return normal_pair(word[0], word[1])[0];
 }
 
-/// Of mean 0 and variance 1. Values two nodes apart, and more, are independent.
+/// Mean 0 and variance 1. Values at least two nodes apart are independent.
 inline double smooth_noise(double position, const philox_key& key) {
     const lattice_place p(position);
     return p.low * lattice_normal(p.node, 0, 0, key) + p.high * lattice_normal(p.node + 1, 0, 0, key);

@@ -1,4 +1,4 @@
-// What a receiver's gain leaves behind: brightness that drifts across range, and from ping to ping.
+// Residual gain errors of a receiver: drift across range, and from ping to ping.
 //
 // Recordings are corrected for spreading, absorption and beam pattern by models that don't hold exactly, so a level
 // bottom is shown brighter at some ranges than at others; heave, roll and aeration make whole pings brighter or
@@ -75,11 +75,11 @@ class banding_law {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// The error that time-varied gain leaves across range, in decibels: a slope, and a smooth random curve. Factors of a
-/// column are the same in all rows.
+/// Residual error of time-varied gain across range, in decibels: a slope, and a smooth random curve. The same in all
+/// rows.
 struct range_gain_error {
     float rms = 1.5f;    ///< decibels of the random curve, 0 to 60
-    float length = 120;  ///< bins between the nodes of the curve; two of them apart it is independent
+    float length = 120;  ///< bins between nodes of the curve; values two nodes apart are independent
     float slope = 0;     ///< decibels from the first bin to the last, -60 to 60; its middle is 0
     std::uint64_t seed = 1;
 
@@ -99,11 +99,11 @@ struct range_gain_error {
     }
 };
 
-/// Pings that are brighter or darker than their neighbours, in decibels: a drift over many pings, and a jitter of each
-/// by itself. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
+/// Pings that are brighter or darker than their neighbours, in decibels: drift over many pings, and independent jitter
+/// of each. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
 struct ping_banding {
     float drift = 1;      ///< decibels (rms), 0 to 60
-    float length = 40;    ///< pings between the nodes of the drift
+    float length = 40;    ///< pings between nodes of the drift
     float jitter = 0.5f;  ///< decibels (rms), 0 to 60
     std::int64_t first_ping = 0;
     int step = 1;  ///< 1 or -1

@@ -1,9 +1,9 @@
-// What a receiver hears besides the bottom: its noise, which time-varied gain lifts with range, scatterers in the
-// water, and the sea surface.
+// Noise and reverberation besides the seabed: receiver noise, which time-varied gain raises with range, scatterers in
+// the water, and the sea surface.
 //
-// The surface answers from where it is straight above, at a slant range of the sonar's depth, as a bright line with a
-// tail; the volume answers from everywhere (R. J. Urick. Principles of Underwater Sound, 3rd edition, 1983, chapter 8).
-// Intensities are those of a recording after its gain: 1 is a level bottom of reflectivity one under `level_gain`.
+// The surface return begins straight above the sonar, at a slant range of its depth, as a bright line with a tail;
+// volume reverberation comes from all ranges (R. J. Urick. Principles of Underwater Sound, 3rd edition, 1983, chapter
+// 8). Intensities are those of a recording after its gain: 1 is a level bottom of reflectivity one under `level_gain`.
 #pragma once
 
 #include <insonify/filter/concept.hpp>
@@ -67,23 +67,23 @@ class water_law {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// A filter that adds mean intensities by slant range; speckle on top makes them fluctuate. Rows are pings and columns
-/// bins of equal slant range.
+/// A filter that adds mean intensities by slant range; speckle applied later makes them fluctuate. Rows are pings,
+/// columns bins of slant range.
 struct water_column {
-    float first_range = 0;  ///< metres, where the first bin begins
+    float first_range = 0;  ///< start of the first bin, metres
     float bin = 0.02f;      ///< metres, above 0
 
     float noise = 1e-3f;          ///< intensity of the receiver's noise at `noise_range`, >= 0
     float noise_range = 40;       ///< metres, above 0
-    float spreading = 30;         ///< decibels per tenfold range by which gain lifts the noise, 0 to 60
+    float spreading = 30;         ///< gain on the noise, decibels per tenfold range, 0 to 60
     float absorption_per_km = 0;  ///< the same for absorption, one way, 0 to 3000
     float volume = 0;             ///< intensity of scatterers in the water, >= 0
 
-    float surface = 0;          ///< intensity of the surface return where it begins, >= 0; 0: none
+    float surface = 0;          ///< intensity of the surface return at its start, >= 0
     float surface_range = 10;   ///< metres from the sonar up to the surface, above 0
-    float surface_tail = 0.3f;  ///< metres of range over which it decays to 1 / e, above 0
-    float waves = 0.1f;         ///< metres (rms) by which it wavers, >= 0
-    float wave_length = 15;     ///< pings between the nodes of that, at least 1
+    float surface_tail = 0.3f;  ///< metres of range in which it decays to 1 / e, above 0
+    float waves = 0.1f;         ///< rms of its variation in range, metres, >= 0
+    float wave_length = 15;     ///< pings between nodes of the variation, at least 1
     std::uint64_t seed = 1;
 
     using is_filter = std::true_type;
