@@ -76,7 +76,7 @@ double displacement(const trial& t, const acc::settings<Shadow>& how, E& ex) {
 
 }  // namespace
 
-TEST_CASE("Scenes keep to a budget of 1 or 4 pixels of shadow edge, and the larger one takes fewer cells") {
+TEST_CASE("Scenes stay within a budget of 1 or 4 pixels of shadow edge, and the larger one takes larger cells") {
     in::thread_pool pool(2);
     for (const std::uint64_t seed : {1u, 19u, 22u}) {
         const trial t = random_trial(seed, 96);
@@ -93,7 +93,7 @@ TEST_CASE("Scenes keep to a budget of 1 or 4 pixels of shadow edge, and the larg
     }
 }
 
-TEST_CASE("Pictures keep to a budget of intensity") {
+TEST_CASE("Pictures stay within a budget of intensity") {
     const trial t = random_trial(2, 96);
     in::scene scene;
     scene.seabed = t.bottom;
@@ -111,8 +111,7 @@ TEST_CASE("Pictures keep to a budget of intensity") {
     }
 }
 
-TEST_CASE(
-    "A target's facets displace its outline and its shadow by no more than was asked, and by no less than needed") {
+TEST_CASE("A target's facets displace its outline and its shadow by less than the tolerance, but not by much less") {
     const in::overhead rig{.altitude = 6, .size = {512, 512}, .grazing = 0.15f};
     const in::overhead_geometry view(rig);
     const double pixel = view.ground_sampling();
@@ -141,7 +140,7 @@ TEST_CASE(
     CHECK(acc::settings<in::shadow::none>{.rig = rig}.deviation({}, 0) > how.deviation({}, 0));
 }
 
-TEST_CASE("The outline of a modelled ball is that of a fine one to the pixels asked for") {
+TEST_CASE("The outline of a modelled ball is within the tolerance of that of a fine one") {
     const in::overhead rig{.altitude = 3, .size = {256, 256}};
     const in::pose pose{.position = {0.7, -0.4, 0.4}};
     const auto outline = [&](const in::sphere& ball) {
@@ -188,7 +187,7 @@ TEST_CASE("Settings are values: they can be read, changed and handed to render")
     CHECK(bare.shadow_error == 0.25);
 }
 
-TEST_CASE("Errors that can't be tolerated and probes that can't be are refused") {
+TEST_CASE("Budgets and probes out of range are refused") {
     const in::overhead rig{.size = {32, 32}};
     const double nan = std::nan("");
     for (const acc::budget& b : {acc::budget{.shadow_edge = 0}, acc::budget{.silhouette = -1},
@@ -199,7 +198,7 @@ TEST_CASE("Errors that can't be tolerated and probes that can't be are refused")
         CHECK_THROWS_AS(acc::settings_for({}, sb::flat{}, rig, p), in::invalid_input);
 }
 
-TEST_CASE("From fast over balanced to exact errors never rise and work never falls, over twenty scenes") {
+TEST_CASE("From fast to balanced to exact, errors never rise and work never falls, in twenty scenes") {
     in::thread_pool pool(2);
     for (std::uint64_t seed = 200; seed < 220; ++seed) {
         const trial t = random_trial(seed, 80);
@@ -230,7 +229,7 @@ TEST_CASE("From fast over balanced to exact errors never rise and work never fal
     }
 }
 
-TEST_CASE("Budgets and named settings hold where meshes of other makers stand on the seabed") {
+TEST_CASE("Budgets and named settings hold with imported meshes on the seabed") {
     in::thread_pool pool(2);
     const in::mesh open = shadow_meshes::moebius_strip(), dense = shadow_meshes::statue(56, 40),
                    soup = shadow_meshes::shuffled(shadow_meshes::cow());

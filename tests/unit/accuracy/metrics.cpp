@@ -40,13 +40,13 @@ TEST_CASE("masks are compared by their intersection over union, false and missed
     CHECK(reversed.missed_pixels == 0);
 }
 
-TEST_CASE("growing a mask by a pixel displaces its border by about one pixel") {
+TEST_CASE("growing a mask by a pixel displaces its boundary by about one pixel") {
     const auto d =
         accuracy::compare_masks(rectangle(400, 400, 99, 99, 301, 301), rectangle(400, 400, 100, 100, 300, 300));
     CHECK(d.mean_boundary_displacement() == Approx(1).epsilon(0.02));
 }
 
-TEST_CASE("empty and full masks have an overlap of one with themselves and no border") {
+TEST_CASE("empty and full masks have an intersection over union of one with themselves and no boundary") {
     const mask none(8, 4), all(8, 4, 1);
     CHECK(accuracy::compare_masks(none, none).intersection_over_union() == 1);
     CHECK(accuracy::compare_masks(none, none).mean_boundary_displacement() == 0);
@@ -57,7 +57,7 @@ TEST_CASE("empty and full masks have an overlap of one with themselves and no bo
     CHECK(accuracy::compare_masks(mask(), mask()).intersection_over_union() == 1);
 }
 
-TEST_CASE("any value but zero is in the mask, and views with a stride are compared by what they show") {
+TEST_CASE("any value but zero is in the mask; strided views are compared by their pixels") {
     const mask a{{0, 1, 9}, {0, 2, 9}}, b{{0, 255}, {0, 7}};
     CHECK(accuracy::compare_masks(a.view().part(0, 0, 2, 2), b).intersection_over_union() == 1);
     CHECK(accuracy::compare_masks(a.view().part(0, 0, 2, 2), b).boundary_pixels == 2);
@@ -88,7 +88,7 @@ TEST_CASE("equal images have no error and an infinite signal-to-noise ratio") {
     CHECK_THROWS_AS(accuracy::compare_images(m, m).psnr(inf), in::invalid_input);
 }
 
-TEST_CASE("one broken pixel shows in every figure") {
+TEST_CASE("one NaN pixel makes every figure NaN") {
     const in::image<float> truth(50, 50, 0.5f);
     in::image<float> broken = truth;
     broken(10, 10) = std::numeric_limits<float>::quiet_NaN();

@@ -37,7 +37,7 @@ std::vector<glm::dvec4> cuts_of_first_edge(const clip_polygon& polygon) {
 
 }  // namespace
 
-TEST_CASE("Two triangles get the same bits where the edge that they share is cut, by however many planes") {
+TEST_CASE("Triangles that share a clipped edge get the same new vertices, to the bit") {
     in::random_sequence random(3);
     int cut_once = 0, cut_twice = 0;
     for (int n = 0; n < 20000; ++n) {
@@ -57,7 +57,7 @@ TEST_CASE("Two triangles get the same bits where the edge that they share is cut
     CHECK(cut_twice > 300);
 }
 
-TEST_CASE("What is cut keeps its varyings, weights and depths") {
+TEST_CASE("Clipped triangles keep their varyings, weights and depths") {
     // Looking along y from the origin over a tilted plane z = 0.2 y - 1 that goes on behind the eye.
     const auto along = [](const in::vertex& v) {
         const glm::vec3& p = v.position;

@@ -73,7 +73,7 @@ TEST_CASE("The same bytes for any executor, thread count, tile size and instruct
     }
 }
 
-TEST_CASE("Buffers that belong to no mesh are drawn as a mesh of them is") {
+TEST_CASE("A mesh_view of the caller's buffers is drawn like a mesh") {
     const in::mesh m = bumps(20);
     const std::vector<glm::vec3> positions = m.positions;
     const std::vector<glm::uvec3> triangles = m.triangles;
@@ -84,7 +84,7 @@ TEST_CASE("Buffers that belong to no mesh are drawn as a mesh of them is") {
     CHECK(of_buffers == of_mesh);
 }
 
-TEST_CASE("A depth-only draw leaves the depth of a shaded one and takes no fragment callable") {
+TEST_CASE("A depth-only draw writes the depth of a shaded one and takes no fragment shader") {
     static_assert(!accepts_a_fragment<in::depth_target>);
     static_assert(accepts_a_fragment<in::framebuffer<float>>);
     const in::mesh m = bumps(30);
@@ -96,7 +96,7 @@ TEST_CASE("A depth-only draw leaves the depth of a shaded one and takes no fragm
     CHECK(stats.pixels == 0);
 }
 
-TEST_CASE("Varyings are interpolated as rays meet planes") {
+TEST_CASE("Varyings equal the intersections of rays with the plane") {
     // One large tilted triangle, seen by the pinhole: the varying is the position itself.
     const in::mesh m{{{-9, -9, -1}, {9, -9, 1}, {0, 9, 0.5f}}, {}, {{0, 1, 2}}};
     const glm::dvec3 a(m.positions[0]), b(m.positions[1]), c(m.positions[2]);
@@ -150,7 +150,7 @@ TEST_CASE("Nothing is drawn in front of depth 0 or behind depth 1") {
     for (int x = 0; x < 64; ++x) CHECK(count(x, 30) == (x >= 16 && x < 32 ? 1 : 0));
 }
 
-TEST_CASE("What is nearer hides what is farther, whatever comes first; a tie stays with the first") {
+TEST_CASE("The nearer surface is visible in any order of drawing; a tie keeps the first") {
     const auto sheet = [](float z) { return in::mesh{{{-9, -9, z}, {9, -9, z}, {0, 9, z}}, {}, {{0, 1, 2}}}; };
     const bool near_first = GENERATE(true, false);
     picture p(32, 32);
@@ -190,7 +190,7 @@ TEST_CASE("Triangles that cross the camera plane show the part in front, without
         for (int x = 0; x < 64; ++x) CHECK(count(x, y) == 0);
 }
 
-TEST_CASE("Vertices that are not numbers are skipped and counted, and touch nobody else's pixels") {
+TEST_CASE("Triangles with NaN or infinite vertices are skipped and counted, and change no pixel") {
     const in::mesh good = bumps(12);
     const float bad = GENERATE(std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                                -std::numeric_limits<float>::infinity());
@@ -223,7 +223,7 @@ TEST_CASE("Every triangle is accounted for once") {
     CHECK(stats.drawn >= 2);  // {0, 2, 1}, and what is left of the clipped one
 }
 
-TEST_CASE("What lies outside of the picture is missed, whatever else it is; what touches a centre of it is not") {
+TEST_CASE("Triangles outside of the picture count as missed; those that touch a pixel centre do not") {
     // On either side of 8 x 8 pixels: one that has no area, one that is culled, one that goes on for 4000 pixels. Each
     // comes eight times and more, as a mesh's triangles do that lie together.
     const float beyond = GENERATE(-5000.0f, 7.5f);  // the last centre doesn't belong to what begins there
@@ -249,7 +249,7 @@ TEST_CASE("What lies outside of the picture is missed, whatever else it is; what
     }
 }
 
-TEST_CASE("Clipped triangles keep their numbers, however many there are before them") {
+TEST_CASE("Clipped triangles keep their indices") {
     // 20000 triangles in 200 x 100 cells of two pixels; every third one reaches behind the far plane, outside its cell.
     const int width = 400, height = 200;
     in::mesh m;
@@ -312,7 +312,7 @@ TEST_CASE("Empty meshes and odd sizes draw") {
     for (const float d : depth.pixels()) CHECK(d == 0.5f);
 }
 
-TEST_CASE("What can't be right is refused before a pixel changes") {
+TEST_CASE("Input out of range is refused before any pixel changes") {
     const in::mesh m{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {{0, 1, 3}}};
     in::image<float> depth(4, 4, 7.0f);
     REQUIRE_THROWS_WITH(in::draw(m, place_only, in::depth_target{depth}, {.load = in::depth_load::clear}),

@@ -84,7 +84,7 @@ TEST_CASE("Special values in any component of any vertex are skipped or drawn ri
             }
 }
 
-TEST_CASE("Denormal positions draw as what they are") {
+TEST_CASE("Denormal positions are not flushed to zero") {
     // x and y of 1e-42 beside w of 1e-42: an ordinary triangle.
     spoilt tiny;
     const spoilt ordinary;
@@ -153,7 +153,7 @@ TEST_CASE("Triangles without area on the grid are counted, not drawn") {
     for (const float d : depth.pixels()) CHECK(d == in::empty_depth(in::keep_depth::smaller));
 }
 
-TEST_CASE("Indices out of range are refused wherever they stand, and nothing is drawn") {
+TEST_CASE("Indices out of range are refused at any position, and nothing is drawn") {
     in::mesh m{{{0, 0, 0}, {8, 0, 0}, {0, 8, 0}}, {}, std::vector<glm::uvec3>(100000, glm::uvec3(0, 1, 2))};
     const std::size_t where = GENERATE(0u, 50000u, 99999u);
     const int corner = GENERATE(0, 1, 2);

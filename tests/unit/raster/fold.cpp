@@ -37,7 +37,7 @@ std::vector<glm::dvec2> thin_polygon(in::random_sequence& random) {
 
 }  // namespace
 
-TEST_CASE("The parts of a polygon cover what winds around more often one way than the other") {
+TEST_CASE("The parts of a polygon cover the pixels of non-zero winding number in its direction") {
     in::random_sequence random(6);
     const in::detail::pixel_grid grid{bits, size, size};
     const in::detail::projection to_screen(grid, in::keep_depth::smaller);

@@ -50,7 +50,7 @@ TEST_CASE("Two triangles share a diagonal as Direct3D's rasterization rules draw
     for (std::size_t i = 0; i < a.size(); ++i) CHECK(a.pixels()[i] + b.pixels()[i] <= 1);
 }
 
-TEST_CASE("Turned squares cover what the Khronos conformance tests make them cover") {
+TEST_CASE("Rotated squares cover the pixels that the Khronos conformance tests expect") {
     // VK-GL-CTS, es3fRasterizationTests, fill_rules.basic_quad and basic_quad_reverse.
     const bool reverse = GENERATE(false, true);
     const int expected[2] = {23528, 23596};
@@ -153,7 +153,7 @@ TEST_CASE("Coverage is that of the projected corners for any w") {
     }
 }
 
-TEST_CASE("What is culled is decided by the sign of the snapped area") {
+TEST_CASE("Culling follows the sign of the snapped area") {
     // VK-GL-CTS, culling.*: both windings, each side culled or none.
     in::random_sequence random(5);
     for (int n = 0; n < 200; ++n) {
@@ -204,7 +204,7 @@ TEST_CASE("Coordinates beyond the range of 16.16 numbers draw the right pixels")
     }
 }
 
-TEST_CASE("Edge values at the ends of 32-bit numbers end the loop where they should") {
+TEST_CASE("Edge functions at the limits of 32 bits cover the right pixels") {
     // vindar/tgx PR 31: a loop over a row that never ended where an edge function was close to INT_MIN.
     for (const int bits : {8, 12, 16})
         for (const double value : {0x1p29, 0x1p30, 0x1p31 - 1, 0x1p31, 0x1p31 + 1, 0x1p32}) {
@@ -218,7 +218,7 @@ TEST_CASE("Edge values at the ends of 32-bit numbers end the loop where they sho
         }
 }
 
-TEST_CASE("Nothing is written a pixel off the picture, and nothing at its border is dropped") {
+TEST_CASE("No pixel outside of the picture is written, and none at its border is dropped") {
     // Marzac/le3d 38 (clipping rounds to a pixel outside), h0MER247/swGL 4 (dropped fragments), hrydgard/ppsspp PR
     // 19748 (overflow where a side isn't clipped).
     const int size = 16;

@@ -82,7 +82,9 @@ pictures drawn(const in::mesh& m, in::isa level, int tile, auto&& ex) {
 
 }  // namespace
 
-TEST_CASE("A shader over lanes sees the pixels, triangles, facing and depth of a fragment shader, and close varyings") {
+TEST_CASE(
+    "A shader over lanes gets the pixels, triangles, facing and depth of a fragment shader, and varyings to float "
+    "precision") {
     const in::mesh m = rubble();
     pictures one;
     in::image<int> covered(150, 110);

@@ -53,7 +53,7 @@ static_assert(!in::interpolatable<tail> && !in::interpolatable<rgba> && !in::int
 
 }  // namespace
 
-TEST_CASE("A draw that clears writes the background where it shows nothing, and leaves colors alone without one") {
+TEST_CASE("A draw that clears depth writes the background color where requested, and otherwise keeps the color") {
     const in::mesh m{.positions = {{-1, -1, 0.5f}, {0, -1, 0.5f}, {-1, 0, 0.5f}}, .triangles = {{0, 1, 2}}};
     const auto place = [](const in::vertex& v) { return glm::vec4(v.position, 1); };
     const auto one = [](const auto&) { return 1; };

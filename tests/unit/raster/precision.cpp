@@ -132,7 +132,7 @@ TEST_CASE("Ten million depths are the nearest floats", "[.slow]") {
     check_precision(2, 3000, true);
 }
 
-TEST_CASE("Of two surfaces the nearer wins wherever their depths differ as floats") {
+TEST_CASE("The nearer of two surfaces is visible wherever their depths differ as floats") {
     in::random_sequence random(3);
     in::image<float> depth(size, size);
     int wrong = 0, contested = 0;

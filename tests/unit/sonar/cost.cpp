@@ -28,7 +28,7 @@ in::overhead chip_of(in::overhead rig, int pixels) {
 
 }  // namespace
 
-TEST_CASE("A chip costs a chip, not the picture it is cut from") {
+TEST_CASE("The cost of a chip does not depend on the picture that it is cut from") {
     const in::overhead rig{.altitude = 4, .size = {1024, 1024}, .grazing = 10_deg};
     for (const in::seabed::any& bottom : {in::seabed::any(in::seabed::ripples{}), in::seabed::any(in::seabed::mud{})}) {
         const auto whole = cost_of<in::shadow::none>(bottom, rig);
@@ -50,7 +50,7 @@ TEST_CASE("A chip costs a chip, not the picture it is cut from") {
     }
 }
 
-TEST_CASE("Anywhere on ten kilometres of seabed a picture samples as many points as at home") {
+TEST_CASE("A picture samples as many points anywhere on ten kilometres of seabed") {
     const in::seabed::any bottom = in::seabed::blend{};
     const in::overhead home{.altitude = 10, .size = {256, 256}, .grazing = 20_deg};
     std::uint64_t most = 0, least = ~std::uint64_t{0};
@@ -65,7 +65,7 @@ TEST_CASE("Anywhere on ten kilometres of seabed a picture samples as many points
     CHECK(most < least * 3 / 2);  // the relief differs, and with it how far shadows reach
 }
 
-TEST_CASE("All ten kilometres at once cost as many points as forty metres, and so do their triangles") {
+TEST_CASE("A picture of ten kilometres takes as many samples and triangles as one of forty metres") {
     const in::overhead metres{.altitude = 11.5f, .size = {256, 256}, .grazing = 30_deg};  // 40 m
     in::overhead kilometres = metres;
     kilometres.altitude *= 250;
@@ -77,7 +77,7 @@ TEST_CASE("All ten kilometres at once cost as many points as forty metres, and s
     }
 }
 
-TEST_CASE("A swath of ten kilometres out samples as much seabed as one at home") {
+TEST_CASE("A swath ten kilometres from the origin samples as much seabed as one at the origin") {
     in::scene scene;
     scene.seabed = in::seabed::ripples{};
     in::side_scan rig{.altitude = 5, .pings = 64, .range = 30, .bins = 256};
@@ -88,7 +88,7 @@ TEST_CASE("A swath of ten kilometres out samples as much seabed as one at home")
     CHECK(away >= home * 4 / 5);
 }
 
-TEST_CASE("A smooth bottom is drawn by few triangles, and looks the same to the pixels allowed") {
+TEST_CASE("A smooth seabed takes few triangles, within the tolerance in pixels") {
     in::scene scene;
     scene.seabed = in::seabed::mud{};
     scene.add(in::cube{}, {.position = {0.5, -0.5, 0.5}}, "cube");

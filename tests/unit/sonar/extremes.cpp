@@ -39,7 +39,7 @@ int differences(const Frame& a, const Frame& b, float tolerance) {
 
 }  // namespace
 
-TEST_CASE("However far from the world's origin, the picture is the same to the bit") {
+TEST_CASE("The picture has the same bytes at any distance from the world's origin") {
     const in::overhead rig{.altitude = 5, .yaw = 0.4f, .size = {160, 120}};
     const auto here = in::render(scene_at({0, 0, 0}), rig);
     for (const double away : {1e3, 1e6, 1e7}) {
@@ -54,8 +54,9 @@ TEST_CASE("However far from the world's origin, the picture is the same to the b
     }
 }
 
-TEMPLATE_TEST_CASE("From a micrometre to a thousand kilometres up, a scene of that size looks the same", "",
-                   in::shadow::map, in::shadow::exact) {
+TEMPLATE_TEST_CASE(
+    "A scene scaled with the altitude gives the same picture, from a micrometre to a thousand kilometres", "",
+    in::shadow::map, in::shadow::exact) {
     const in::overhead rig{.altitude = 5, .size = {160, 120}};
     const in::render_options<TestType> options;
     const auto ordinary = in::render(scene_at({0, 0, 0}), rig, options);

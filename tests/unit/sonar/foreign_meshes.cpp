@@ -56,7 +56,7 @@ TEST_CASE("Exact shadows are right on meshes of up to 320 000 triangles", "[.slo
     }
 }
 
-TEST_CASE("Where a pixel's centre lies beside the triangle shown, no more pixels are wrong") {
+TEST_CASE("Pixels whose centre lies beside the visible triangle have no more errors") {
     for (const auto& s : {foreign::on_ground(shapes::statue(), {.position = {0.0123, 0.0457, 0.7}}),
                           foreign::bare(shapes::relief(400))}) {
         const auto t = judged<in::shadow::exact>(s, {64, 128, 256}, {{23.7, 6}, {160, 33}, {0, 89}});

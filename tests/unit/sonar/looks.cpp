@@ -59,7 +59,7 @@ double lattice_correlation(double distance) {
 
 }  // namespace
 
-TEST_CASE("display() shows a power of the intensity, cut at white") {
+TEST_CASE("display() shows a power of the intensity, clamped at white") {
     CHECK(shown(1.5f, in::display{.white = 6}) == Approx(0.5));
     CHECK(shown(1.5f, in::display{.white = 6, .exponent = 1}) == Approx(0.25));
     CHECK(shown(0.75f, in::display{.white = 6, .exponent = 0.25f}) == Approx(std::pow(0.125, 0.25)));
@@ -86,7 +86,7 @@ TEST_CASE("decibel_display() steps evenly from black at its range below white") 
     CHECK_THROWS_AS(in::decibel_display{.range = 0}.pass(), in::invalid_input);
 }
 
-TEST_CASE("automatic_display() makes the asked shares of the pixels black and white") {
+TEST_CASE("automatic_display() makes the given fractions of the pixels black and white") {
     in::image<float> ramp(100, 100);
     for (int i = 0; i < 10000; ++i) ramp.pixels()[static_cast<std::size_t>(i)] = 1 + static_cast<float>(i);
     for (const auto scale : {in::display_scale::power, in::display_scale::amplitude, in::display_scale::decibels}) {
@@ -114,7 +114,7 @@ TEST_CASE("automatic_display() takes constant, empty and non-finite pictures") {
     CHECK_THROWS_AS(mixed | in::automatic_display{.black = 0.6f}, in::invalid_input);
 }
 
-TEST_CASE("range_gain_error() has the asked level and length, and is the same in all rows") {
+TEST_CASE("range_gain_error() has the given level and length, and is the same in all rows") {
     for (const float length : {5.0f, 20.0f}) {
         const auto picture =
             in::image<float>(20000, 2, 1.0f) | in::range_gain_error{.rms = 2, .length = length, .seed = 7};
@@ -134,7 +134,7 @@ TEST_CASE("range_gain_error() has the asked level and length, and is the same in
     CHECK(decibels(tilted(499, 0)) == Approx(-0.005).margin(1e-4));
 }
 
-TEST_CASE("ping_banding() changes whole pings by drift and jitter, and goes by their number") {
+TEST_CASE("ping_banding() scales whole pings by drift and jitter, by ping number") {
     const auto levels = [](const in::ping_banding& banding, int pings) {
         const auto picture = in::image<float>(3, pings, 1.0f) | banding;
         std::vector<double> level;
@@ -173,7 +173,7 @@ TEST_CASE("Gains leave NaN and 0 alone, and none of them is the identity") {
     CHECK_THROWS_AS(odd | in::ping_banding{.step = 2}, in::invalid_input);
 }
 
-TEST_CASE("water_column() lifts noise with range, and adds scatterers of the water everywhere") {
+TEST_CASE("water_column() raises noise with range, and adds volume reverberation everywhere") {
     const in::water_column water{
         .bin = 0.5f, .noise = 0.01f, .noise_range = 20, .spreading = 30, .absorption_per_km = 100};
     const auto picture = in::image<float>(100, 2, 0.0f) | water;
@@ -210,7 +210,7 @@ TEST_CASE("water_column() has a surface return that begins above the sonar and d
     CHECK_THROWS_AS(picture | in::water_column{.surface_tail = -1}, in::invalid_input);
 }
 
-TEST_CASE("A tone has the asked level, lengths and share of patches") {
+TEST_CASE("A tone has the given level, lengths and fraction of patches") {
     const auto line = [](const in::bottom_tone& tone, const glm::dvec2& step, int count = 40000) {
         std::vector<double> level;
         for (int i = 0; i < count; ++i) level.push_back(in::level_of(tone, {i * step.x + 0.3, i * step.y + 7.7}));
@@ -296,7 +296,7 @@ TEST_CASE("facet_backscatter() is Lambert's law with a peak at normal incidence"
     CHECK(in::facet_backscatter{.facets = 0}(0.7f) == Approx(0.49));
 }
 
-TEST_CASE("Instruments have names, and grain by their pulse, beam or aperture") {
+TEST_CASE("Instruments are found by name; speckle lengths follow from pulse, beam or aperture") {
     for (const in::instrument& i : in::instruments::all) {
         CHECK(in::instrument_named(i.name).frequency == i.frequency);
         CHECK(i.grain_across() == Approx(0.516 * static_cast<double>(i.range_resolution)));

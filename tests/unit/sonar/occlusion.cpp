@@ -49,7 +49,7 @@ TEST_CASE("Points behind cubes are in the first one's shadow, to a micrometre, a
     }
 }
 
-TEST_CASE("Light from nearby shades what lies behind, and a structure outlives its scene") {
+TEST_CASE("A near light casts shadows; an occlusion test outlives its scene") {
     const auto shade = [] {
         return in::occlusion_of(two_cubes({0, 0, 0}), in::shadow::point_light{{-2, 0, 2}}, {{{-5, -5, -1}, {5, 5, 3}}});
     }();
@@ -61,7 +61,7 @@ TEST_CASE("Light from nearby shades what lies behind, and a structure outlives i
     CHECK(found.shadow == std::vector<std::uint16_t>{1, 0, 0, 1});
 }
 
-TEST_CASE("A wall of the seabed outside of the bounds shades points as far as it is high") {
+TEST_CASE("A wall of seabed outside of the bounds shades points within height / tan(elevation)") {
     in::scene s;
     s.seabed = wall();
     const double elevation = std::atan(0.1);
@@ -115,7 +115,7 @@ TEST_CASE("Points of a level bottom are lit as its picture's pixels are, under a
     }
 }
 
-TEST_CASE("Any policy tests points, and bounds that cannot be are refused") {
+TEST_CASE("Any shadow policy can test points; bounds out of range are refused") {
     const in::scene s = two_cubes({0, 0, 0});
     const in::shadow::directional_light light{0, 0.25 * in::numeric::pi};
     const in::occlusion_bounds within{{{-9, -9, -1}, {9, 9, 3}}};

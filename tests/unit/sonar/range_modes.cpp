@@ -41,7 +41,7 @@ double energy(const in::image<float>& picture) {
 }
 }  // namespace
 
-TEST_CASE("A bin is named after the target that sends most of its power, however the targets are ordered") {
+TEST_CASE("A bin's instance is the target with most of its power, in any order of targets") {
     // The lower plate has 80 % of bin 22.
     for (const bool swapped : {false, true}) {
         in::scene s;
@@ -64,7 +64,7 @@ TEST_CASE("A bin is named after the target that sends most of its power, however
     }
 }
 
-TEST_CASE("A bin's shadow is named after the target that keeps most of it dark") {
+TEST_CASE("A bin's shadow is labelled with the target that shades most of it") {
     in::scene s;
     s.seabed = plane;
     // Heights whose shadows end in bin 22.7 and 23 of 60 over 30 m.
@@ -77,7 +77,7 @@ TEST_CASE("A bin's shadow is named after the target that keeps most of it dark")
     CHECK(heard.labels.shadow(25, 0) == 2);
 }
 
-TEST_CASE("What stands above the sonar is heard up to the zenith, with all of its energy") {
+TEST_CASE("Objects above the sonar return all of their energy, up to the zenith") {
     in::scene bare, s;
     bare.seabed = s.seabed = plane;
     s.add(ceiling(8, 0, 6), {}, "bridge", {1});
@@ -89,7 +89,7 @@ TEST_CASE("What stands above the sonar is heard up to the zenith, with all of it
     CHECK(heard.labels.instance(61, 0) == 1);
 }
 
-TEST_CASE("Parts thinner than the spacing of rays are heard in every ping, with the energy that they have") {
+TEST_CASE("Parts thinner than the spacing of rays return their own energy in every ping") {
     in::scene s;
     s.seabed = plane;
     const double width = 0.002;
@@ -111,7 +111,7 @@ TEST_CASE("Parts thinner than the spacing of rays are heard in every ping, with 
     }
 }
 
-TEST_CASE("Thin parts hide as much as they cover, and no bin changes that they don't concern") {
+TEST_CASE("Thin parts shade as much as they cover, and change no other bin") {
     in::scene bare, s;
     bare.seabed = s.seabed = plane;
     s.add(plate(9, 0.4f, 0.402f), {}, "bar", {0});
@@ -122,7 +122,7 @@ TEST_CASE("Thin parts hide as much as they cover, and no bin changes that they d
     CHECK(lost == Approx(0.45 * (x1 - x0) * 25 / (25 + middle * middle)).epsilon(0.05));
 }
 
-TEST_CASE("A mesh wound against its normals sounds, and looks, like one wound with them") {
+TEST_CASE("A mesh wound against its normals gives the same pictures as one wound with them") {
     for (const bool every : {true, false}) {
         in::mesh good = to_mesh(in::cube{}), bad = good;
         for (std::size_t i = 0; i < bad.triangles.size(); i += every ? 1 : 3)
@@ -140,7 +140,7 @@ TEST_CASE("A mesh wound against its normals sounds, and looks, like one wound wi
     }
 }
 
-TEST_CASE("Normals turned inwards, all or some, cost no energy") {
+TEST_CASE("Inward normals, all or some, do not change the energy") {
     in::mesh inward = to_mesh(in::sphere{});
     const auto total = [](const in::mesh& m) {
         in::scene s;
@@ -162,7 +162,7 @@ TEST_CASE("Normals turned inwards, all or some, cost no energy") {
     CHECK(total(wall) == Approx(expected).epsilon(0.01));
 }
 
-TEST_CASE("Normals that are zero, NaN or infinite count as none: the facet's are taken") {
+TEST_CASE("Normals that are zero, NaN or infinite are replaced by the facet's") {
     const float infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
     in::mesh facets = plate(8, 0, 1);
     const auto heard = [](const in::mesh& m) {
@@ -178,7 +178,7 @@ TEST_CASE("Normals that are zero, NaN or infinite count as none: the facet's are
     }
 }
 
-TEST_CASE("A scene of meshes alone is heard in every mode") {
+TEST_CASE("A scene of meshes alone works in every mode") {
     in::scene s;
     s.seabed = in::seabed::none{};
     // A bottom as a mesh, and a cube on it.
@@ -202,7 +202,7 @@ TEST_CASE("A scene of meshes alone is heard in every mode") {
     CHECK(in::render(s, in::overhead{.position = {10, 0}, .size = {64, 64}}).labels.targets[1].area > 0);
 }
 
-TEST_CASE("A sonar below all meshes hears them, and none hears nothing") {
+TEST_CASE("A sonar below all meshes receives their echoes; an empty scene is silent") {
     in::scene s;
     s.seabed = in::seabed::none{};
     const auto rig = one_ping(5, 30, 300);
@@ -282,7 +282,7 @@ TEST_CASE("A pitched fan leans forward: the first return is A / cos(pitch) away,
     }
 }
 
-TEST_CASE("A pitched fan follows relief: the bottom is met where the fan cuts it") {
+TEST_CASE("A pitched fan meets relief where its plane cuts the seabed") {
     in::scene s;
     s.seabed =
         in::seabed::sculpted{.ground = plane, .edits = {in::seabed::raise{.centre = {9, 3}, .radius = 2, .height = 1}}};
@@ -296,7 +296,7 @@ TEST_CASE("A pitched fan follows relief: the bottom is met where the fan cuts it
     CHECK(dark[0] > dark[1] + 10);
 }
 
-TEST_CASE("A roll turns the beams within the fan: as much more tilt on the side that goes down") {
+TEST_CASE("Roll adds to the tilt of the beam on the lower side") {
     in::scene s;
     s.seabed = in::seabed::ripples{};
     const auto swath = [&](in::side looks, double roll, float tilt) {
@@ -317,7 +317,7 @@ TEST_CASE("A roll turns the beams within the fan: as much more tilt on the side 
         }
 }
 
-TEST_CASE("Overhead pictures and recordings have one result: legend, statistics, and rows that are no pings") {
+TEST_CASE("Overhead pictures and recordings have one result: legend, statistics and row order") {
     in::scene s;
     s.seabed = in::seabed::mud{};
     in::frame<> drawn = in::render(s, in::overhead{.size = {32, 24}});
@@ -335,7 +335,7 @@ TEST_CASE("Overhead pictures and recordings have one result: legend, statistics,
     CHECK((drawn.rows.step == 1 && drawn.stats.cell > 0 && drawn.labels.legend[0].name == "mud"));
 }
 
-TEST_CASE("An attitude that can't be is refused by name") {
+TEST_CASE("Attitudes out of range are refused by name") {
     const in::scene s;
     const auto with = [&](const in::ping& p) {
         return in::record(s, std::span<const in::ping>(&p, 1), in::side_scan{.range = 20, .bins = 8});
@@ -345,7 +345,7 @@ TEST_CASE("An attitude that can't be is refused by name") {
     CHECK_NOTHROW(with({.yaw = 9, .pitch = -1.3, .roll = 7}));
 }
 
-TEST_CASE("record_into writes rows of the caller's and nothing beside them, and refuses views of another size") {
+TEST_CASE("record_into() writes the caller's rows and nothing else, and refuses views of another size") {
     in::scene s;
     s.seabed = in::seabed::ripples{};
     const in::side_scan rig{.pings = 6, .range = 20, .bins = 50};

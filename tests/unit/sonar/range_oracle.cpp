@@ -83,7 +83,7 @@ heard listen(const in::scene& s, double altitude, double range, int bins) {
 
 }  // namespace
 
-TEST_CASE("Energies, names and shadows of range modes are those of an oracle of rays, thin parts included") {
+TEST_CASE("Energies, instances and shadows of range modes equal those of an oracle of rays, thin parts included") {
     double worst_total = 0;
     int bins_named = 0, wrong_names = 0, shadow_bins = 0, wrong_shadows = 0;
     for (int turn = 0; turn < 12; ++turn) {

@@ -167,9 +167,9 @@ TEST_CASE("Options of pictures and recordings are refused by name") {
                 (void)in::render(s, small_rig, o);
                 (void)in::visible_triangles(s, small_rig, o);
             },
-            {FIELD(cells, outside_whole(0, 32768)), FIELD(reach, below_0),
-             FIELD(edge_error, {nan_value, -infinity, -1}), FIELD(slope_error, {nan_value, -infinity, -1}),
-             FIELD(subpixel_bits, outside_whole(4, 16)), FIELD(tile, {0, -1, 4, 24, 512})});
+            {FIELD(cell, below_0), FIELD(reach, below_0), FIELD(edge_error, {nan_value, -infinity, -1}),
+             FIELD(slope_error, {nan_value, -infinity, -1}), FIELD(subpixel_bits, outside_whole(4, 16)),
+             FIELD(tile, {0, -1, 4, 24, 512})});
     walk<in::record_options<>>(
         "", {}, [&](const in::record_options<>& o) { (void)in::render(small_scene(), small_side_scan, o); },
         {FIELD(cell, below_0)});

@@ -134,7 +134,7 @@ struct watched_law {
     }
 };
 
-TEST_CASE("A backscatter law is never asked for a sine above one, where rounding would make it so") {
+TEST_CASE("Backscatter laws are evaluated for sines of at most one, despite rounding") {
     float largest = 0;
     for (int i = 0; i < 50; ++i) {
         // A sheet across the light.
@@ -158,7 +158,7 @@ TEST_CASE("A backscatter law is never asked for a sine above one, where rounding
     CHECK(largest == 1);
 }
 
-TEST_CASE("Labels say which target a pixel shows, who shades it, and what the bottom is") {
+TEST_CASE("Labels state the target, the caster of the shadow and the seabed type of each pixel") {
     in::scene s;
     s.seabed = plane;
     s.add(in::sphere{.radius = 0.25f}, {.position = {-1, 0.6, 0.25}}, "sphere");
@@ -190,8 +190,7 @@ TEST_CASE("Labels say which target a pixel shows, who shades it, and what the bo
     CHECK(l.targets[0].area == Approx(in::numeric::pi * std::pow(0.25 / 2.74 * 150, 2)).epsilon(0.12));
 }
 
-TEMPLATE_TEST_CASE("What a label calls shadow is dark in the picture, and nothing else is", "", in::shadow::map,
-                   in::shadow::exact) {
+TEMPLATE_TEST_CASE("Pixels are dark exactly where the labels state a shadow", "", in::shadow::map, in::shadow::exact) {
     in::scene s = cube_on_plane(0.3);
     s.add(in::sphere{.radius = 0.2f}, {.position = {0.8, 0.5, 0.2}}, "sphere");
     const in::overhead rig{.altitude = 3,
@@ -215,7 +214,7 @@ TEMPLATE_TEST_CASE("What a label calls shadow is dark in the picture, and nothin
     CHECK(dark[2] > 500);
 }
 
-TEST_CASE("A pixel of the bottom has the type of the corner that weighs most where it lies") {
+TEST_CASE("A pixel of the seabed has the type of the vertex with the largest weight") {
     using in::seabed::type;
     in::seabed::heightfield field{
         .heights = in::image<float>(9, 9), .types = in::image<type>(9, 9), .origin = {-8, -8}, .spacing = 2};
@@ -239,7 +238,7 @@ TEST_CASE("A pixel of the bottom has the type of the corner that weighs most whe
         }
 }
 
-TEST_CASE("Targets of one class share its number in the class map") {
+TEST_CASE("Targets of one class share a number in the class map") {
     in::scene s;
     s.seabed = plane;
     for (const double y : {-1.0, 0.0, 1.0})
@@ -252,7 +251,7 @@ TEST_CASE("Targets of one class share its number in the class map") {
         REQUIRE(map.classes.pixels()[i] == expected[picture.labels.instance.pixels()[i]]);
 }
 
-TEST_CASE("The picture is the same wherever in the world it is taken") {
+TEST_CASE("The picture does not depend on the position in the world") {
     const auto at = [](glm::dvec2 offset) {
         in::scene s;
         s.seabed = plane;
@@ -300,7 +299,7 @@ TEST_CASE("The same bytes for any number of threads, tile size and instruction s
     }
 }
 
-TEST_CASE("What is not asked for is not there") {
+TEST_CASE("Without labels and shadows, neither is computed") {
     const in::scene s = cube_on_plane(0.3);
     const in::overhead rig{.altitude = 3, .size = {100, 100}};
     const auto bare = in::render(s, rig, in::render_options<in::shadow::none, in::no_labels>{});
@@ -327,7 +326,7 @@ TEST_CASE("The picture is covered without gaps on every seabed") {
     }
 }
 
-TEST_CASE("What stands beside the picture throws its shadow into it") {
+TEST_CASE("Objects beside the picture cast shadows into it") {
     // A wall 1 m high along y, 0.4 m beyond the left border; level ground elsewhere.
     in::seabed::heightfield field{.heights = in::image<float>(401, 401), .origin = {-10, -10}, .spacing = 0.05};
     const in::overhead rig{.altitude = 3, .field_of_view = 90_deg, .size = {200, 200}, .grazing = 20_deg};
@@ -361,7 +360,7 @@ TEST_CASE("Resting on the seabed touches it, and burial goes on from there") {
     REQUIRE_THROWS_AS(in::rest_on(seabed, {}, {}), in::invalid_input);
 }
 
-TEST_CASE("Rigs that can't be are refused, by name and value") {
+TEST_CASE("Rigs out of range are refused by name and value") {
     const in::scene s;
     const auto refused = [&](const in::overhead& rig, const char* text) {
         REQUIRE_THROWS_WITH(in::render(s, rig), ContainsSubstring(text));
@@ -390,7 +389,8 @@ TEST_CASE("Pictures of one pixel and of odd shapes are drawn") {
     }
 }
 
-TEST_CASE("Where shadows of two targets overlap, the label is the first one's, and a dark side stays its neighbour's") {
+TEST_CASE(
+    "Overlapping shadows are labelled with the first target; a dark side in another target's shadow with that target") {
     in::scene s;
     s.seabed = plane;
     s.add(in::cube{.size = glm::vec3(0.4f)}, {.position = {-1.5, 0, 0.2}}, "near the light");
@@ -423,7 +423,7 @@ TEST_CASE("A sheet is as bright from behind as one that was wound the other way"
     CHECK(front.labels.targets[0].area > 500);
 }
 
-TEST_CASE("A closed target looks the same outside and inside out, and nothing of it is culled") {
+TEST_CASE("A closed target looks the same if wound inside out, and none of its triangles are culled") {
     const in::overhead rig{.altitude = 4, .field_of_view = 60_deg, .size = {96, 96}};
     const auto drawn = [&](in::mesh shape) {
         in::scene s;

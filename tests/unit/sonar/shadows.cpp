@@ -150,7 +150,7 @@ scenes::difference compare_all(double spacing, int pixels, bool print) {
 
 }  // namespace
 
-TEST_CASE("Pictures have the shadows that rays have: three seabeds, four targets, an imported mesh, an open sheet") {
+TEST_CASE("Exact shadows equal those of rays: three seabeds, four targets, an imported mesh, an open sheet") {
     const scenes::difference d = compare_all(0.25, 50, false);
     CHECK(d.pixels > 400000);
     CHECK(d.share() <= 1e-5);
@@ -188,7 +188,7 @@ bool all_sound(const in::image<float>& image) {
 
 }  // namespace
 
-TEST_CASE("At the ends of what there is, pixel by pixel") {
+TEST_CASE("Extreme rigs and scenes have correct shadows, pixel by pixel") {
     struct extreme {
         const char* name;
         double scale, away, elevation, azimuth;
@@ -237,7 +237,7 @@ TEST_CASE("Light along the faces of a cube, along its edges, and down a slope") 
         }
 }
 
-TEST_CASE("Light from nearby: over the bottom, on it, inside of a target") {
+TEST_CASE("Near lights have correct shadows: above the seabed, on it, inside of a target") {
     constexpr int pixels = 40;
     for (int kind = 0; kind < 3; ++kind) {
         const in::scene s = scenes::make(kind, 0.3);
@@ -264,7 +264,7 @@ TEST_CASE("Light from nearby: over the bottom, on it, inside of a target") {
     CHECK_THROWS_AS(in::render(scenes::make(0, 1), rig, exact_options{}), in::invalid_input);
 }
 
-TEST_CASE("The edge of a round light's shadow is as wide as the light, and fades as a disc goes behind a wall") {
+TEST_CASE("The penumbra of a round light has the profile of a disc behind an edge") {
     constexpr int pixels = 200;
     const double height = 0.25, degrees = 20, diameter = 5;
     in::scene s;
@@ -300,7 +300,7 @@ TEST_CASE("The edge of a round light's shadow is as wide as the light, and fades
     CHECK(expected >= 4);
 }
 
-TEST_CASE("A light of one point has the edges of a hard shadow; half of one at the horizon lights half") {
+TEST_CASE("A penumbra of one sample is a hard shadow; a light half below the horizon gives half of the light") {
     const in::scene s = scenes::make(0, 0.2);
     const in::overhead rig = scenes::rig(160, 6, 64);
     const auto hard = in::render(s, rig, exact_options{});
@@ -354,7 +354,7 @@ in::scene wide_rubble() {
 
 }  // namespace
 
-TEST_CASE("Seabed that can't throw a shadow into the picture changes no pixel of it") {
+TEST_CASE("Seabed that cannot cast a shadow into the picture changes no pixel") {
     for (const double azimuth : {0.0, 45.0, 200.0}) {
         // Turned, so that no edge of the grid runs along pixels' centres.
         in::overhead rig = scenes::rig(azimuth, 4, 200);
@@ -385,7 +385,7 @@ TEST_CASE("Seabed that can't throw a shadow into the picture changes no pixel of
     }
 }
 
-TEST_CASE("A wall outside of the picture throws its shadow in, as far as it is high") {
+TEST_CASE("A wall outside of the picture casts its shadow into it, over height / tan(elevation)") {
     in::seabed::heightfield field{.heights = in::image<float>(641, 641), .origin = {-20, -20}, .spacing = 0.0625};
     for (int j = 0; j < 641; ++j) field.heights(160, j) = 0.9f;  // at x = -10, 6 m before the picture
     in::scene s;

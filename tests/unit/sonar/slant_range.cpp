@@ -114,7 +114,7 @@ TEST_CASE("Closed forms of side-scan geometry: the table") {
     CHECK(rg::along_track_footprint(30, in::numeric::to_radians(0.3)) == Approx(0.157).margin(5e-4));
 }
 
-TEST_CASE("Closed forms where there is nothing to measure: no NaN") {
+TEST_CASE("Closed forms are never NaN, also where a quantity does not exist") {
     CHECK(rg::ground_range(4, 4) == 0);
     CHECK(rg::ground_range(3, 4) == 0);
     CHECK(std::isinf(rg::shadow_length(10, 3, 3)));
@@ -150,7 +150,7 @@ TEST_CASE("Echoes and shadows of the four targets arrive where the table's close
         }
 }
 
-TEST_CASE("Raised points lie over: a cube's foot is heard after its upper edge, by x - sqrt(x^2 - 2 A h + h^2)") {
+TEST_CASE("Layover: a cube's foot returns after its upper edge, by x - sqrt(x^2 - 2 A h + h^2)") {
     for (const row& t : table) {
         in::scene s = level_bottom();
         s.add(in::cube{.size = glm::vec3(static_cast<float>(t.height))},
@@ -171,7 +171,7 @@ TEST_CASE("Raised points lie over: a cube's foot is heard after its upper edge, 
     }
 }
 
-TEST_CASE("Nothing is heard before the first return at R = A, and that is the loudest of a level bottom") {
+TEST_CASE("The water column is empty up to the first return at R = A, the strongest echo of level seabed") {
     for (const double altitude : {0.5, 3.0, 20.0}) {
         const in::side_scan rig = one_ping(altitude, 5 * altitude, 1000);
         const auto heard = in::render(level_bottom(), rig);
@@ -186,7 +186,7 @@ TEST_CASE("Nothing is heard before the first return at R = A, and that is the lo
     }
 }
 
-TEST_CASE("The side of a cube that faces the sonar is the brightest thing in the picture") {
+TEST_CASE("The face of a cube towards the sonar is the brightest part of the picture") {
     for (const auto side : {in::side::port, in::side::starboard}) {
         in::scene s = level_bottom();
         const double x = side == in::side::port ? -12 : 12;
@@ -236,7 +236,7 @@ TEST_CASE("Port of a mirrored scene is starboard, and half a turn of the track e
     CHECK(different <= 20);
 }
 
-TEST_CASE("Wherever and whichever way the track runs, a scene turned with it sounds the same") {
+TEST_CASE("A scene moved and rotated with the track gives the same recording") {
     const auto heard_at = [](glm::dvec2 offset, float yaw) {
         in::scene s = level_bottom();
         const double c = std::cos(static_cast<double>(yaw)), d = std::sin(static_cast<double>(yaw));
@@ -279,7 +279,7 @@ TEST_CASE("A target as high as the sonar, and higher, shades the bottom to the e
     }
 }
 
-TEST_CASE("A target straight below is heard before the bottom, and shades what is below it") {
+TEST_CASE("A target at nadir returns before the seabed, and shades the seabed below it") {
     in::scene s = level_bottom();
     s.add(in::cube{.size = {1, 1, 2}}, {.position = {0, 0, 1}}, "block");
     const in::side_scan rig = one_ping(5, 15, 1500);
@@ -292,7 +292,7 @@ TEST_CASE("A target straight below is heard before the bottom, and shades what i
     CHECK(shadow.first == Approx(500).margin(1));
 }
 
-TEST_CASE("What can't be heard is silent: ranges below the altitude, a sonar in the ground") {
+TEST_CASE("Ranges below the altitude and a sonar below the seabed return nothing") {
     for (const in::side_scan& rig : {one_ping(10, 9, 64), one_ping(-1, 9, 64), one_ping(0, 9, 64)}) {
         const auto heard = in::render(level_bottom(), rig);
         for (const float v : heard.image.pixels()) CHECK(v == 0);
@@ -301,7 +301,7 @@ TEST_CASE("What can't be heard is silent: ranges below the altitude, a sonar in 
     }
 }
 
-TEST_CASE("A sonar inside a hill is silent, and one beside a cliff hears it and nothing behind") {
+TEST_CASE("A sonar inside a hill receives nothing; one beside a cliff receives the cliff and nothing behind it") {
     in::seabed::heightfield map{.heights = in::image<float>(60, 20), .origin = {-10, -5}, .spacing = 0.5};
     for (int j = 0; j < 20; ++j)
         for (int i = 0; i < 60; ++i) map.heights(i, j) = i < 20 || i > 40 ? 4.0f : 0.0f;  // a valley from 0 to 10 m
@@ -343,7 +343,7 @@ TEST_CASE("Grazing angles from a tenth of a degree to almost a right angle give 
     for (const float v : below.image.row(0)) REQUIRE((v >= 0 && in::numeric::is_finite(v)));
 }
 
-TEST_CASE("Ten kilometres in bins of a centimetre are still told apart", "[.slow]") {
+TEST_CASE("Bins of a centimetre are resolved over ten kilometres", "[.slow]") {
     in::scene s = level_bottom();
     s.add(in::cube{.size = glm::vec3(1)}, {.position = {9990.5, 0, 0.5}}, "cube");
     const in::side_scan rig{
@@ -377,7 +377,7 @@ TEST_CASE("The same bytes for any number of threads, and a ping at a time") {
     CHECK(bare.image == expected.image);
 }
 
-TEST_CASE("A window of ranges is the part of the whole picture that it shows") {
+TEST_CASE("A window of ranges equals that part of the whole picture") {
     in::scene s;
     s.seabed = in::seabed::rock{.relief = 0.3f};
     s.add(in::cube{.size = glm::vec3(0.7f)}, {.position = {8.5, 0.6, 0.4}, .yaw = 0.5f}, "cube");
@@ -410,7 +410,7 @@ in::frame<in::labels> window_of(const in::seabed::any& bottom, const in::side_sc
     return in::render(s, rig);
 }
 
-TEST_CASE("A window samples the bottom that can be heard in it or hide it; the rest would change no bit") {
+TEST_CASE("A window samples only seabed that can return into it or occlude it, with the same bytes") {
     const in::seabed::any bottoms[] = {
         in::seabed::flat{}, in::seabed::ripples{.wavelength = 0.6f, .steepness = 0.12f}, in::seabed::mud{},
         in::seabed::rock{.relief = 0.2f},
@@ -463,7 +463,7 @@ TEST_CASE("A window samples the bottom that can be heard in it or hide it; the r
             }
 }
 
-TEST_CASE("A coarse picture hears what a fine one does") {
+TEST_CASE("Coarse and fine pictures have the same total energy") {
     in::scene s;
     s.seabed = in::seabed::ripples{.steepness = 0.05f};
     s.add(in::cube{.size = glm::vec3(0.5f)}, {.position = {9, 1, 0.25}, .yaw = 0.5f}, "cube");
@@ -505,7 +505,7 @@ TEST_CASE("Both sides in one picture, with the water column between them") {
     }
 }
 
-TEST_CASE("A hole in the bottom is silent, and what lies behind it is heard") {
+TEST_CASE("Gaps in the seabed return nothing, and do not occlude") {
     in::seabed::heightfield map{.heights = in::image<float>(101, 41), .origin = {-1, -2}, .spacing = 0.1};
     for (int j = 0; j < 41; ++j)
         for (int i = 50; i < 60; ++i) map.heights(i, j) = std::numeric_limits<float>::quiet_NaN();
@@ -560,7 +560,7 @@ TEST_CASE("Whatever the scene and the rig, intensities are finite and not negati
     }
 }
 
-TEST_CASE("What can't be right is refused by name") {
+TEST_CASE("Input out of range is refused by name") {
     const auto refuses = [](in::side_scan rig) { CHECK_THROWS_AS(in::render(level_bottom(), rig), in::invalid_input); };
     refuses({.altitude = std::numeric_limits<float>::quiet_NaN()});
     refuses({.ping_spacing = 0});

@@ -51,7 +51,7 @@ std::pair<double, double> level(int first, int last, Fn&& value) {
 
 }  // namespace
 
-TEST_CASE("Without any part, a picture adds up to the cross-section of what it shows") {
+TEST_CASE("Without any part, a picture sums to the cross-section of its surfaces") {
     const auto bare = heard(level_bottom(0.3f), in::sonar_equation<>{});
     double sum = 0;
     for (const float v : bare.image.pixels()) sum += static_cast<double>(v);
@@ -60,7 +60,7 @@ TEST_CASE("Without any part, a picture adds up to the cross-section of what it s
     CHECK(sum == Approx(0.3 * 8 * 0.1 * 5 * std::atan(x / 5)).epsilon(1e-3));
 }
 
-TEST_CASE("A level bottom is level after the gain, whatever the sonar: within 1 %") {
+TEST_CASE("Level seabed has constant intensity after level_gain, for any sonar, within 1 %") {
     const auto check = [](const auto& equation) {
         const auto picture = heard(level_bottom(0.45f), equation);
         for (int y = 0; y < 8; ++y) {
@@ -76,7 +76,7 @@ TEST_CASE("A level bottom is level after the gain, whatever the sonar: within 1 
                              in::horizontal_beam{}, in::pulse{0.1f}, in::level_gain{}});
 }
 
-TEST_CASE("Time-varied gain of 40 dB per decade, or 30 with a beam, levels a bottom up to 1 / cos(grazing)") {
+TEST_CASE("Time-varied gain of 40 dB per decade, or 30 with a beam, makes seabed level up to 1 / cos(grazing angle)") {
     const auto check = [](const auto& equation) {
         const auto picture = heard(level_bottom(), equation, rig, constant_law{});
         const auto profile = [&](int b) { return static_cast<double>(picture.image(b, 4)) * cosine_of(range_of(b)); };
@@ -132,7 +132,7 @@ TEST_CASE("A vertical beam is at full strength on its axis and a quarter, 6 dB, 
     }
 }
 
-TEST_CASE("A horizontal beam blurs over so many pings as it is wide at a range, and no echo gets lost") {
+TEST_CASE("A horizontal beam blurs over its width at each range and preserves energy") {
     // Posts in two ranges, seen by a beam of a degree from pings 2 cm apart.
     in::scene s = level_bottom(0);
     for (const double x : {10.0, 30.0})
@@ -161,7 +161,7 @@ TEST_CASE("A horizontal beam blurs over so many pings as it is wide at a range, 
     }
 }
 
-TEST_CASE("Speckle of neighbouring pings is alike as far as a coherent sum over the beam says") {
+TEST_CASE("Speckle of neighbouring pings correlates like a coherent sum over the beam") {
     // Points on a line along the track, of independent phases, as two pings hear them that are `apart`.
     for (const double degrees : {0.2, 0.5, 2.0})
         for (const double range : {3.0, 20.0, 90.0})
@@ -181,7 +181,7 @@ TEST_CASE("Speckle of neighbouring pings is alike as far as a coherent sum over 
             }
 }
 
-TEST_CASE("A pulse makes an echo as long as it is, and no stronger") {
+TEST_CASE("A pulse lengthens echoes by its length and preserves energy") {
     in::scene s = level_bottom(0);
     s.add(in::cube{.size = {0.1f, 5, 0.5f}}, {.position = {20, 0.4, 0.25}}, "wall");
     const auto sharp = heard(s, in::sonar_equation<>{});
@@ -204,7 +204,7 @@ TEST_CASE("A pulse makes an echo as long as it is, and no stronger") {
     }
 }
 
-TEST_CASE("The noise floor is all there is in the water column, and grows with the gain") {
+TEST_CASE("The water column holds the noise floor alone, scaled by the gain") {
     const in::sonar_equation equation{in::transmission_loss{}, in::absorption{322}, in::noise_floor{1e-9f},
                                       in::time_varied_gain{40, 322}};
     const auto picture = heard(level_bottom(), equation);
@@ -215,7 +215,7 @@ TEST_CASE("The noise floor is all there is in the water column, and grows with t
     }
 }
 
-TEST_CASE("What is left out isn't there, and people's own parts fit in") {
+TEST_CASE("Parts that are left out have no effect, and own parts can be added") {
     using bare = in::sonar_equation<>;
     static_assert(!bare::has_beam && !bare::has_pulse && !bare::has_noise && !bare::has_gain && !bare::has_ranges);
     struct half {
@@ -227,7 +227,7 @@ TEST_CASE("What is left out isn't there, and people's own parts fit in") {
         REQUIRE(halved.image.pixels()[i] == 0.5f * full.image.pixels()[i]);
 }
 
-TEST_CASE("Sediments by name are as far apart as the table says") {
+TEST_CASE("Sediments differ in brightness as in the table") {
     const float rock = in::surface_of(in::seabed::sediment_of("rough rock")).reflectivity;
     const float sand = in::surface_of(in::sediment::fine_sand).reflectivity;
     CHECK(10 * std::log10(static_cast<double>(rock / sand)) == Approx(21.0).margin(1e-3));

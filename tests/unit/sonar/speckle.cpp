@@ -93,7 +93,7 @@ TEST_CASE("Extreme shapes stay finite, and a very large one is no texture") {
     }
 }
 
-TEST_CASE("Correlation falls to 1 / e at the length asked for, along and across by themselves") {
+TEST_CASE("Correlation falls to 1 / e at the given lengths, independently along and across the track") {
     for (const auto& [along, across] : {std::pair{0.0f, 3.0f}, {3.0f, 0.0f}, {5.0f, 2.0f}, {1.0f, 1.0f}}) {
         const auto picture = speckled({}, along, across);
         INFO("along " << along << ", across " << across);
@@ -110,7 +110,7 @@ TEST_CASE("Correlation falls to 1 / e at the length asked for, along and across 
     }
 }
 
-TEST_CASE("Textures are correlated over their length, and still distributed as they should be") {
+TEST_CASE("Textures are correlated over their length and gamma-distributed") {
     in::seabed_speckle s{.along_track = 0, .across_track = 0, .texture_length = 8};
     s.bottom[0] = {64, 1, 0};  // many looks: what is left is texture
     const in::image<float> mean(wide, high, 1.0f);
@@ -132,7 +132,7 @@ TEST_CASE("The two sides, two seeds and two pings are independent") {
     CHECK(correlation(starboard, starboard, 0, 17) == Approx(0).margin(0.01));
 }
 
-TEST_CASE("A ping has its speckle whenever it is recorded, in whatever order and by however many threads") {
+TEST_CASE("The speckle of a ping does not depend on the order of recording or the number of threads") {
     in::scene scene;
     scene.seabed = in::seabed::blend{.first = in::seabed::ripples{}, .second = in::seabed::mud{}};
     const in::side_scan rig{.altitude = 3, .pings = 70, .range = 12, .bins = 200};
@@ -149,7 +149,7 @@ TEST_CASE("A ping has its speckle whenever it is recorded, in whatever order and
     }
 }
 
-TEST_CASE("Each type of seabed has its own law, and silence stays silent") {
+TEST_CASE("Each type of seabed has its own speckle law; zero intensity stays zero") {
     in::seabed_speckle s{.along_track = 0, .across_track = 0, .texture_length = 1};
     s.bottom = {{{1, 0, 0}, {4, 0, 0}, {1, 0, 10}, {1, 1, 0}}};
     const double expected[] = {1, 0.25, 21.0 / 121, 3};
@@ -167,7 +167,7 @@ TEST_CASE("Each type of seabed has its own law, and silence stays silent") {
     }
 }
 
-TEST_CASE("Speckle that can't be is refused by name") {
+TEST_CASE("Speckle parameters out of range are refused by name") {
     const in::image<float> mean(4, 4, 1.0f);
     const in::image<std::uint8_t> types(4, 4), narrow(3, 4);
     const auto refuses = [&](const in::seabed_speckle& s) {

@@ -48,7 +48,7 @@ TEST_CASE("The paper's stitched picture: two of its cameras back to back, shadow
     CHECK(middle(shadow, 2, 0, 100).x < left.x);
 }
 
-TEST_CASE("Slant-range correction puts the bottom where it is, and needs as many altitudes as rows") {
+TEST_CASE("Slant-range correction restores positions on the seabed, with one altitude or one per row") {
     in::scene s;
     s.seabed = in::seabed::flat{.surface = {.rms = 0}};
     s.add(in::cube{.size = {0.2f, 5, 0.01f}}, {.position = {9, 0, 0.005}}, "plate");  // too flat to lie over
@@ -72,7 +72,7 @@ TEST_CASE("Slant-range correction puts the bottom where it is, and needs as many
     CHECK(wide.labels.seabed(399, 0) == in::labels::no_seabed);
 }
 
-TEST_CASE("Three geometries, one type to change: the same scene, the same labels, shadows to the right") {
+TEST_CASE("The same scene in three geometries: the same labels, shadows to the right") {
     in::scene s;
     s.seabed = in::seabed::flat{.surface = {.rms = 0}};
     s.add(in::cube{.size = glm::vec3(0.4f)}, {.position = {6, 2, 0.2}}, "cube");
