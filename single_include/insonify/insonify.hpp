@@ -10370,9 +10370,9 @@ inline void validate(const facet_backscatter& f) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/display.hpp ----------------------------------------------------------------
-// From intensities to gray values: the last step, and the only one that isn't linear.
+// Filters from intensities to gray values: the last step, and the only non-linear one.
 //
-// What real pictures show differs more by their display than by their sonar: amplitude or power at a fixed white,
+// Real pictures differ more by their display than by their sonar: amplitude or power at a fixed white,
 // decibels over a range below a reference, or black and white wherever the picture's own extremes are (P. Blondel. The
 // Handbook of Sidescan Sonar, 2009, chapter 4: gain, contrast stretch and dynamic range of displays).
 
@@ -10381,10 +10381,10 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// A filter that makes gray values in [0, 1] of intensities by a power: (intensity / white)^exponent. The default is
-/// their square root, the amplitude, which is what most sonars show. NaN is black.
+/// Gray values in [0, 1] by a power law: (intensity / white)^exponent. The default is amplitude, the square root, which
+/// most sonars show. NaN is black.
 struct display {
-    float white = 6;        ///< the intensity that is white, above 0; brighter ones are cut
+    float white = 6;        ///< intensity shown as white, above 0; brighter ones are clamped
     float exponent = 0.5f;  ///< 0.5: amplitude, 1: power; above 0, at most 4
 
     using is_filter = std::true_type;
@@ -10407,7 +10407,7 @@ struct display {
 /// Gray values by decibels: black at `range` below white, white at `white`, even steps between. NaN, 0 and below are
 /// black. Sonars record over 60 to 120 dB and show 20 to 50 of them.
 struct decibel_display {
-    float white = 6;   ///< the intensity that is white, above 0
+    float white = 6;   ///< intensity shown as white, above 0
     float range = 40;  ///< decibels from black to white, above 0, at most 400
 
     using is_filter = std::true_type;
@@ -10430,17 +10430,17 @@ struct decibel_display {
 
 inline namespace INSONIFY_FLAGS {
 
-/// What automatic_display measures in.
+/// The scale on which automatic_display is linear.
 enum class display_scale { power, amplitude, decibels };
 
 }  // namespace INSONIFY_FLAGS
 
-/// Black and white by the picture's own percentiles, as the "auto" of survey software stretches a picture: the share
-/// `black` of the pixels is black, the share `white` of them white.
+/// A contrast stretch by the picture's own percentiles, like "auto" in survey software: a fraction `black` of the
+/// pixels is black, a fraction `white` of them white.
 struct automatic_display {
     display_scale scale = display_scale::amplitude;
-    float black = 0.01f;  ///< share of the pixels, 0 to 0.49
-    float white = 0.01f;  ///< share of the pixels, 0 to 0.49
+    float black = 0.01f;  ///< fraction of the pixels, 0 to 0.49
+    float white = 0.01f;  ///< fraction of the pixels, 0 to 0.49
 
     using is_filter = std::true_type;
 
@@ -10473,7 +10473,7 @@ struct automatic_display {
     }
 
   private:
-    /// -300 dB stands for no sound at all, 1e30 for an endless one.
+    /// Zero intensity counts as -300 dB, infinite intensity as 300 dB.
     INSONIFY_TAGGED static double measure(double intensity, display_scale as) {
         if (!(intensity > 1e-30)) intensity = as == display_scale::decibels ? 1e-30 : 0.0;
         if (intensity > 1e30) intensity = 1e30;
@@ -23094,10 +23094,10 @@ struct penumbra {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/detail/smooth_noise.hpp ----------------------------------------------------
-// Noise without grain, for what drifts: gain from ping to ping, the brightness of the bottom from place to place.
+// Smooth noise: drift of gain from ping to ping, and of the seabed's brightness.
 //
-// Standard normal numbers at the nodes of a lattice, blended with weights whose squares add up to one: the variance is
-// one everywhere, not only at the nodes. Each value is a function of (key, position).
+// Standard normal numbers at the nodes of a lattice, blended with weights whose squares sum to one, so that the
+// variance is one everywhere. Each value is a function of (key, position).
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -23105,7 +23105,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// What a smooth field is drawn for; part of what a seed means.
+/// Random streams of smooth fields. Changing one changes the results of every seed.
 enum class drift_stream : std::uint32_t {
     range_gain = 0x64726900,
     ping_gain,
@@ -23116,10 +23116,10 @@ enum class drift_stream : std::uint32_t {
     patches
 };
 
-/// Where a position lies between two nodes, and the nodes' weights.
+/// The nodes around a position, and their weights.
 struct lattice_place {
     std::int64_t node;
-    double low, high;  // weights, of squares that add up to one
+    double low, high;  // weights, whose squares sum to one
 
     explicit lattice_place(double position) : node(numeric::floor_to_int(position)) {
         const double t = position - static_cast<double>(node), s = t * t * (3 - 2 * t);
@@ -23136,7 +23136,7 @@ inline double lattice_normal(std::int64_t i, std::int64_t j, std::uint32_t layer
     return normal_pair(word[0], word[1])[0];
 }
 
-/// Of mean 0 and variance 1. Values two nodes apart, and more, are independent.
+/// Mean 0 and variance 1. Values at least two nodes apart are independent.
 inline double smooth_noise(double position, const philox_key& key) {
     const lattice_place p(position);
     return p.low * lattice_normal(p.node, 0, 0, key) + p.high * lattice_normal(p.node + 1, 0, 0, key);
@@ -25399,7 +25399,7 @@ frame<labels> with_speckle(frame<labels> r, const seabed_speckle& s = {}, E&& ex
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/bottom_tone.hpp ------------------------------------------------------------
-// The bottom's brightness from place to place: drift of its backscatter, streaks, and patches of another sediment.
+// Spatial variation of the seabed's backscatter: drift, streaks, and patches of another sediment.
 //
 // A survey line over "one" bottom is not one gray: grain size, shell and cover change over metres to hundreds of metres
 // (T. K. Stanton. Sonar Estimates of Seafloor Microroughness. JASA 75, 1984; J. A. Goff and others. Correlation of
@@ -25414,17 +25414,17 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Levels in decibels that are added to a bottom's; all of them 0 is none.
+/// Levels in decibels, added to the seabed's. No variation if all are 0.
 struct bottom_tone {
-    float drift = 0;            ///< rms of what drifts, 0 to 30
-    float drift_length = 20;    ///< metres between the nodes of its coarsest octave, above 0
+    float drift = 0;            ///< rms of the drift, 0 to 30
+    float drift_length = 20;    ///< metres between nodes of its coarsest octave, above 0
     int octaves = 3;            ///< each of half the length and half the level of the one before, 1 to 8
     float streaks = 0;          ///< rms of streaks, 0 to 30
     float streak_width = 1.5f;  ///< metres between nodes across them, above 0
     float streak_length = 40;   ///< metres between nodes along them, above 0
     float direction = 0;        ///< radians from +x: along the streaks
-    float patches = 0;          ///< by how much patches are brighter (or, negative, darker), -30 to 30
-    float patch_size = 15;      ///< metres between the nodes that make their outline, above 0
+    float patches = 0;          ///< level of patches relative to the rest, -30 to 30
+    float patch_size = 15;      ///< metres between the nodes of their outline, above 0
     float patch_share = 0.3f;   ///< of the area, 0.01 to 0.99
     std::uint64_t seed = 1;
 
@@ -25452,7 +25452,7 @@ inline void validate(const bottom_tone& t) {
     require(t.patch_share >= 0.01f && t.patch_share <= 0.99f, "bottom_tone.patch_share", t.patch_share, "0.01 to 0.99");
 }
 
-/// Where the standard normal distribution reaches a share, to 5e-4 (C. Hastings. Approximations for Digital Computers,
+/// Quantile of the standard normal distribution, to 5e-4 (C. Hastings. Approximations for Digital Computers,
 /// 1955, sheet 67).
 inline double normal_quantile(double share) {
     const double tail = share < 0.5 ? share : 1 - share, t = numeric::square_root(-2 * numeric::log(tail));
@@ -25492,7 +25492,7 @@ class tone_sampler {
                                                                     streaks_);
         }
         if (t_.patches != 0) {
-            // Two octaves, so that outlines are ragged; a soft border.
+            // Two octaves make ragged outlines, with a soft border.
             const double size = static_cast<double>(t_.patch_size);
             const double field = 0.89442719 * smooth_noise(at.x / size, at.y / size, 0, patches_) +
                                  0.44721360 * smooth_noise(4 * at.x / size, 4 * at.y / size, 1, patches_);
@@ -25521,10 +25521,10 @@ inline double level_of(const bottom_tone& tone, const glm::dvec2& position) {
     return detail::tone_sampler(tone)(position);
 }
 
-/// A recording whose bottom has a tone: intensities of pixels that the labels name a seabed for change by the level at
-/// their place on the datum; targets, shadows' noise and the water column stay.
+/// Applies a tone to a recording: pixels with a seabed label change by the level at their position on the datum.
+/// Targets and the water column stay.
 ///
-/// @param r    as `render` made it of this rig: before noise and speckle
+/// @param r    a result of `render` with this rig, before noise and speckle
 /// @throws invalid_input for a rig or a parameter out of its range
 template <across_track Axis, executor_argument E = serial_executor>
 frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const bottom_tone& tone, E&& ex = {}) {
@@ -25561,30 +25561,29 @@ frame<labels> with_tone(frame<labels> r, const side_scan_rig<Axis>& rig, const b
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/instruments.hpp ------------------------------------------------------------
-// Classes of sonars by name: what sets their grain, their range and how they are shown.
+// Presets of sonar classes: resolution, range and display.
 //
-// Values are typical of a class, rounded from makers' data sheets of the instruments that are named, and are the middle
-// of what a generator varies: beams are between the -3 dB points of one way, resolutions are c / (2 bandwidth), ranges
-// are usable ones over sand. Absorption is that of salt water (M. A. Ainslie, J. G. McColm. A Simplified Formula for
-// Viscous and Chemical Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m). A towed sonar is flown at 10 to
-// 20 % of its range above the bottom (NOAA. Hydrographic Surveys Field Procedures Manual, 2014, side scan sonar: 8 to
-// 20 %).
+// Values are typical of a class, rounded from data sheets of the instruments that are named; a generator varies them:
+// beams are between the -3 dB points of one way, resolutions are c / (2 bandwidth), ranges are usable ones over sand.
+// Absorption is that of salt water (M. A. Ainslie, J. G. McColm. A Simplified Formula for Viscous and Chemical
+// Absorption in Sea Water. JASA 103, 1998, at 10 degrees, 20 m). A towed sonar is flown at 10 to 20 % of its range
+// above the bottom (NOAA. Hydrographic Surveys Field Procedures Manual, 2014, side scan sonar: 8 to 20 %).
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What a class of sonars has in common.
+/// Properties of a class of sonars.
 struct instrument {
     std::string_view name;
     float frequency;               ///< hertz
     float beam;                    ///< width along the track, radians
     float range_resolution;        ///< metres of slant range
-    float along_track_resolution;  ///< metres at every range of a synthetic aperture; 0: what the beam makes it
+    float along_track_resolution;  ///< metres at every range of a synthetic aperture; 0: given by the beam
     float range;                   ///< metres of slant range to one side
-    int looks;                     ///< intensities that a pixel averages before it is shown
-    float dynamic_range;           ///< decibels that are shown
+    int looks;                     ///< intensities averaged per pixel
+    float dynamic_range;           ///< of the display, decibels
     float absorption_per_km;       ///< decibels, one way
     float vertical_beam;           ///< width, radians
     float tilt;                    ///< of the vertical beam's axis below the horizon, radians
@@ -25592,13 +25591,13 @@ struct instrument {
     INSONIFY_MEMBER float wavelength() const { return 1500 / frequency; }
     INSONIFY_MEMBER horizontal_beam horizontal() const { return {beam}; }
     INSONIFY_MEMBER bool is_synthetic_aperture() const { return along_track_resolution > 0; }
-    /// Metres along the track that one pixel mixes at a slant range.
+    /// Resolution along the track at a slant range, metres.
     INSONIFY_MEMBER double along_track(double slant_range) const {
         return is_synthetic_aperture() ? static_cast<double>(along_track_resolution)
                                        : slant_range * static_cast<double>(beam);
     }
-    /// Metres over which the correlation of speckle intensities falls to 1 / e, across the track: 0.516 of the
-    /// resolution for a pulse with a flat band, whose correlation is the square of sin(u) / u.
+    /// Correlation length (1 / e) of speckle intensities across the track, metres: 0.516 of the resolution for a pulse
+    /// with a flat band, whose correlation is the square of sin(u) / u.
     INSONIFY_MEMBER double grain_across() const { return 0.516 * static_cast<double>(range_resolution); }
     /// The same along the track: see horizontal_beam::speckle_length.
     INSONIFY_MEMBER double grain_along(double slant_range) const {
@@ -25631,7 +25630,7 @@ inline constexpr std::array<instrument, 5> all{side_scan_450, side_scan_600, sid
 inline namespace INSONIFY_FLAGS {
 
 /// An instrument by its name.
-/// @throws invalid_input for a name that none has
+/// @throws invalid_input for an unknown name
 inline const instrument& instrument_named(std::string_view name) {
     for (const instrument& i : instruments::all)
         if (i.name == name) return i;
@@ -25852,7 +25851,7 @@ auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusio
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/ping_gain.hpp ----------------------------------------------------
-// What a receiver's gain leaves behind: brightness that drifts across range, and from ping to ping.
+// Residual gain errors of a receiver: drift across range, and from ping to ping.
 //
 // Recordings are corrected for spreading, absorption and beam pattern by models that don't hold exactly, so a level
 // bottom is shown brighter at some ranges than at others; heave, roll and aeration make whole pings brighter or
@@ -25920,11 +25919,11 @@ class banding_law {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// The error that time-varied gain leaves across range, in decibels: a slope, and a smooth random curve. Factors of a
-/// column are the same in all rows.
+/// Residual error of time-varied gain across range, in decibels: a slope, and a smooth random curve. The same in all
+/// rows.
 struct range_gain_error {
     float rms = 1.5f;    ///< decibels of the random curve, 0 to 60
-    float length = 120;  ///< bins between the nodes of the curve; two of them apart it is independent
+    float length = 120;  ///< bins between nodes of the curve; values two nodes apart are independent
     float slope = 0;     ///< decibels from the first bin to the last, -60 to 60; its middle is 0
     std::uint64_t seed = 1;
 
@@ -25944,11 +25943,11 @@ struct range_gain_error {
     }
 };
 
-/// Pings that are brighter or darker than their neighbours, in decibels: a drift over many pings, and a jitter of each
-/// by itself. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
+/// Pings that are brighter or darker than their neighbours, in decibels: drift over many pings, and independent jitter
+/// of each. Row `y` is ping first_ping + step * y, so that recordings made in pieces fit together.
 struct ping_banding {
     float drift = 1;      ///< decibels (rms), 0 to 60
-    float length = 40;    ///< pings between the nodes of the drift
+    float length = 40;    ///< pings between nodes of the drift
     float jitter = 0.5f;  ///< decibels (rms), 0 to 60
     std::int64_t first_ping = 0;
     int step = 1;  ///< 1 or -1
@@ -26126,12 +26125,12 @@ frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from,
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/side_scan/water_column.hpp -------------------------------------------------
-// What a receiver hears besides the bottom: its noise, which time-varied gain lifts with range, scatterers in the
-// water, and the sea surface.
+// Noise and reverberation besides the seabed: receiver noise, which time-varied gain raises with range, scatterers in
+// the water, and the sea surface.
 //
-// The surface answers from where it is straight above, at a slant range of the sonar's depth, as a bright line with a
-// tail; the volume answers from everywhere (R. J. Urick. Principles of Underwater Sound, 3rd edition, 1983, chapter 8).
-// Intensities are those of a recording after its gain: 1 is a level bottom of reflectivity one under `level_gain`.
+// The surface return begins straight above the sonar, at a slant range of its depth, as a bright line with a tail;
+// volume reverberation comes from all ranges (R. J. Urick. Principles of Underwater Sound, 3rd edition, 1983, chapter
+// 8). Intensities are those of a recording after its gain: 1 is a level bottom of reflectivity one under `level_gain`.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -26186,23 +26185,23 @@ class water_law {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// A filter that adds mean intensities by slant range; speckle on top makes them fluctuate. Rows are pings and columns
-/// bins of equal slant range.
+/// A filter that adds mean intensities by slant range; speckle applied later makes them fluctuate. Rows are pings,
+/// columns bins of slant range.
 struct water_column {
-    float first_range = 0;  ///< metres, where the first bin begins
+    float first_range = 0;  ///< start of the first bin, metres
     float bin = 0.02f;      ///< metres, above 0
 
     float noise = 1e-3f;          ///< intensity of the receiver's noise at `noise_range`, >= 0
     float noise_range = 40;       ///< metres, above 0
-    float spreading = 30;         ///< decibels per tenfold range by which gain lifts the noise, 0 to 60
+    float spreading = 30;         ///< gain on the noise, decibels per tenfold range, 0 to 60
     float absorption_per_km = 0;  ///< the same for absorption, one way, 0 to 3000
     float volume = 0;             ///< intensity of scatterers in the water, >= 0
 
-    float surface = 0;          ///< intensity of the surface return where it begins, >= 0; 0: none
+    float surface = 0;          ///< intensity of the surface return at its start, >= 0
     float surface_range = 10;   ///< metres from the sonar up to the surface, above 0
-    float surface_tail = 0.3f;  ///< metres of range over which it decays to 1 / e, above 0
-    float waves = 0.1f;         ///< metres (rms) by which it wavers, >= 0
-    float wave_length = 15;     ///< pings between the nodes of that, at least 1
+    float surface_tail = 0.3f;  ///< metres of range in which it decays to 1 / e, above 0
+    float waves = 0.1f;         ///< rms of its variation in range, metres, >= 0
+    float wave_length = 15;     ///< pings between nodes of the variation, at least 1
     std::uint64_t seed = 1;
 
     using is_filter = std::true_type;
