@@ -26,6 +26,7 @@ munge         command:munged                          munge                 mung
 parallel      command:parallel                        parallel              parallel            parallel
 deflate       header:libdeflate.h                     libdeflate-dev        libdeflate-devel    libdeflate
 opencv        header:opencv4/opencv2/ml.hpp|opencv2/ml.hpp  libopencv-dev   opencv-devel        opencv
+pillow        python:PIL                              python3-pil           python3-pillow      pillow
 chromium      command:chromium|chromium-browser|google-chrome  chromium     chromium            --cask chromium
 clang         command:clang++                         clang                 clang               llvm
 fuzzer        clang:-fsanitize=fuzzer                 libclang-rt-dev       compiler-rt         llvm
@@ -43,6 +44,8 @@ present() {
     for candidate in ${candidates//|/ }; do
         case $kind in
             command) command -v "$candidate" >/dev/null && return 0 ;;
+            python) python3 -c "import $candidate" 2>/dev/null && return 0
+                /usr/bin/python3 -c "import $candidate" 2>/dev/null && return 0 ;;
             clang) # a flag, and the library behind it; the fuzzer brings main()
                 echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
                     clang++ "$candidate" -x c++ - -o /dev/null 2>/dev/null && return 0

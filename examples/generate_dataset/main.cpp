@@ -14,6 +14,7 @@
 #include "lock.hpp"
 #include "pictures.hpp"
 #include "record.hpp"
+#include "summary.hpp"
 #include "tables.hpp"
 #include "views.hpp"
 #include "writer.hpp"
@@ -82,6 +83,14 @@ int verify(const generator::options& o, const generator::stock& shared, insonify
     return faults > 0 ? 1 : 0;
 }
 
+/// Says what is about to be made. Few images are not worth an estimate, which draws some of them.
+void describe(const generator::options& o, const generator::stock& shared, int threads) {
+    const generator::index_range work = generator::range_of(o.first, o.count, o.shard);
+    generator::image_cost cost;
+    if (o.dry_run || work.size() >= 64) cost = generator::measured_cost(o, work, shared);
+    std::fputs(generator::summary_of(o, work, cost, threads).c_str(), o.dry_run ? stdout : stderr);
+}
+
 int generate(const generator::options& o, const generator::stock& shared, insonify::thread_pool& pool) {
     const std::filesystem::path root = generator::opened(o.out);
     const generator::folder_lock lock(root, o.shard.given ? static_cast<std::int64_t>(o.shard.number) : -1);
@@ -97,6 +106,7 @@ int generate(const generator::options& o, const generator::stock& shared, insoni
 
     // Whole images run side by side, each by itself on one thread: encoding a PNG is as long as drawing it, and serial.
     const generator::index_range work = generator::range_of(o.first, o.count, o.shard);
+    describe(o, shared, pool.threads());
     examples::progress bar(work.size());
     std::atomic<std::uint64_t> made = 0, repaired = 0;
     for_each_index(pool, work, [&](const auto& next) {
@@ -121,6 +131,7 @@ int generate(const generator::options& o, const generator::stock& shared, insoni
     else
         std::printf("%s: %llu images", o.out.c_str(), number(generator::write_tables(root, o.preview, into)));
     std::printf(", %llu of them new, %.2f images/s\n", number(made), static_cast<double>(made) / bar.elapsed());
+    if (!o.shard.given) std::fputs(generator::where_to_look(o).c_str(), stdout);
     if (stop_signal != 0 && bar.done() < work.size()) {
         std::fprintf(stderr, "Stopped; the same command goes on from here.\n");
         return 128 + stop_signal;
@@ -141,6 +152,7 @@ int main(int argc, char** argv) try {
     insonify::thread_pool pool(o.threads);
     if (pool.threads() < o.threads)
         std::fprintf(stderr, "--threads %d: the system started %d of them\n", o.threads, pool.threads());
+    if (o.dry_run) return describe(o, shared, pool.threads()), 0;
     return o.verify ? verify(o, shared, pool) : generate(o, shared, pool);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "generate_dataset: %s\n", error.what());

@@ -92,6 +92,9 @@ options parsed(int argc, const char* const* argv,
            "this task in a job array, SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX. tools/merge joins the shards")
         ->group(what);
     app.add_flag("--verify", o.verify, "Make nothing; check every file of the set, and decode it")->group(what);
+    app.add_flag("--dry-run", o.dry_run,
+                 "Make nothing; say what would be made: counts, size, estimates of time and bytes")
+        ->group(what);
     app.add_option("--seed", o.seed, "Another seed is another data set (1)")
         ->check(whole_number(0, UINT64_MAX))
         ->group(what);

@@ -22,7 +22,7 @@ struct options {
     std::string out;
     std::uint64_t first = 0, count = 24;
     generator::shard shard;
-    bool verify = false, preview = false;
+    bool verify = false, preview = false, dry_run = false;
     int threads = 0;
     std::uint64_t input_limit = examples::usual_input_limit;  ///< bytes
 

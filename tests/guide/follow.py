@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Follows the guide word for word: follow.py <project> <folder to work in> [--generate PROGRAM] [--merge PROGRAM] [page...]
+
+Pages are followed in the order of docs/guide/README.md, in one folder, from top to bottom:
+
+- A block whose first line is a comment with a file's name is written to that file.
+- A block of `sh` is run by bash, with the compiler of $CXX. `sh skip` is not run: it installs, or needs a cluster.
+- A block of `text` below one that was run is its output: each of its lines, in this order; `...` stands for anything.
+
+`insonify/` in the folder is the project. `insonify/tools/generate` and `insonify/tools/merge` build what they run; the
+programs that the options name run in their place, and without them such blocks are left out, by name.
+"""
+
+import argparse
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+FENCE = re.compile(r"^```(\S*) ?(.*?)\n(.*?)^```$", re.M | re.S)
+FILE_NAME = re.compile(r"(?://|#) (\S+\.\w+|Makefile)\s*$")
+LIMIT = 150 * 1000  # bytes of a picture
+
+
+def pages_of(guide):
+    """The pages in the order in which the index links them."""
+    return list(dict.fromkeys(re.findall(r"\]\((\w+\.md)\)", (guide / "README.md").read_text())))
+
+
+def differs(expected, output):
+    """The first line that the output lacks, or None."""
+    lines = iter(output.splitlines())
+    for line in expected.splitlines():
+        pattern = ".*".join(re.escape(part) for part in line.strip().split("..."))
+        if not any(re.fullmatch(pattern, found.strip()) for found in lines):
+            return line
+    return None
+
+
+class Guide:
+    def __init__(self, project, folder, stand_ins):
+        self.guide, self.folder, self.stand_ins = project / "docs/guide", folder, stand_ins
+        self.faults, self.left_out, self.blocks = [], [], 0
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        (folder / "insonify").symlink_to(project, target_is_directory=True)
+
+    def run(self, code):
+        """The output of a shell block, None if it can't be run here; a failure is a fault."""
+        for name, program in self.stand_ins.items():
+            if name in code and not program:
+                return None
+            code = code.replace(name, str(program))
+        done = subprocess.run(["bash", "-euo", "pipefail", "-c", code], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=1200)
+        if done.returncode != 0:
+            raise RuntimeError(f"exit status {done.returncode} of\n{code}\n{done.stdout[-3000:]}")
+        return done.stdout
+
+    def follow(self, page):
+        text = (self.guide / page).read_text()
+        output = None
+        for fence in FENCE.finditer(text):
+            language, flag, code = fence.groups()
+            where = f"{page}:{text.count(chr(10), 0, fence.start()) + 1}"
+            name = FILE_NAME.match(code.split("\n", 1)[0])
+            started = time.monotonic()
+            try:
+                if language == "sh":
+                    output = None if flag == "skip" else self.run(code)
+                    if flag != "skip" and output is None:
+                        self.left_out.append(where)
+                    self.blocks += output is not None
+                elif language == "text":
+                    missing = None if output is None else differs(code, output)
+                    if missing is not None:
+                        raise RuntimeError(f"no line '{missing}' in\n{output}")
+                elif name:
+                    (self.folder / name[1]).write_text(code)
+                    self.blocks += 1
+                elif language == "cpp":
+                    raise RuntimeError("a block of C++ has to begin with // and the name of its file")
+            except (RuntimeError, subprocess.TimeoutExpired) as fault:
+                self.faults.append(f"{where}: {fault}")
+                print(f"{where}: FAULT", flush=True)
+                return
+            if time.monotonic() - started > 1:
+                print(f"{where}: {time.monotonic() - started:.1f} s", flush=True)
+        for picture in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", text):
+            path = self.guide / picture
+            if not path.exists():
+                self.faults.append(f"{page}: {picture} is missing; tools/pictures makes it")
+            elif path.suffix == ".png" and path.stat().st_size > LIMIT:
+                self.faults.append(f"{page}: {picture} has {path.stat().st_size} bytes, at most {LIMIT}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("project", type=pathlib.Path)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--generate", help="the program generate_dataset")
+    parser.add_argument("--merge", help="the program merge_dataset")
+    parser.add_argument("pages", nargs="*")
+    given = parser.parse_args()
+    os.environ.setdefault("CXX", "g++")
+    guide = Guide(given.project.resolve(), given.folder.resolve(),
+                  {"insonify/tools/generate": given.generate, "insonify/tools/merge": given.merge})
+    pages = pages_of(guide.guide)
+    for page in pages:
+        if not given.pages or page in given.pages or page == pages[0]:
+            guide.follow(page)
+    for where in guide.left_out:
+        print(f"{where}: left out, the generator is not built")
+    print("\n".join(guide.faults + [f"{guide.blocks} blocks, {len(guide.faults)} faults"]))
+    sys.exit(1 if guide.faults else 0)
+
+
+main()

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Makes pictures of the guide from what its programs wrote: annotate.py <folder of the programs> <docs/guide>
+
+Adds a margin with the way the sound travels and a scale bar, and stores few levels, so that each file stays small.
+"""
+
+import pathlib
+import sys
+
+from PIL import Image, ImageDraw
+
+INK, PAPER = (20, 20, 20), (255, 255, 255)
+
+
+class Overhead:
+    """A picture from above, lit from the left; metres across at the datum."""
+
+    def __init__(self, metres, levels=12):
+        self.metres, self.levels = metres, levels
+
+    def margin(self, draw, left, top, width, height):
+        below = top + height
+        draw.text((left, below + 8), "sound travels to the right", INK)
+        arrow(draw, left + 160, below + 14, 40)
+        scale_bar(draw, left + width, below + 12, width / self.metres, self.metres)
+
+
+class Swath:
+    """Both sides of a track, forward up; columns are slant range to either side."""
+
+    def __init__(self, metres_to_a_side, metres_along, levels=12):
+        self.side, self.along, self.levels = metres_to_a_side, metres_along, levels
+
+    def margin(self, draw, left, top, width, height):
+        below, middle = top + height, left + width / 2
+        step = 10
+        for mark in range(-int(self.side / step) * step, int(self.side) + 1, step):
+            x = middle + mark * width / (2 * self.side)
+            draw.line([(x, below), (x, below + 5)], INK)
+            text(draw, x, below + 7, str(abs(mark)))
+        text(draw, left + 130, below + 22, "port: slant range, m")
+        text(draw, left + width - 130, below + 22, "starboard: slant range, m")
+        text(draw, middle, below + 22, "sonar's track, forward up")
+        for mark in range(0, int(self.along) + 1, step):
+            y = below - mark * height / self.along
+            draw.line([(left - 5, y), (left, y)], INK)
+            text(draw, left - 14, y - 5, str(mark))
+        text(draw, left + 2, 2, "distance along the track, m", anchor="left")
+
+
+class Plain:
+    """A picture that is no sonar's."""
+
+    def __init__(self, caption, levels=16):
+        self.caption, self.levels = caption, levels
+
+    def margin(self, draw, left, top, width, height):
+        draw.text((left, top + height + 8), self.caption, INK)
+
+
+# What each program's picture shows: of an overhead rig, 2 altitude tan(field of view / 2) metres.
+PICTURES = {
+    "scene.png": Overhead(8.0),
+    "filter.png": Overhead(13.86, levels=8),
+    "waves.png": Overhead(13.86),
+    "survey_bottom.png": Overhead(13.86),
+    "block.png": Overhead(13.86),
+    "line.png": Swath(32, 51.2, levels=8),
+    "shader.png": Plain("hull of 24 m, a line for every metre from the sonar"),
+}
+
+
+def text(draw, x, y, words, anchor="middle"):
+    box = draw.textbbox((0, 0), words)
+    draw.text((x - (box[2] / 2 if anchor == "middle" else 0), y), words, INK)
+
+
+def arrow(draw, x, y, length):
+    draw.line([(x, y), (x + length, y)], INK)
+    draw.polygon([(x + length, y), (x + length - 7, y - 4), (x + length - 7, y + 4)], INK)
+
+
+def scale_bar(draw, right, y, pixels_per_metre, metres):
+    length = next(n for n in (20, 10, 5, 2, 1, 0.5) if n <= metres / 4)
+    left = right - length * pixels_per_metre
+    draw.line([(left, y), (right, y)], INK, 3)
+    for x in (left, right):
+        draw.line([(x, y - 5), (x, y + 5)], INK)
+    draw.text((left - 32, y - 4), f"{length:g} m", INK)
+
+
+def main():
+    source, target = map(pathlib.Path, sys.argv[1:3])
+    for name, kind in PICTURES.items():
+        if not (source / name).exists():
+            print(f"{name}: not drawn")
+            continue
+        picture = Image.open(source / name).convert("RGB")
+        left, top, below = (30, 16, 40) if isinstance(kind, Swath) else (0, 0, 30)
+        sheet = Image.new("RGB", (picture.width + left, picture.height + top + below), PAPER)
+        palette = picture.quantize(kind.levels, dither=Image.Dither.NONE)
+        sheet.paste(palette.convert("RGB"), (left, top))
+        kind.margin(ImageDraw.Draw(sheet), left, top, picture.width, picture.height)
+        sheet.quantize(16, dither=Image.Dither.NONE).save(target / name, optimize=True, bits=4)
+        print(f"{name}: {(target / name).stat().st_size / 1000:.0f} kB")
+
+
+main()
