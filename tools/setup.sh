@@ -35,6 +35,7 @@ gles          header:GLES3/gl3.h                      libgles-dev           mesa
 llvmpipe      library:dri/swrast_dri.so               libgl1-mesa-dri       mesa-dri-drivers    mesa
 embree        header:embree3/rtcore.h                 libembree-dev         embree3-devel       embree@3
 valgrind      command:valgrind                        valgrind              valgrind            valgrind
+doxygen       command:doxygen                         doxygen               doxygen             doxygen
 clang-format  command:clang-format                    clang-format          clang-tools-extra   clang-format
 '
 

@@ -187,9 +187,11 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
 inline settings<> fast(const overhead& rig) {
     return {.cell = 4 * overhead_geometry(rig).ground_sampling(), .side_error = 1, .shadow_error = 1, .rig = rig};
 }
+/// Facets within a quarter of a pixel.
 inline settings<> balanced(const overhead& rig) {
     return {.cell = 2 * overhead_geometry(rig).ground_sampling(), .side_error = 0.25, .shadow_error = 0.25, .rig = rig};
 }
+/// Four seabed vertices for each pixel, vertices rounded to 1/65536 pixel.
 inline settings<> exact(const overhead& rig) {
     const double finest = (std::max)(0.5, (std::max)(rig.size.x, rig.size.y) / 32768.0);
     return {.cell = finest * overhead_geometry(rig).ground_sampling(),

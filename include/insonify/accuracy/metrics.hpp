@@ -131,6 +131,7 @@ inline mask_difference compare_masks(image_view<const std::uint8_t> result, imag
 inline pixel_difference compare_images(image_view<const float> result, image_view<const float> truth) {
     return detail::compare_pixels(result, truth);
 }
+/// The same of codes of 8 bits.
 inline pixel_difference compare_images(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
     return detail::compare_pixels(result, truth);
 }

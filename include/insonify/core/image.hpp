@@ -19,6 +19,7 @@ struct rgb {
     T r{}, g{}, b{};
     friend bool operator==(const rgb&, const rgb&) = default;
 };
+/// A colour of 8 bits a channel, as files hold it.
 using rgb8 = rgb<std::uint8_t>;
 
 /// Owning row-major image without padding; row 0 is at the top, pixel (x, y) covers [x, x+1) x [y, y+1).
@@ -128,6 +129,7 @@ auto map_pixels(image_view<const T> source, Fn&& fn) {
     }
     return out;
 }
+/// A new image of fn(pixel), of whatever type that returns.
 template <class T, class Fn>
 auto map_pixels(const image<T>& source, Fn&& fn) {
     return map_pixels(source.view(), fn);

@@ -17,7 +17,9 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+/// What random words are a function of, beside the key.
 using philox_counter = std::array<std::uint32_t, 4>;
+/// The key of a stream of random words, from `stream_key`.
 using philox_key = std::array<std::uint32_t, 2>;
 
 inline namespace INSONIFY_FLAGS {

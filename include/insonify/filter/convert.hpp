@@ -47,6 +47,7 @@ struct to_unit {
 
 /// [0, 1] -> 0 ... 255 or 65535, to the nearest; values outside go to the nearer end, NaN to 0.
 inline constexpr detail::to_code<std::uint8_t> to_uint8{};
+/// The same with 16 bits.
 inline constexpr detail::to_code<std::uint16_t> to_uint16{};
 
 /// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` takes it back exactly.

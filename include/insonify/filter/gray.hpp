@@ -35,6 +35,7 @@ struct to_gray {
 
     using is_filter = std::true_type;
 
+    /// The function of a pixel that `to_gray` applies.
     struct weighted_sum {
         gray_weights weights;
         template <pixel_code Channel>

@@ -215,6 +215,7 @@ histogram histogram_of(image_view<const Pixel> source, int bins = 256, E&& ex = 
     }
     return detail::count_parts(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); });
 }
+/// The same of an image.
 template <countable_pixel Pixel, executor_argument E = serial_executor>
 histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) {
     return histogram_of(source.view(), bins, ex);

@@ -103,6 +103,7 @@ distribution distribution_of(image_view<const Code> source, E&& ex = {}) {
     }
     return result;
 }
+/// The same of an image.
 template <countable_pixel Pixel>
 distribution distribution_of(const image<Pixel>& source) {
     return distribution_of(source.view());

@@ -298,10 +298,12 @@ template <class Pixel, filter_for<Pixel> F, executor_argument Executor = serial_
 auto apply(const image<Pixel>& in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
     return detail::apply_to(in, f, ex, origin, detail::into_image{});
 }
+/// The same, in the memory of the image where the pixel type stays the same.
 template <class Pixel, filter_for<Pixel> F, executor_argument Executor = serial_executor>
 auto apply(image<Pixel>&& in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
     return detail::apply_to(std::move(in), f, ex, origin, detail::into_image{});
 }
+/// The same of pixels in memory of your own.
 template <class Pixel, filter_for<std::remove_const_t<Pixel>> F, executor_argument Executor = serial_executor>
 auto apply(image_view<Pixel> in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
     return detail::apply_to(in, f, ex, origin, detail::into_image{});
@@ -328,10 +330,12 @@ template <class Pixel, filter_for<Pixel> F>
 auto operator|(const image<Pixel>& in, const F& f) {
     return apply(in, f);
 }
+/// The same, in the memory of the image where the pixel type stays the same.
 template <class Pixel, filter_for<Pixel> F>
 auto operator|(image<Pixel>&& in, const F& f) {
     return apply(std::move(in), f);
 }
+/// The same of pixels in memory of your own.
 template <class Pixel, filter_for<std::remove_const_t<Pixel>> F>
 auto operator|(image_view<Pixel> in, const F& f) {
     return apply(in, f);

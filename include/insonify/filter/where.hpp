@@ -60,6 +60,7 @@ image<Pixel> pixels_where(image_view<const std::uint8_t> mask, image_view<const 
             if (mask(x, y) != 0) *next++ = source(x, y);
     return result;
 }
+/// The same of an image.
 template <class Pixel>
 image<Pixel> pixels_where(image_view<const std::uint8_t> mask, const image<Pixel>& source) {
     return pixels_where(mask, source.view());

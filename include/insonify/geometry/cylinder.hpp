@@ -68,6 +68,7 @@ inline mesh to_mesh(const capsule& shape) {
 inline int segments_for(const cylinder& shape, float deviation) {
     return segments_for(shape.radius, deviation);
 }
+/// The same for a capsule.
 inline int segments_for(const capsule& shape, float deviation) {
     return detail::round_segments_for(shape.radius, deviation, [](int segments) { return 2 * ((segments + 3) / 4); });
 }

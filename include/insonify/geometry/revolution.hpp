@@ -16,6 +16,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+/// The axis of a body of revolution.
 enum class axis { x, y, z };
 
 /// A point of the outline that is turned about the axis, and the unit normal there, both in the half plane

@@ -79,6 +79,7 @@ inline int segments_for(const sphere& shape, float deviation) {
     return detail::round_segments_for(shape.radius * longest, deviation,
                                       [](int segments) { return (segments + 1) / 2; });
 }
+/// The same for a hemisphere.
 inline int segments_for(const hemisphere& shape, float deviation) {
     const float longest = (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
     return detail::round_segments_for(shape.radius * longest, deviation,

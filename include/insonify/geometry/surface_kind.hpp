@@ -17,6 +17,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+/// What a mesh is to a shadow policy.
 enum class surface_kind {
     open,         ///< nothing is known
     closed,       ///< each edge is run along as often one way as the other: a ray that comes from outside and ends

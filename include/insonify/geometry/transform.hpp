@@ -52,9 +52,11 @@ inline glm::dvec3 unit(const glm::dvec3& n) {
 
 inline namespace INSONIFY_FLAGS {
 
+/// The map of a position.
 inline glm::dvec3 transform_point(const affine& map, const glm::dvec3& point) {
     return numeric::product(map.linear, point) + map.offset;
 }
+/// The map of a direction, which an offset does not move. Lengths are not kept.
 inline glm::dvec3 transform_direction(const affine& map, const glm::dvec3& direction) {
     return numeric::product(map.linear, direction);
 }

@@ -263,6 +263,7 @@ template <class Pixel>
         return bytes;
     }
 
+/// The same of an image.
 template <storable_pixel Pixel>
 std::string format_netpbm(const image<Pixel>& source) {
     return format_netpbm(source.view());
@@ -275,6 +276,7 @@ template <class Pixel>
 void write_netpbm(const std::string& path, image_view<Pixel> source) {
     write_file(path, format_netpbm(source));
 }
+/// The same of an image.
 template <storable_pixel Pixel>
 void write_netpbm(const std::string& path, const image<Pixel>& source) {
     write_netpbm(path, source.view());

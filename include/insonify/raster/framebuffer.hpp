@@ -20,6 +20,7 @@ struct framebuffer {
     bool clears_color = false;  ///< whether `depth_load::clear` also sets the color of all pixels to `background`
     Pixel background{};
 };
+/// Depths without colours.
 template <>
 struct framebuffer<void> {
     image_view<float> depth;

@@ -19,6 +19,7 @@ template <class V>
 inline constexpr bool is_vector_of_floats = requires {
     requires std::is_same_v<typename V::value_type, float>;
 };
+/// A float counts as a vector of one.
 template <>
 inline constexpr bool is_vector_of_floats<float> = true;
 

@@ -112,6 +112,7 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
+/// What a vertex shader hands on for interpolation.
 template <vertex_shader S>
 using varyings_of = typename detail::shader_varyings<S>::type;
 

@@ -64,6 +64,7 @@ struct heap {
     float slope = 0.6f;   ///< > 0: of its sides; sand lies at 0.6, mud flatter
 };
 
+/// One change of a seabed.
 using edit = std::variant<raise, flatten, smooth, ramp, stamp, scour, heap, moat>;
 
 namespace detail::inline INSONIFY_FLAGS {

@@ -78,6 +78,7 @@ inline constexpr sediment_facts sediments[] = {
     {type::sandy_mud, "sandy mud", 6.0f, 0.000517f, -22.5f, 0, 1, {sediment_form::soft}},
     {type::silty_clay, "silty clay", 8.0f, 0.000517f, -22.6f, 0, 1, {sediment_form::soft}},
 };
+/// How many sediments have a name.
 inline constexpr std::size_t sediment_count = std::size(sediments);
 
 namespace detail::inline INSONIFY_FLAGS {

@@ -42,6 +42,7 @@ constexpr type type_of(sediment s) {
     return static_cast<type>(s);
 }
 
+/// The row of a sediment in the table above.
 constexpr const sediment_facts& facts_of(sediment s) {
     return sediments[static_cast<std::size_t>(s) - std::size(relief_types)];
 }

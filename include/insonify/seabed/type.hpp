@@ -84,6 +84,7 @@ inline namespace INSONIFY_FLAGS {
 constexpr type label_of(type t) {
     return t;
 }
+/// The label of a type with its properties.
 constexpr type label_of(const type_properties& p) {
     return p.label;
 }

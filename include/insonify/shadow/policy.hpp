@@ -83,6 +83,7 @@ inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, st
     return numeric::cross(corner(1) - a, corner(2) - a);
 }
 
+/// A light of any kind.
 using any_light = std::variant<directional_light, point_light>;
 
 /// `structure.test(points, shares)` fills in all shares; it may be called for several batches at the same time.

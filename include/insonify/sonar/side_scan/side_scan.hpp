@@ -70,7 +70,9 @@ struct side_scan_rig {
         return (static_cast<double>(range) - static_cast<double>(first_range)) / bins;
     }
 };
+/// A rig whose columns are slant ranges.
 using side_scan = side_scan_rig<across_track::slant_range>;
+/// A rig whose columns are ranges along the bottom.
 using ground_range = side_scan_rig<across_track::ground_range>;
 
 inline namespace INSONIFY_FLAGS {

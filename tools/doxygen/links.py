@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Finds dead links: links.py <folder of HTML or Markdown>...
+
+Every relative link has to lead to a file, and its #fragment to an id of that file. Links to other sites are not tried.
+"""
+
+import html.parser
+import pathlib
+import re
+import sys
+import urllib.parse
+
+
+class Page(html.parser.HTMLParser):
+    def __init__(self, text):
+        super().__init__()
+        self.links, self.ids = [], set()
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        for key, value in attributes:
+            if value and key in ("href", "src"):
+                self.links.append(value)
+            if value and key in ("id", "name"):
+                self.ids.add(value)
+
+
+class Markdown:
+    def __init__(self, text):
+        text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+        self.links = re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`\n]*`", "", text))
+        titles = re.findall(r"^#+ (.*)$", text, re.M)
+        self.ids = {re.sub(r"[^\w\- ]", "", t).lower().replace(" ", "-") for t in titles}
+
+
+def main():
+    read = {}
+
+    def page(path):
+        if path not in read:
+            read[path] = (Markdown if path.suffix == ".md" else Page)(path.read_text(errors="replace"))
+        return read[path]
+
+    files = [f for folder in map(pathlib.Path, sys.argv[1:]) for f in
+             ([folder] if folder.is_file() else sorted(folder.rglob("*.html")) + sorted(folder.rglob("*.md")))]
+    dead, links = [], 0
+    for path in files:
+        for link in page(path).links:
+            parts = urllib.parse.urlsplit(link)
+            if parts.scheme or link.startswith(("//", "javascript:")):
+                continue
+            links += 1
+            to = (path.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else path.resolve()
+            if not to.exists():
+                dead.append(f"{path}: {link}")
+            elif parts.fragment and to.suffix in (".html", ".md"):
+                if urllib.parse.unquote(parts.fragment) not in page(to).ids:
+                    dead.append(f"{path}: {link} (no such place)")
+    print("\n".join(dead + [f"{links} links in {len(files)} files, {len(dead)} dead"]))
+    sys.exit(1 if dead else 0)
+
+
+main()
