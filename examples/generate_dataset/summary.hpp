@@ -15,7 +15,7 @@ struct image_cost {
     int images = 0;  ///< drawn; 0: nothing is known
 };
 
-/// Draws images spread over the range until it has three, or half a second has passed.
+/// Draws two to four images spread over the range, fewer if they take more than half a second.
 image_cost measured_cost(const options& o, const index_range& work, const stock& shared);
 
 /// Two or three lines for people, ending with a line break.

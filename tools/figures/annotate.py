@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes pictures of the guide from what its programs wrote: annotate.py <folder of the programs> <docs/guide>
+"""Makes the pictures of README.md and the guide from what programs wrote: annotate.py <folder of the programs> <docs/guide>
 
 Adds a margin with the way the sound travels and a scale bar, and stores few levels, so that each file stays small.
 """
@@ -60,19 +60,64 @@ class Plain:
 
 # What each program's picture shows: of an overhead rig, 2 altitude tan(field of view / 2) metres.
 PICTURES = {
+    "cylinder.png": Overhead(8.0),
     "scene.png": Overhead(8.0),
     "filter.png": Overhead(13.86, levels=8),
     "waves.png": Overhead(13.86),
     "survey_bottom.png": Overhead(13.86),
     "block.png": Overhead(13.86),
-    "line.png": Swath(32, 51.2, levels=8),
+    "line.png": Swath(32, 50.4, levels=8),
     "shader.png": Plain("hull of 24 m, a line for every metre from the sonar"),
 }
+
+
+# The chips of README.md's picture, of the guide's data set `boats`.
+CHIPS = ["ship/000000/000000000", "plane/000000/000000006", "ship/000000/000000001", "plane/000000/000000007",
+         "ship/000000/000000005", "tyre/000000/000000011", "plane/000000/000000008", "empty/000000/000000023"]
+
+
+def front(source, target):
+    """The survey line of the guide above chips of its data set, the names of their classes below."""
+    line = Image.open(target / "line.png").convert("RGB")
+    side, gap = 118, 4
+    sheet = Image.new("RGB", (line.width, line.height + side + 30), PAPER)
+    sheet.paste(line, (0, 0))
+    draw = ImageDraw.Draw(sheet)
+    left = 30
+    for chip in CHIPS:
+        picture = Image.open(source / "boats/images" / f"{chip}.png").convert("L").resize((side, side))
+        sheet.paste(picture.convert("RGB").point(lambda v: round(v / 36.4) * 36), (left, line.height + 6))
+        name = chip.split("/")[0]
+        text(draw, left + side / 2, line.height + side + 10, "bare bottom" if name == "empty" else name)
+        left += side + gap
+    save(sheet, target.parent / "front.png", 24)
+
+
+def save(sheet, path, colors=16):
+    sheet.quantize(colors, dither=Image.Dither.NONE).save(path, optimize=True, bits=4 if colors <= 16 else 8)
+    print(f"{path.name}: {path.stat().st_size / 1000:.0f} kB")
 
 
 def text(draw, x, y, words, anchor="middle"):
     box = draw.textbbox((0, 0), words)
     draw.text((x - (box[2] / 2 if anchor == "middle" else 0), y), words, INK)
+
+
+def posterized(picture, levels):
+    """A picture of one ramp of colours with so many of them, evenly spaced in brightness from black to white."""
+    gray = picture.convert("L")
+    darkest, brightest = gray.getextrema()
+    step = (brightest - darkest) / (levels - 1) or 1
+    mean = {}
+    for count, color in picture.getcolors(1 << 24):
+        level = round((0.299 * color[0] + 0.587 * color[1] + 0.114 * color[2] - darkest) / step)
+        total = mean.setdefault(min(max(level, 0), levels - 1), [0, 0, 0, 0])
+        for channel in range(3):
+            total[channel] += count * color[channel]
+        total[3] += count
+    palette = {level: tuple(round(t / total[3]) for t in total[:3]) for level, total in mean.items()}
+    tables = [palette.get(min(max(round((v - darkest) / step), 0), levels - 1), (0, 0, 0)) for v in range(256)]
+    return Image.merge("RGB", [gray.point([t[channel] for t in tables]) for channel in range(3)])
 
 
 def arrow(draw, x, y, length):
@@ -96,13 +141,15 @@ def main():
             print(f"{name}: not drawn")
             continue
         picture = Image.open(source / name).convert("RGB")
+        if name == "cylinder.png":
+            picture = picture.resize((512, 512))
         left, top, below = (30, 16, 40) if isinstance(kind, Swath) else (0, 0, 30)
         sheet = Image.new("RGB", (picture.width + left, picture.height + top + below), PAPER)
-        palette = picture.quantize(kind.levels, dither=Image.Dither.NONE)
-        sheet.paste(palette.convert("RGB"), (left, top))
+        sheet.paste(posterized(picture, kind.levels), (left, top))
         kind.margin(ImageDraw.Draw(sheet), left, top, picture.width, picture.height)
-        sheet.quantize(16, dither=Image.Dither.NONE).save(target / name, optimize=True, bits=4)
-        print(f"{name}: {(target / name).stat().st_size / 1000:.0f} kB")
+        save(sheet, target / name if name != "cylinder.png" else target.parent / name)
+    if (source / "boats").exists() and (target / "line.png").exists():
+        front(source, target)
 
 
 main()

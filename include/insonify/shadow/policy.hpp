@@ -116,6 +116,7 @@ struct exact {
 /// No shadows: nothing is built, tested or compiled.
 struct none {};
 
+/// A shadow policy: one that builds an occlusion of casters, or `none`.
 template <class P>
 concept policy = std::same_as<P, none> || casting_policy<P>;
 

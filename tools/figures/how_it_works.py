@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+"""Draws the figures of docs/how_it_works.md: how_it_works.py docs/how_it_works
+
+All positions are computed from the numbers at the top of each function, in the units of the axes.
+"""
+
+import math
+import pathlib
+import sys
+
+INK, FAINT, LIT, DARK, HOT = "#223", "#9ab", "#e8c890", "#333a44", "#c0392b"
+
+
+class Plot:
+    """Axes with units, y up, drawn into a box of pixels."""
+
+    def __init__(self, width, height, x_range, y_range, x_label, y_label, equal=False):
+        self.size, self.body = (width, height), []
+        self.left, self.right, self.top, self.bottom = 62, width - 16, 18, height - 46
+        self.x0, self.x1 = x_range
+        self.y0, self.y1 = y_range
+        if equal:  # the same pixels per unit along both axes
+            unit = (self.right - self.left) / (self.x1 - self.x0)
+            self.bottom = self.top + unit * (self.y1 - self.y0)
+            self.size = (width, round(self.bottom + 46))
+        self.label(x_label, y_label)
+
+    def at(self, x, y):
+        return (self.left + (x - self.x0) / (self.x1 - self.x0) * (self.right - self.left),
+                self.bottom - (y - self.y0) / (self.y1 - self.y0) * (self.bottom - self.top))
+
+    def add(self, text):
+        self.body.append(text)
+
+    def line(self, points, color=INK, width=1.5, more=""):
+        path = " ".join("%.1f,%.1f" % self.at(*p) for p in points)
+        self.add(f'<polyline points="{path}" fill="none" stroke="{color}" stroke-width="{width}" {more}/>')
+
+    def area(self, points, fill, more=""):
+        path = " ".join("%.1f,%.1f" % self.at(*p) for p in points)
+        self.add(f'<polygon points="{path}" fill="{fill}" {more}/>')
+
+    def dot(self, x, y, radius=3, fill=INK, more=""):
+        px, py = self.at(x, y)
+        self.add(f'<circle cx="{px:.1f}" cy="{py:.1f}" r="{radius}" fill="{fill}" {more}/>')
+
+    def text(self, x, y, words, anchor="middle", color=INK, shift=(0, 0)):
+        px, py = self.at(x, y)
+        self.add(f'<text x="{px + shift[0]:.1f}" y="{py + shift[1]:.1f}" text-anchor="{anchor}" fill="{color}">{words}</text>')
+
+    def label(self, x_label, y_label):
+        middle = (self.left + self.right) / 2
+        self.add(f'<text x="{middle}" y="{self.bottom + 38:.0f}" text-anchor="middle">{x_label}</text>')
+        high = (self.top + self.bottom) / 2
+        self.add(f'<text transform="translate(16 {high:.0f}) rotate(-90)" text-anchor="middle">{y_label}</text>')
+
+    def ticks(self, xs, ys):
+        for x in xs:
+            px, py = self.at(x, self.y0)
+            self.add(f'<line x1="{px:.1f}" y1="{py:.1f}" x2="{px:.1f}" y2="{py + 5:.1f}" stroke="{INK}"/>')
+            self.add(f'<text x="{px:.1f}" y="{py + 18:.1f}" text-anchor="middle">{x:g}</text>')
+        for y in ys:
+            px, py = self.at(self.x0, y)
+            self.add(f'<line x1="{px - 5:.1f}" y1="{py:.1f}" x2="{px:.1f}" y2="{py:.1f}" stroke="{INK}"/>')
+            self.add(f'<text x="{px - 8:.1f}" y="{py + 4:.1f}" text-anchor="end">{y:g}</text>')
+
+    def svg(self):
+        w, h = self.size
+        return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{w}" height="{h}" viewBox="0 0 {w} {h}" '
+                f'font-family="sans-serif" font-size="12">\n<rect width="100%" height="100%" fill="white"/>\n'
+                + "\n".join(self.body) + "\n</svg>\n")
+
+
+def triangle():
+    """Pixels whose centres a triangle covers."""
+    corners = [(1.3, 6.4), (10.6, 4.9), (5.2, 0.7)]
+    p = Plot(560, 0, (0, 12), (0, 8), "x, pixels", "y, pixels", equal=True)
+
+    def inside(x, y):
+        edges = [(corners[i], corners[(i + 1) % 3]) for i in range(3)]
+        signs = [(bx - ax) * (y - ay) - (by - ay) * (x - ax) for (ax, ay), (bx, by) in edges]
+        return all(s <= 0 for s in signs) or all(s >= 0 for s in signs)
+
+    for row in range(8):
+        for column in range(12):
+            covered = inside(column + 0.5, row + 0.5)
+            p.area([(column, row), (column + 1, row), (column + 1, row + 1), (column, row + 1)],
+                   LIT if covered else "white", f'stroke="{FAINT}"')
+    for row in range(8):
+        for column in range(12):
+            p.dot(column + 0.5, row + 0.5, 1.8, INK if inside(column + 0.5, row + 0.5) else FAINT)
+    p.line(corners + corners[:1], HOT, 2)
+    for x, y in corners:
+        p.dot(x, y, 4, HOT)
+    p.text(1.3, 6.4, "corner, rounded to 1/256 pixel", "start", HOT, (4, -10))
+    p.ticks(range(0, 13, 2), range(0, 9, 2))
+    return p.svg()
+
+
+def shadow():
+    """Light, a caster, its shadow, and the plane on which casters and points meet."""
+    grazing, height, left, right = math.radians(20), 1.2, 3.0, 3.6
+    end = right + height / math.tan(grazing)
+    p = Plot(700, 0, (0, 9), (-0.3, 2.9), "across track, m", "height, m", equal=True)
+    p.area([(0, -0.3), (9, -0.3), (9, 0), (0, 0)], "#d8c9a8")
+    p.area([(right, 0), (end, 0), (right, height)], DARK, 'opacity="0.35"')
+    p.area([(left, 0), (left, height), (right, height), (right, 0)], LIT, f'stroke="{INK}"')
+    for start in (0.6, 1.5, 2.4):  # rays that travel down to the right
+        reach = start / math.tan(grazing)
+        p.line([(0, start), (min(reach, left if reach > left else reach), max(start - left * math.tan(grazing), 0))],
+               HOT, 1.2)
+    p.line([(0, height + right * math.tan(grazing)), (end, 0)], HOT, 1.2, 'stroke-dasharray="5 3"')
+    for x in (0.8, 1.9, 4.4, 5.6, 6.6, 7.6, 8.5):
+        p.dot(x, 0, 4, DARK if right < x < end else "white", f'stroke="{INK}"')
+    across = (math.sin(grazing), math.cos(grazing))  # of the plane that the rays stand upright on
+    base = (7.3, 0.55)
+    p.line([base, (base[0] + 1.9 * across[0], base[1] + 1.9 * across[1])], "#2a7", 2.5)
+    p.text(base[0] + 1.9 * across[0], base[1] + 1.9 * across[1], "plane across the rays", "end", "#175", (-6, 8))
+    p.text(0.2, 2.5, "sound, 20 degrees above the bottom", "start", HOT, (0, 0))
+    p.text((right + end) / 2, 0, f"shadow: {height} m / tan 20 degrees = {height / math.tan(grazing):.1f} m", shift=(0, 20))
+    p.text((left + right) / 2, height, "caster", shift=(0, 24))
+    p.ticks(range(0, 10), (0, 1, 2))
+    return p.svg()
+
+
+SONAR, BOX = 6.0, (14.0, 15.0, 0.8)  # altitude; ground range of the box from, to, and its height, metres
+
+
+def ranges_of_box():
+    near, far, height = BOX
+    over = SONAR - height
+    return {
+        "top": math.hypot(near, over), "foot": math.hypot(near, SONAR), "edge": math.hypot(far, over),
+        "end": math.hypot(far * SONAR / over, SONAR), "shadow_end": far * SONAR / over,
+    }
+
+
+def ping():
+    near, far, height = BOX
+    at = ranges_of_box()
+    p = Plot(760, 0, (0, 22), (-0.8, 7), "ground range, m", "height, m", equal=True)
+    p.area([(0, -0.8), (22, -0.8), (22, 0), (0, 0)], "#d8c9a8")
+    p.area([(near, height), (far, height), (at["shadow_end"], 0), (far, 0), (near, 0)], DARK, 'opacity="0.35"')
+    p.area([(near, 0), (near, height), (far, height), (far, 0)], LIT, f'stroke="{INK}"')
+    for ground in (3, 6, 9, 12):
+        p.line([(0, SONAR), (ground, 0)], FAINT, 1)
+    p.line([(0, SONAR), (near, height)], HOT, 1.2)
+    p.line([(0, SONAR), (at["shadow_end"], 0)], HOT, 1.2, 'stroke-dasharray="5 3"')
+    p.line([(0, SONAR), (20.5, 0)], FAINT, 1)
+    for radius in (SONAR, at["top"], at["end"]):  # what is heard at one time
+        arc = [(radius * math.sin(a), SONAR - radius * math.cos(a)) for a in (math.pi / 2 * i / 60 for i in range(61))]
+        p.line([q for q in arc if -0.01 <= q[1] <= 7], "#2a7", 1, 'stroke-dasharray="2 3"')
+    p.dot(0, SONAR, 6, HOT)
+    p.text(0.3, SONAR, "sonar, 6 m above the bottom", "start", HOT, (4, -8))
+    p.text((near + far) / 2, height, "target", shift=(0, -6))
+    p.text((far + at["shadow_end"]) / 2, 0, "shadow", shift=(4, 18))
+    p.text(10.2, 5.2, "arcs: places that are heard at one time", "start", "#175")
+    p.ticks(range(0, 23, 2), range(0, 7, 2))
+    return p.svg()
+
+
+def echo():
+    near, far, height = BOX
+    at = ranges_of_box()
+    p = Plot(760, 250, (0, 22), (0, 1.15), "slant range, m (half the time of the echo times the speed of sound)",
+             "intensity, relative")
+
+    def bottom(slant):  # Lambert's law, with the ranges' spreading undone by gain
+        return 0 if slant < SONAR else 0.75 * (SONAR / slant) ** 2 + 0.12
+
+    def heard(slant):
+        if at["edge"] <= slant < at["end"]:
+            return 0.01
+        face = 0.7 if at["top"] <= slant < at["foot"] else 0
+        top = 0.12 if at["top"] <= slant < at["edge"] else 0
+        ground = bottom(slant) if slant < at["foot"] or slant >= at["end"] else 0
+        return face + top + ground
+
+    points = [(i * 0.02, heard(i * 0.02)) for i in range(1101)]
+    p.area([(0, 0)] + points + [(22, 0)], LIT)
+    p.line(points, INK, 1.2)
+    p.text(3, 0.2, "water column: silence")
+    p.text(11.2, 0.5, "bottom, weaker at lower grazing angles")
+    p.text(at["top"], 1.03, "front face, before its foot: layover", "end", HOT, (-4, 0))
+    p.text((at["edge"] + at["end"]) / 2, 0.06, "shadow", color=DARK)
+    p.line([(0, 0), (22, 0)], INK, 1)
+    p.ticks(range(0, 23, 2), (0, 0.5, 1))
+    return p.svg()
+
+
+folder = pathlib.Path(sys.argv[1])
+for name in (triangle, shadow, ping, echo):
+    (folder / f"{name.__name__}.svg").write_text(name())
