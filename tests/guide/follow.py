@@ -3,12 +3,12 @@
 
 Pages are followed in the order of docs/guide/README.md, in one folder, from top to bottom:
 
-- A block whose first line is a comment with a file's name is written to that file.
+- A block whose first line is a comment with a file's name, or whose fence has one, is written to that file.
 - A block of `sh` is run by bash, with the compiler of $CXX. `sh skip` is not run: it installs, or needs a cluster.
 - A block of `text` below one that was run is its output: each of its lines, in this order; `...` stands for anything.
 
 `insonify/` in the folder is the project. `insonify/tools/generate` and `insonify/tools/merge` build what they run; the
-programs that the options name run in their place, and without them such blocks are left out, by name.
+programs that the options name run in their place. Blocks are left out, by name, without them or without GoogleTest.
 """
 
 import argparse
@@ -21,6 +21,7 @@ import sys
 import time
 
 FENCE = re.compile(r"^```(\S*) ?(.*?)\n(.*?)^```$", re.M | re.S)
+FENCE_NAME = re.compile(r"\S+\.\w+")
 FILE_NAME = re.compile(r"(?://|#) (\S+\.\w+|Makefile)\s*$")
 LIMIT = 150 * 1000  # bytes of a picture
 
@@ -50,6 +51,9 @@ class Guide:
 
     def run(self, code):
         """The output of a shell block, None if it can't be run here; a failure is a fault."""
+        if "-lgmock" in code and subprocess.run("echo '#include <gmock/gmock.h>' | ${CXX} -E -x c++ - >/dev/null 2>&1",
+                                                shell=True).returncode != 0:
+            return None
         for name, program in self.stand_ins.items():
             if name in code and not program:
                 return None
@@ -69,7 +73,10 @@ class Guide:
             name = FILE_NAME.match(code.split("\n", 1)[0])
             started = time.monotonic()
             try:
-                if language == "sh":
+                if FENCE_NAME.fullmatch(flag):
+                    (self.folder / flag).write_text(code)
+                    self.blocks += 1
+                elif language == "sh":
                     output = None if flag == "skip" else self.run(code)
                     if flag != "skip" and output is None:
                         self.left_out.append(where)
@@ -113,7 +120,7 @@ def main():
         if not given.pages or page in given.pages or page == pages[0]:
             guide.follow(page)
     for where in guide.left_out:
-        print(f"{where}: left out, the generator is not built")
+        print(f"{where}: left out, the generator or GoogleTest is missing")
     print("\n".join(guide.faults + [f"{guide.blocks} blocks, {len(guide.faults)} faults"]))
     sys.exit(1 if guide.faults else 0)
 

@@ -5,7 +5,8 @@ FNR == 1 {
     sub(/.*insonify\//, "", module)
     module = module ~ /\// ? substr(module, 1, index(module, "/") - 1) : "core"
 }
-/^inline namespace INSONIFY_[A-Z_]+ \{$/ { print "/** @addtogroup " module " \\ilinebr @{ */"; next }
-/^inline namespace INSONIFY_[A-Z_]+ \{\}$/ { print ""; next }
-/^\} +\/\/ (inline )?namespace INSONIFY_[A-Z_]+$/ { print "/** @} */"; next }
+/^inline namespace INSONIFY_ABI \{$/ { print "/** @addtogroup " module " \\ilinebr @{ */"; next }
+/^inline namespace INSONIFY_[A-Z_]+ \{\}?$/ { print ""; next }
+/^\} +\/\/ (inline )?namespace INSONIFY_ABI$/ { print "/** @} */"; next }
+/^\} +\/\/ (inline )?namespace INSONIFY_[A-Z_]+$/ { print ""; next }
 { print }

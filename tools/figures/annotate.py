@@ -79,7 +79,7 @@ CHIPS = ["ship/000000/000000000", "plane/000000/000000006", "ship/000000/0000000
 def front(source, target):
     """The survey line of the guide above chips of its data set, the names of their classes below."""
     line = Image.open(target / "line.png").convert("RGB")
-    side, gap = 118, 4
+    side, gap = 106, 4
     sheet = Image.new("RGB", (line.width, line.height + side + 30), PAPER)
     sheet.paste(line, (0, 0))
     draw = ImageDraw.Draw(sheet)

@@ -15,11 +15,13 @@ namespace numeric {
 
 inline namespace INSONIFY_FLAGS {
 
+/// Dot product.
 template <class T>
 INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/// Cross product.
 template <class T>
 INSONIFY_INLINE glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
@@ -52,6 +54,7 @@ glm::mat<3, 3, T> cofactors(const glm::mat<3, 3, T>& m) {
     return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
 }
 
+/// Determinant of a matrix.
 template <class T>
 T determinant(const glm::mat<3, 3, T>& m) {
     return dot(m[0], cross(m[1], m[2]));

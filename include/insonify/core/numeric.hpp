@@ -37,13 +37,16 @@ constexpr float operator""_deg(unsigned long long degrees) {
 
 namespace numeric {
 
+/// Half a turn, in radians.
 inline constexpr double pi = std::numbers::pi;
 
 inline namespace INSONIFY_FLAGS {
 
+/// Radians of an angle in degrees.
 constexpr double to_radians(double degrees) {
     return degrees * (pi / 180);
 }
+/// Degrees of an angle in radians.
 constexpr double to_degrees(double radians) {
     return radians * (180 / pi);
 }
@@ -52,6 +55,7 @@ constexpr double to_degrees(double radians) {
 constexpr bool is_finite(float value) {
     return (numeric::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
 }
+/// Whether a value is neither infinite nor NaN.
 constexpr bool is_finite(double value) {
     return (numeric::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
@@ -66,6 +70,7 @@ constexpr T magnitude(T value) {
 inline double square_root(double value) {
     return std::sqrt(value);
 }
+/// The correctly rounded square root.
 inline float square_root(float value) {
     return std::sqrt(value);
 }
@@ -126,6 +131,7 @@ constexpr double exp(double x) {
 
 }  // namespace INSONIFY_FLAGS
 
+/// Both of one angle.
 struct sine_cosine {
     double sine;
     double cosine;
@@ -157,6 +163,7 @@ inline sine_cosine sin_cos_turns(double x) {
 inline sine_cosine sin_cos(double radians) {
     return sin_cos_turns(radians * (0.5 * std::numbers::inv_pi));
 }
+/// Tangent of an angle in radians.
 inline double tan(double radians) {
     const auto [sine, cosine] = sin_cos(radians);
     return sine / cosine;

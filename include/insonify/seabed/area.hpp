@@ -54,6 +54,7 @@ struct stencil {
 
 }  // namespace INSONIFY_FLAGS
 
+/// Where an edit or a seabed is in force.
 using area = std::variant<patches, disc, band, polygon, stencil>;
 
 namespace detail::inline INSONIFY_FLAGS {

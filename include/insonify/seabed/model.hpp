@@ -80,6 +80,7 @@ struct height_range {
 
 inline namespace INSONIFY_FLAGS {
 
+/// The range that holds both.
 inline height_range merge(const height_range& a, const height_range& b) {
     return {(std::min)(a.lowest, b.lowest), (std::max)(a.highest, b.highest)};
 }
@@ -245,6 +246,7 @@ struct ground {
 
 inline namespace INSONIFY_FLAGS {
 
+/// Height and type at one position.
 template <typed_sampler S>
 ground at(const S& prepared, double x, double y) {
     ground result{};

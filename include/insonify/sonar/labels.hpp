@@ -82,6 +82,7 @@ struct class_map {
 
 inline namespace INSONIFY_FLAGS {
 
+/// The class of every pixel that shows a target.
 inline class_map classes_of(const labels& l) {
     class_map map;
     std::vector<std::uint16_t> class_of{0};  // by instance
