@@ -10,12 +10,13 @@ _insonify_generate() {
         --mode) values="overhead ground_range slant_range" ;;
         --match) values="masked whole" ;;
         --mesh-up) values="y z" ;;
+        --place) values="third anywhere" ;;
         --colormap) values="gray copper" ;;
         --format) values="png16 npy pfm webdataset" ;;
         --noise) values="none speckle gaussian poisson rayleigh seabed" ;;
         --seabeds) values="ripples mud rock sand mixed heightmap" ;;
         --targets) values="cylinder cube cone sphere ship plane truncated_cone wedge tyre pipe boulder crate lobster_pot" ;;
-        --out | --reference | --heightmap | --config) COMPREPLY=($(compgen -f -- "$current")) && return ;;
+        --out | --reference | --heightmap | --plan | --config) COMPREPLY=($(compgen -f -- "$current")) && return ;;
     esac
     if [ "$values" ]; then
         # Lists are written with commas: only the last word is completed.
@@ -24,10 +25,11 @@ _insonify_generate() {
         COMPREPLY=($(compgen -P "$done" -W "$values" -- "${current##*,}"))
     elif [[ $current == -* ]]; then
         COMPREPLY=($(compgen -W "
-            --altitude --aspect --beam --burial --chip --colormap --config --count --demo --distance --dry-run --empty --first
-            --format --grazing --heightmap --heightmap-scale --heightmap-spacing --help --input-limit --intensity --match
-            --mesh --mesh-up --mode --noise --out --per-class --pixels --preview --recipe --reference --reflectivity --seabeds
-            --seed --shard --size --sky --target-size --targets --threads --tilt --verify --visible-share" -- "$current"))
+            --altitude --aspect --aspects --beam --burial --chip --colormap --config --count --demo --distance
+            --dry-run --empty --first --format --grazing --heightmap --heightmap-scale --heightmap-spacing --help
+            --input-limit --intensity --match --mesh --mesh-up --mode --noise --out --per-class --pixels --place
+            --plan --preview --recipe --reference --reflectivity --seabeds --seed --shard --size --sky --target-size
+            --targets --threads --tilt --verify --visible-share" -- "$current"))
     fi
 }
 _insonify_test() {

@@ -6,20 +6,20 @@
 #include <map>
 
 #include "pictures.hpp"
+#include "views.hpp"
 
 namespace generator {
 
 namespace {
 
-std::string class_of(const options& o, std::uint64_t index) {
-    if (o.is_sonar()) return class_of_image(o, index);
-    const std::vector<std::string> names = class_names(o);
-    return names[index % names.size()];
+std::string class_of(const options& o, std::uint64_t i) {
+    const std::string name = (o.is_sonar() ? view_of_sonar(o, i) : view_of(o, i)).class_name;
+    return name.empty() ? "named by the plan" : name;
 }
 
-/// "ship 300, plane 300": exact, or scaled up from the first million images.
+/// "ship 300, plane 300": exact, or scaled up from the first hundred thousand images.
 std::string classes_text(const options& o, const index_range& work) {
-    constexpr std::uint64_t most = 1'000'000;
+    constexpr std::uint64_t most = 100'000;
     const std::uint64_t looked_at = (std::min)(work.size(), most);
     std::map<std::string, std::uint64_t> counts;
     for (std::uint64_t i = 0; i < looked_at; ++i) ++counts[class_of(o, work.first + i)];
