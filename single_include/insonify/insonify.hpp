@@ -826,6 +826,7 @@ struct rgb {
     T r{}, g{}, b{};
     friend bool operator==(const rgb&, const rgb&) = default;
 };
+/// A colour of 8 bits a channel, as files hold it.
 using rgb8 = rgb<std::uint8_t>;
 
 /// Owning row-major image without padding; row 0 is at the top, pixel (x, y) covers [x, x+1) x [y, y+1).
@@ -935,6 +936,7 @@ auto map_pixels(image_view<const T> source, Fn&& fn) {
     }
     return out;
 }
+/// A new image of fn(pixel), of whatever type that returns.
 template <class T, class Fn>
 auto map_pixels(const image<T>& source, Fn&& fn) {
     return map_pixels(source.view(), fn);
@@ -960,11 +962,13 @@ namespace numeric {
 
 inline namespace INSONIFY_FLAGS {
 
+/// Dot product.
 template <class T>
 INSONIFY_INLINE T dot(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/// Cross product.
 template <class T>
 INSONIFY_INLINE glm::vec<3, T> cross(const glm::vec<3, T>& a, const glm::vec<3, T>& b) {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
@@ -997,6 +1001,7 @@ glm::mat<3, 3, T> cofactors(const glm::mat<3, 3, T>& m) {
     return {cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
 }
 
+/// Determinant of a matrix.
 template <class T>
 T determinant(const glm::mat<3, 3, T>& m) {
     return dot(m[0], cross(m[1], m[2]));
@@ -1042,13 +1047,16 @@ constexpr float operator""_deg(unsigned long long degrees) {
 
 namespace numeric {
 
+/// Half a turn, in radians.
 inline constexpr double pi = std::numbers::pi;
 
 inline namespace INSONIFY_FLAGS {
 
+/// Radians of an angle in degrees.
 constexpr double to_radians(double degrees) {
     return degrees * (pi / 180);
 }
+/// Degrees of an angle in radians.
 constexpr double to_degrees(double radians) {
     return radians * (180 / pi);
 }
@@ -1057,6 +1065,7 @@ constexpr double to_degrees(double radians) {
 constexpr bool is_finite(float value) {
     return (numeric::bit_cast<std::uint32_t>(value) & 0x7F800000u) != 0x7F800000u;
 }
+/// Whether a value is neither infinite nor NaN.
 constexpr bool is_finite(double value) {
     return (numeric::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
@@ -1071,6 +1080,7 @@ constexpr T magnitude(T value) {
 inline double square_root(double value) {
     return std::sqrt(value);
 }
+/// The correctly rounded square root.
 inline float square_root(float value) {
     return std::sqrt(value);
 }
@@ -1131,6 +1141,7 @@ constexpr double exp(double x) {
 
 }  // namespace INSONIFY_FLAGS
 
+/// Both of one angle.
 struct sine_cosine {
     double sine;
     double cosine;
@@ -1162,6 +1173,7 @@ inline sine_cosine sin_cos_turns(double x) {
 inline sine_cosine sin_cos(double radians) {
     return sin_cos_turns(radians * (0.5 * std::numbers::inv_pi));
 }
+/// Tangent of an angle in radians.
 inline double tan(double radians) {
     const auto [sine, cosine] = sin_cos(radians);
     return sine / cosine;
@@ -1922,7 +1934,9 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+/// What random words are a function of, beside the key.
 using philox_counter = std::array<std::uint32_t, 4>;
+/// The key of a stream of random words, from `stream_key`.
 using philox_key = std::array<std::uint32_t, 2>;
 
 inline namespace INSONIFY_FLAGS {
@@ -2029,6 +2043,7 @@ struct rect {
 
 inline namespace INSONIFY_FLAGS {
 
+/// The pixels that both hold; empty if there are none.
 constexpr rect intersect(const rect& a, const rect& b) {
     return {(std::max)(a.x0, b.x0), (std::max)(a.y0, b.y0), (std::min)(a.x1, b.x1), (std::min)(a.y1, b.y1)};
 }
@@ -2283,6 +2298,7 @@ struct to_unit {
 
 /// [0, 1] -> 0 ... 255 or 65535, to the nearest; values outside go to the nearer end, NaN to 0.
 inline constexpr detail::to_code<std::uint8_t> to_uint8{};
+/// The same with 16 bits.
 inline constexpr detail::to_code<std::uint16_t> to_uint16{};
 
 /// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` takes it back exactly.
@@ -3426,6 +3442,7 @@ struct to_gray {
 
     using is_filter = std::true_type;
 
+    /// The function of a pixel that `to_gray` applies.
     struct weighted_sum {
         gray_weights weights;
         template <pixel_code Channel>
@@ -3660,6 +3677,7 @@ histogram histogram_of(image_view<const Pixel> source, int bins = 256, E&& ex = 
     }
     return detail::count_parts(source, bins, ex, [bins] { return detail::bin_counter<Pixel>(bins); });
 }
+/// The same of an image.
 template <countable_pixel Pixel, executor_argument E = serial_executor>
 histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) {
     return histogram_of(source.view(), bins, ex);
@@ -3928,6 +3946,7 @@ distribution distribution_of(image_view<const Code> source, E&& ex = {}) {
     }
     return result;
 }
+/// The same of an image.
 template <countable_pixel Pixel>
 distribution distribution_of(const image<Pixel>& source) {
     return distribution_of(source.view());
@@ -4698,10 +4717,12 @@ template <class Pixel, filter_for<Pixel> F, executor_argument Executor = serial_
 auto apply(const image<Pixel>& in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
     return detail::apply_to(in, f, ex, origin, detail::into_image{});
 }
+/// The same, in the memory of the image where the pixel type stays the same.
 template <class Pixel, filter_for<Pixel> F, executor_argument Executor = serial_executor>
 auto apply(image<Pixel>&& in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
     return detail::apply_to(std::move(in), f, ex, origin, detail::into_image{});
 }
+/// The same of pixels in memory of your own.
 template <class Pixel, filter_for<std::remove_const_t<Pixel>> F, executor_argument Executor = serial_executor>
 auto apply(image_view<Pixel> in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
     return detail::apply_to(in, f, ex, origin, detail::into_image{});
@@ -4728,10 +4749,12 @@ template <class Pixel, filter_for<Pixel> F>
 auto operator|(const image<Pixel>& in, const F& f) {
     return apply(in, f);
 }
+/// The same, in the memory of the image where the pixel type stays the same.
 template <class Pixel, filter_for<Pixel> F>
 auto operator|(image<Pixel>&& in, const F& f) {
     return apply(std::move(in), f);
 }
+/// The same of pixels in memory of your own.
 template <class Pixel, filter_for<std::remove_const_t<Pixel>> F>
 auto operator|(image_view<Pixel> in, const F& f) {
     return apply(in, f);
@@ -5252,6 +5275,7 @@ image<Pixel> pixels_where(image_view<const std::uint8_t> mask, image_view<const 
             if (mask(x, y) != 0) *next++ = source(x, y);
     return result;
 }
+/// The same of an image.
 template <class Pixel>
 image<Pixel> pixels_where(image_view<const std::uint8_t> mask, const image<Pixel>& source) {
     return pixels_where(mask, source.view());
@@ -5414,9 +5438,11 @@ inline glm::dvec3 unit(const glm::dvec3& n) {
 
 inline namespace INSONIFY_FLAGS {
 
+/// The map of a position.
 inline glm::dvec3 transform_point(const affine& map, const glm::dvec3& point) {
     return numeric::product(map.linear, point) + map.offset;
 }
+/// The map of a direction, which an offset does not move. Lengths are not kept.
 inline glm::dvec3 transform_direction(const affine& map, const glm::dvec3& direction) {
     return numeric::product(map.linear, direction);
 }
@@ -5575,6 +5601,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+/// The axis of a body of revolution.
 enum class axis { x, y, z };
 
 /// A point of the outline that is turned about the axis, and the unit normal there, both in the half plane
@@ -5902,6 +5929,7 @@ inline mesh to_mesh(const capsule& shape) {
 inline int segments_for(const cylinder& shape, float deviation) {
     return segments_for(shape.radius, deviation);
 }
+/// The same for a capsule.
 inline int segments_for(const capsule& shape, float deviation) {
     return detail::round_segments_for(shape.radius, deviation, [](int segments) { return 2 * ((segments + 3) / 4); });
 }
@@ -6615,6 +6643,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+/// What a mesh is to a shadow policy.
 enum class surface_kind {
     open,         ///< nothing is known
     closed,       ///< each edge is run along as often one way as the other: a ray that comes from outside and ends
@@ -6881,6 +6910,7 @@ inline int segments_for(const sphere& shape, float deviation) {
     return detail::round_segments_for(shape.radius * longest, deviation,
                                       [](int segments) { return (segments + 1) / 2; });
 }
+/// The same for a hemisphere.
 inline int segments_for(const hemisphere& shape, float deviation) {
     const float longest = (std::max)((std::max)(shape.aspect.x, shape.aspect.y), shape.aspect.z);
     return detail::round_segments_for(shape.radius * longest, deviation,
@@ -7322,6 +7352,7 @@ template <class Pixel>
         return bytes;
     }
 
+/// The same of an image.
 template <storable_pixel Pixel>
 std::string format_netpbm(const image<Pixel>& source) {
     return format_netpbm(source.view());
@@ -7334,6 +7365,7 @@ template <class Pixel>
 void write_netpbm(const std::string& path, image_view<Pixel> source) {
     write_file(path, format_netpbm(source));
 }
+/// The same of an image.
 template <storable_pixel Pixel>
 void write_netpbm(const std::string& path, const image<Pixel>& source) {
     write_netpbm(path, source.view());
@@ -7503,6 +7535,7 @@ inline namespace INSONIFY_FLAGS {
 constexpr type label_of(type t) {
     return t;
 }
+/// The label of a type with its properties.
 constexpr type label_of(const type_properties& p) {
     return p.label;
 }
@@ -7591,6 +7624,7 @@ inline constexpr sediment_facts sediments[] = {
     {type::sandy_mud, "sandy mud", 6.0f, 0.000517f, -22.5f, 0, 1, {sediment_form::soft}},
     {type::silty_clay, "silty clay", 8.0f, 0.000517f, -22.6f, 0, 1, {sediment_form::soft}},
 };
+/// How many sediments have a name.
 inline constexpr std::size_t sediment_count = std::size(sediments);
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -7705,6 +7739,7 @@ struct height_range {
 
 inline namespace INSONIFY_FLAGS {
 
+/// The range that holds both.
 inline height_range merge(const height_range& a, const height_range& b) {
     return {(std::min)(a.lowest, b.lowest), (std::max)(a.highest, b.highest)};
 }
@@ -7870,6 +7905,7 @@ struct ground {
 
 inline namespace INSONIFY_FLAGS {
 
+/// Height and type at one position.
 template <typed_sampler S>
 ground at(const S& prepared, double x, double y) {
     ground result{};
@@ -7906,6 +7942,7 @@ namespace seabed {
 struct none {
     static constexpr type kind = type::sand;
 
+    /// Never evaluated: an empty seabed has no heights.
     struct sampler {
         void row(const scanline&, std::span<float> heights) const {
             std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
@@ -10014,6 +10051,7 @@ constexpr type type_of(sediment s) {
     return static_cast<type>(s);
 }
 
+/// The row of a sediment in the table above.
 constexpr const sediment_facts& facts_of(sediment s) {
     return sediments[static_cast<std::size_t>(s) - std::size(relief_types)];
 }
@@ -10218,6 +10256,7 @@ inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, st
     return numeric::cross(corner(1) - a, corner(2) - a);
 }
 
+/// A light of any kind.
 using any_light = std::variant<directional_light, point_light>;
 
 /// `structure.test(points, shares)` fills in all shares; it may be called for several batches at the same time.
@@ -10250,6 +10289,7 @@ struct exact {
 /// No shadows: nothing is built, tested or compiled.
 struct none {};
 
+/// A shadow policy: one that builds an occlusion of casters, or `none`.
 template <class P>
 concept policy = std::same_as<P, none> || casting_policy<P>;
 
@@ -10742,6 +10782,7 @@ struct class_map {
 
 inline namespace INSONIFY_FLAGS {
 
+/// The class of every pixel that shows a target.
 inline class_map classes_of(const labels& l) {
     class_map map;
     std::vector<std::uint16_t> class_of{0};  // by instance
@@ -10856,7 +10897,9 @@ struct side_scan_rig {
         return (static_cast<double>(range) - static_cast<double>(first_range)) / bins;
     }
 };
+/// A rig whose columns are slant ranges.
 using side_scan = side_scan_rig<across_track::slant_range>;
+/// A rig whose columns are ranges along the bottom.
 using ground_range = side_scan_rig<across_track::ground_range>;
 
 inline namespace INSONIFY_FLAGS {
@@ -11398,6 +11441,7 @@ inline mask_difference compare_masks(image_view<const std::uint8_t> result, imag
 inline pixel_difference compare_images(image_view<const float> result, image_view<const float> truth) {
     return detail::compare_pixels(result, truth);
 }
+/// The same of codes of 8 bits.
 inline pixel_difference compare_images(image_view<const std::uint8_t> result, image_view<const std::uint8_t> truth) {
     return detail::compare_pixels(result, truth);
 }
@@ -12533,6 +12577,7 @@ template <class V>
 inline constexpr bool is_vector_of_floats = requires {
     requires std::is_same_v<typename V::value_type, float>;
 };
+/// A float counts as a vector of one.
 template <>
 inline constexpr bool is_vector_of_floats<float> = true;
 
@@ -12694,6 +12739,7 @@ INSONIFY_INLINE V weighted(const V& a, const V& b, const V& c, const glm::dvec3&
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
+/// What a vertex shader hands on for interpolation.
 template <vertex_shader S>
 using varyings_of = typename detail::shader_varyings<S>::type;
 
@@ -13851,6 +13897,7 @@ struct framebuffer {
     bool clears_color = false;  ///< whether `depth_load::clear` also sets the color of all pixels to `background`
     Pixel background{};
 };
+/// Depths without colours.
 template <>
 struct framebuffer<void> {
     image_view<float> depth;
@@ -18460,9 +18507,11 @@ settings<Shadow> settings_for(const budget& tolerated, const insonify::seabed::a
 inline settings<> fast(const overhead& rig) {
     return {.cell = 4 * overhead_geometry(rig).ground_sampling(), .side_error = 1, .shadow_error = 1, .rig = rig};
 }
+/// Facets within a quarter of a pixel.
 inline settings<> balanced(const overhead& rig) {
     return {.cell = 2 * overhead_geometry(rig).ground_sampling(), .side_error = 0.25, .shadow_error = 0.25, .rig = rig};
 }
+/// Four seabed vertices for each pixel, vertices rounded to 1/65536 pixel.
 inline settings<> exact(const overhead& rig) {
     const double finest = (std::max)(0.5, (std::max)(rig.size.x, rig.size.y) / 32768.0);
     return {.cell = finest * overhead_geometry(rig).ground_sampling(),
@@ -21139,6 +21188,7 @@ struct stencil {
 
 }  // namespace INSONIFY_FLAGS
 
+/// Where an edit or a seabed is in force.
 using area = std::variant<patches, disc, band, polygon, stencil>;
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -22023,6 +22073,7 @@ struct heap {
     float slope = 0.6f;   ///< > 0: of its sides; sand lies at 0.6, mud flatter
 };
 
+/// One change of a seabed.
 using edit = std::variant<raise, flatten, smooth, ramp, stamp, scour, heap, moat>;
 
 namespace detail::inline INSONIFY_FLAGS {

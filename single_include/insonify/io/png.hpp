@@ -50,9 +50,11 @@ inline namespace INSONIFY_FLAGS {
 inline void write_png(const std::string& path, image_view<const std::uint8_t> source) {
     detail::write_png_bytes(path, source.data(), source.width(), source.height(), 1, source.stride());
 }
+/// The same in colour.
 inline void write_png(const std::string& path, image_view<const rgb8> source) {
     detail::write_png_bytes(path, source.data(), source.width(), source.height(), 3, 3 * source.stride());
 }
+/// The same of values in [0, 1], rounded to 8 bits.
 inline void write_png(const std::string& path, image_view<const float> source) {
     write_png(path, map_pixels(source, quantize<std::uint8_t>));
 }

@@ -72,6 +72,7 @@ struct picture_matcher {
     void DescribeTo(std::ostream* out) const { *out << "is " << what; }
     void DescribeNegationTo(std::ostream* out) const { *out << "is not " << what; }
 };
+/// Deduces the comparison.
 template <class Compare>
 picture_matcher(Compare, std::string) -> picture_matcher<Compare>;
 
