@@ -26,7 +26,6 @@
 #include <insonify/filter/parameter.hpp>
 #include <insonify/filter/pipe.hpp>
 #include <insonify/filter/poisson.hpp>
-#include <insonify/filter/quick_poisson.hpp>
 #include <insonify/filter/where.hpp>
 #include <insonify/geometry/camera.hpp>
 #include <insonify/geometry/cone.hpp>

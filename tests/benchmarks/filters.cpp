@@ -73,7 +73,6 @@ int main(int argc, char** argv) {
     add("K", source, work, in::k_speckle{});
     add("rician", source, work, in::rician{});
     add("poisson", source, work, in::poisson{});
-    add("quick poisson", source, work, in::quick_poisson{});
     add("rayleigh, correlated", source, work, in::rayleigh{.correlation = {2, 2}});
     add("match, 64 bins", source, work, in::match_binned(reference));
     add("match, 64 bins, 8 bits", source_8, work_8, in::match_binned(reference));

@@ -108,12 +108,12 @@ void filters() {
     show("gaussian and speckle", in::gaussian_speckle{.seed = 3});
     show("rayleigh", in::rayleigh{.seed = 3});
     show("poisson", in::poisson{.seed = 3});
-    show("quick poisson", in::quick_poisson{.photons = 5000, .seed = 3});
     show("salt and pepper", in::salt_and_pepper{.seed = 3});
     show("looks", in::gamma_speckle{.looks = 2.2f, .seed = 3});
     show("K", in::k_speckle{.shape = 0.7f, .seed = 3});
     show("rician", in::rician{.seed = 3});
     show("correlated", in::gaussian{.correlation = {2, 1}, .seed = 3} | in::rayleigh{.correlation = {1, 2}, .seed = 3});
+    show("correlated K", in::k_speckle{.shape = 1.5f, .correlation = {2, 0.7f}, .seed = 3});
     show("noise on 16 bits", in::to_uint16 | in::gaussian{.seed = 3} | in::match_binned(ramp, 300));
     show("equalize", in::equalize{});
     show("match", in::match_histogram(ramp | in::speckle{.seed = 5}));

@@ -1,4 +1,4 @@
-// From gray to colour by a table of 256 entries: `image | colormap::copper`.
+// Colour maps as tables of 256 colours: `image | colormap::copper`.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -51,7 +51,7 @@ constexpr color_table tabulate_colors(Fn color) {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Straight lines between five colours, that are those of levels 0, 63.75, 127.5, 191.25 and 255; ties up.
+/// Piecewise linear through five colours at levels 0, 63.75, 127.5, 191.25 and 255; ties round up.
 constexpr rgb8 between_colors(int level, const std::array<rgb8, 5>& colors) {
     const int quarter = (std::min)(4 * level / 255, 3), share = 4 * level - 255 * quarter;  // of 255
     const rgb8 &a = colors[static_cast<std::size_t>(quarter)], &b = colors[static_cast<std::size_t>(quarter) + 1];
@@ -74,13 +74,13 @@ inline constexpr color_table copper = tabulate_colors([](int level) {
                 static_cast<std::uint8_t>((4975 * level + 5000) / 10000)};
 });
 
-/// Gray as colour, for files that want three channels.
+/// Gray as colour, for files of three channels.
 inline constexpr color_table gray = tabulate_colors([](int level) {
     const auto value = static_cast<std::uint8_t>(level);
     return rgb8{value, value, value};
 });
 
-/// Black to white by way of red and yellow: MATLAB's hot(256), whose red is full at 3/8, green at 6/8 of the way.
+/// Black through red and yellow to white: MATLAB's hot(256), whose red is full at 3/8, green at 6/8 of the way.
 inline constexpr color_table hot = tabulate_colors([](int level) {
     const auto share = [](int i, int of) {
         return static_cast<std::uint8_t>(i <= 0 ? 0 : i < of ? (510 * i + of) / (2 * of) : 255);
@@ -88,19 +88,18 @@ inline constexpr color_table hot = tabulate_colors([](int level) {
     return rgb8{share(level + 1, 96), share(level + 1 - 96, 96), share(level + 1 - 192, 64)};
 });
 
-/// What side-scan displays and their printed records are in: black, brown, amber and a pale yellow. Straight lines
-/// between five colours a quarter apart.
+/// The amber of side-scan displays and printed records: black, brown, amber and pale yellow, piecewise linear through
+/// five colours.
 inline constexpr color_table amber = tabulate_colors([](int level) {
     return detail::between_colors(level, {{{0, 0, 0}, {74, 40, 8}, {158, 92, 16}, {230, 164, 48}, {255, 244, 200}}});
 });
 
-/// The other look of waterfall displays: black, blue-green, and white. Straight lines between five colours a quarter
-/// apart.
+/// The blue of other waterfall displays: black, blue-green and white, piecewise linear through five colours.
 inline constexpr color_table sea = tabulate_colors([](int level) {
     return detail::between_colors(level, {{{0, 0, 0}, {0, 40, 72}, {0, 104, 136}, {88, 184, 192}, {255, 255, 255}}});
 });
 
-/// What is bright becomes dark, as on the paper of old recorders.
+/// Bright becomes dark, as on paper recorders.
 inline constexpr color_table inverse_gray = tabulate_colors([](int level) {
     const auto value = static_cast<std::uint8_t>(255 - level);
     return rgb8{value, value, value};

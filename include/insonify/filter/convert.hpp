@@ -13,7 +13,7 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Gray or colour, the same conversion per channel.
+/// Quantizes gray or each channel of a colour.
 template <pixel_code Code>
 struct to_code {
     using is_filter = std::true_type;
@@ -45,12 +45,12 @@ struct to_unit {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// [0, 1] -> 0 ... 255 or 65535, to the nearest; values outside go to the nearer end, NaN to 0.
+/// [0, 1] -> 0 ... 255 or 65535, rounded to nearest; values outside are clamped, NaN becomes 0.
 inline constexpr detail::to_code<std::uint8_t> to_uint8{};
 /// The same with 16 bits.
 inline constexpr detail::to_code<std::uint16_t> to_uint16{};
 
-/// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` takes it back exactly.
+/// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` is its exact inverse.
 inline constexpr detail::to_unit to_float{};
 
 }  // namespace INSONIFY_ABI

@@ -1,8 +1,8 @@
-// Noise that echoes make of themselves: Rayleigh, averages of looks, K and Rician, on amplitudes or intensities.
+// Speckle filters: Rayleigh, averages of looks, K and Rician, on amplitudes or intensities.
 //
-// The mean of what the pixels hold stays what it was, until bright pixels saturate at 1: keep the image's mean well
-// below 1/2. Clipping, codes, colours and NaN are as in filter/noise.hpp. `with_speckle` (sonar/speckle.hpp) is the
-// same for recordings of a sonar, which have no largest value.
+// The mean is kept as long as bright pixels do not saturate at 1: keep the image's mean well below 1/2. Clipping,
+// codes, colours and NaN are treated as in filter/noise.hpp. `with_speckle` (sonar/speckle.hpp) applies the same laws
+// to sonar recordings, which have no largest value.
 //
 // Based on: E. Jakeman, P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation
 // 24, 1976 (the K-distribution).
@@ -10,6 +10,7 @@
 
 #include <insonify/core/detail/gamma.hpp>
 #include <insonify/filter/detail/correlated.hpp>
+#include <insonify/filter/detail/gamma_texture.hpp>
 #include <insonify/filter/detail/rejection.hpp>
 #include <insonify/filter/parameter.hpp>
 
@@ -20,7 +21,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What the pixels of an image of echoes hold. An amplitude is the square root of an intensity.
+/// What an image's pixels hold. An amplitude is the square root of an intensity.
 enum class echo { amplitude, intensity };
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -46,7 +47,7 @@ struct gamma_rejection {
     }
 };
 
-/// A drawn intensity as a factor, the scale making its mean, or that of its square root, one.
+/// Multiplies by a drawn intensity or its square root; the scale makes the factor's mean one.
 template <echo Of>
 struct echo_factor {
     template <int N>
@@ -58,11 +59,11 @@ struct echo_factor {
     }
 };
 
-/// What an intensity is drawn as; that hangs on the filter and not on its parameters, so that noise by a map is that of
-/// its numbers.
+/// How intensities are drawn. It depends on the filter's type and not on its parameters, so that a map of equal numbers
+/// gives the noise of that number.
 enum class echo_draw { exponential, gamma, rice };
 
-/// How an intensity fluctuates; see speckle_law of sonar/speckle.hpp, whose three numbers these are.
+/// Statistics of an intensity: the three numbers of a speckle_law, by pixel.
 struct echo_statistics {
     const char* name;  ///< of the filter's own parameter
     echo_draw draw;
@@ -80,13 +81,7 @@ class echo_law {
         is_constant_ = looks.is_constant() && shape.is_constant() && steady.is_constant();
         if (is_constant_ && of == echo::amplitude) last_scale_ = scale_of(looks.value(), shape.value(), steady.value());
         std::fill_n(scale_, run_length, last_scale_);
-        if (length.x > 0 || length.y > 0) {
-            const float whole = looks.is_constant() ? looks.value() : 0;
-            require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
-                    "looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
-            correlated_.emplace(noise, intensity_taps(static_cast<double>(length.x)),
-                                intensity_taps(static_cast<double>(length.y)));
-        }
+        if (length.x > 0 || length.y > 0) correlate(length);
     }
 
     void row(const float* from, float* to, const noise_run& run) {
@@ -100,12 +95,35 @@ class echo_law {
             apply_rule(echo_factor<echo::intensity>{}, from, intensity, scale_, to, run.count);
         }
     }
-    void place(const pixel_area& area) {
+    void prepare(const pixel_area& area) {
         for (parameter* p : {&statistics_.looks, &statistics_.texture, &statistics_.steady})
-            p->place(statistics_.name, area);
+            p->prepare(statistics_.name, area);
     }
 
   private:
+    /// Prepares fields under which the correlation of the intensities has the given length.
+    void correlate(const correlation_length& length) {
+        const parameter &looks = statistics_.looks, &shape = statistics_.texture, &steady = statistics_.steady;
+        const float whole = looks.is_constant() ? looks.value() : 0;
+        require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
+                "looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
+        if (shape.is_constant() && shape.value() > 0) texture_.emplace(static_cast<double>(shape.value()));
+        const auto speckle = rice_correlation(steady.is_constant() ? static_cast<double>(steady.value()) : 0);
+        const double speckle_index = 1 / static_cast<double>(whole);
+        const double texture_index = texture_ ? 1 / static_cast<double>(shape.value()) : 0;
+        const double index = (1 + texture_index) * (1 + speckle_index) - 1;  // variance / mean^2 of the intensity
+        const auto intensity = [&](double field) {
+            const double texture = texture_ ? texture_->correlation(field) : 0;
+            return ((1 + texture * texture_index) * (1 + speckle(field) * speckle_index) - 1) / index;
+        };
+        const auto taps = [&](float pixels) {
+            return field_taps(texture_ ? field_length(static_cast<double>(pixels), intensity)
+                                       : field_length(static_cast<double>(pixels), speckle));
+        };
+        correlated_.emplace(noise_, taps(length.x), taps(length.y));
+        if (texture_) correlated_texture_.emplace(texture_noise_, taps(length.x), taps(length.y));
+    }
+
     /// Intensities of mean one without texture.
     float* draw(draw_buffer& buffer, const noise_run& run) {
         if (correlated_ || statistics_.draw == echo_draw::rice) {
@@ -142,12 +160,18 @@ class echo_law {
         }
     }
 
-    void texture(float* intensity, const noise_run& run) const {
+    void texture(float* intensity, const noise_run& run) {
+        if (texture_) {
+            float normal[run_length + 64];
+            correlated_texture_->row(normal, 0, run);
+            for (int i = 0; i < run.count; ++i) intensity[i] *= (*texture_)(normal[i]);
+            return;
+        }
         const bool none = statistics_.texture.is_constant() && statistics_.texture.value() == 0;
         if (!none) gamma(intensity, statistics_.texture, texture_noise_, run);
     }
 
-    /// Multiplies by gamma-distributed numbers of mean one, where their shape isn't 0.
+    /// Multiplies by gamma-distributed numbers of mean one where their shape is not 0.
     static void gamma(float* intensity, const parameter& shapes, const noise_key& noise, const noise_run& run) {
         float shape[run_length];
         double wide[run_length], drawn[run_length];
@@ -171,7 +195,7 @@ class echo_law {
         return static_cast<float>(1 / (speckle * relief));
     }
 
-    /// What it was for the last pixel it usually is for the next.
+    /// Scales of a run. Adjacent pixels mostly have equal parameters, so the last scale is kept.
     void mean_amplitudes(const noise_run& run) {
         float looks[run_length], shape[run_length], steady[run_length];
         statistics_.looks.row(looks, run.count, run.x, run.y);
@@ -188,7 +212,8 @@ class echo_law {
     noise_key noise_, texture_noise_;
     echo_statistics statistics_;
     echo of_;
-    std::optional<correlated_draws> correlated_;
+    std::optional<correlated_draws> correlated_, correlated_texture_;
+    std::optional<gamma_texture> texture_;  ///< where it is correlated
     bool is_constant_ = false;
     std::array<float, 3> last_{-1, -1, -1};
     float last_scale_ = 1;
@@ -251,7 +276,8 @@ struct k_speckle {
     parameter shape = 4;  ///< of the mean, 0.01 to 1e6
     float looks = 1;      ///< 0.01 to 1e6
     echo of = echo::amplitude;
-    correlation_length correlation{};  ///< of the speckle; for whole looks, 1 to 64
+    /// For whole looks, 1 to 64. With a map of shapes, the length is that of the speckle, under a white texture.
+    correlation_length correlation{};
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 
@@ -275,7 +301,8 @@ struct k_speckle {
 struct rician {
     parameter steady = 1;  ///< power of the steady echo over that of the others, 0 to 1e6; 0 is Rayleigh
     echo of = echo::amplitude;
-    correlation_length correlation{};  ///< of the others
+    /// With a map, the length is that of the other echoes, and up to 1.4 times as long for the sum.
+    correlation_length correlation{};
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 

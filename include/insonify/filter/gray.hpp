@@ -1,4 +1,4 @@
-// From colour to gray by weights.
+// Filter from colour to gray, as a weighted sum of the channels.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -13,7 +13,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What red, green and blue contribute to gray.
+/// Weights of red, green and blue.
 struct gray_weights {
     double r, g, b;
 };

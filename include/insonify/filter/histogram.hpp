@@ -1,8 +1,8 @@
-// Histograms of equal bins, and the two filters that MATLAB builds on them: equalize and match.
+// Histograms of equal bins, and MATLAB's two filters on them: equalize and match.
 //
-// NaN is not counted and stays what it is. An image without a number in it passes through; a constant image takes one
-// level, that of its rank: the wanted level at which the cumulative share reaches one half (or 1 at level 0 and the
-// last, as MATLAB's rule has it).
+// NaN is not counted and stays NaN. An image of NaN alone passes through. A constant image takes one level, that of its
+// rank: the wanted level at which the cumulative share reaches one half (or 1 at level 0 and the last, by MATLAB's
+// rule).
 //
 // Based on: MathWorks. Image Processing Toolbox, imhist, histeq, imhistmatch (64 bins, 256 source levels, 65536 for
 // codes of 16 bits).
@@ -26,8 +26,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// How many pixels there are of each level. Level k of n stands for the value k / (n - 1) and takes what is nearest to
-/// it, ties up; values outside [0, 1] count at the ends. Those of many images add up to that of a data set:
+/// Pixel counts by level. Level k of n counts the values nearest to k / (n - 1), ties up; values outside [0, 1] count
+/// at the ends. Histograms of many images add up to that of a data set:
 ///
 ///     in::histogram all = in::histogram_of(first);
 ///     all += in::histogram_of(second);
@@ -52,7 +52,7 @@ struct histogram {
     friend bool operator==(const histogram&, const histogram&) = default;
 };
 
-/// What can be counted: floats in [0, 1], or codes.
+/// Pixel types that histograms count: floats in [0, 1] and codes.
 template <class T>
 concept countable_pixel = std::same_as<T, float> || pixel_code<T>;
 
@@ -73,7 +73,7 @@ constexpr std::size_t bin_of(Code code, int bins) {
     return (2 * std::uint64_t{code} * static_cast<std::uint64_t>(bins - 1) + largest) / (2 * largest);
 }
 
-/// The number of values that are not numbers, several at a time.
+/// Counts NaN.
 struct count_nan_kernel {
     const float* values;
     int count;
@@ -102,12 +102,12 @@ inline int count_nan(const float* values, int count) {
     return found;
 }
 
-/// Counts codes. Of codes of 8 bits, four tables take turns, because pixels like their neighbours would wait for one
-/// another's count.
+/// Counts codes. For 8 bits, four tables take turns, so that equal adjacent pixels do not wait for one another's
+/// increment.
 template <pixel_code Code>
 class code_counter {
   public:
-    /// Below this many pixels, a part costs more to add up than to count.
+    /// Fewer pixels cost more to merge than to count.
     static constexpr std::size_t least_pixels = sizeof(Code) == 1 ? 1 << 16 : 1 << 20;
 
     code_counter() : counts_(tables * levels) {}
@@ -125,7 +125,7 @@ class code_counter {
         }
         for (; i < count; ++i) ++table[codes[i]];
     }
-    /// NaN counts nowhere.
+    /// NaN is not counted.
     void add(const float* values, int count) {
         Code codes[run_length];
         quantize_row(std::span<const float>(values, static_cast<std::size_t>(count)),
@@ -136,7 +136,7 @@ class code_counter {
 
     void add_to(histogram& sum) const {
         for (std::size_t i = 0; i < levels; ++i) {
-            std::uint32_t count = 0;  // of fewer than 2^32 pixels; one table may lack what another has too much
+            std::uint32_t count = 0;  // sums wrap correctly: below 2^32 pixels
             for (std::size_t table = 0; table < tables; ++table) count += counts_[table * levels + i];
             sum.counts[i] += count;
         }
@@ -148,7 +148,7 @@ class code_counter {
     std::vector<std::uint32_t> counts_;
 };
 
-/// Counts any pixels by any bins.
+/// Counts any pixel type into any number of bins.
 template <class Pixel>
 class bin_counter {
   public:
@@ -169,11 +169,11 @@ class bin_counter {
     std::vector<std::uint32_t> counts_;
 };
 
-/// The sum of what counters, made by `make()`, find in parts of an image.
+/// Counts bands of an image with counters made by `make()`, and adds them up.
 template <class Pixel, executor E, class Make>
 histogram count_parts(image_view<const Pixel> source, int bins, E& ex, const Make& make) {
     using counter = decltype(make());
-    // Up to 16 parts of 2^31 pixels at most; a part of more rows than the image has is the image.
+    // About 16 bands, each below 2^31 pixels.
     const std::size_t rows = static_cast<std::size_t>(source.height());
     const auto width = static_cast<std::size_t>((std::max)(source.width(), 1));
     const std::size_t most = (std::size_t{1} << 31) / width, least = counter::least_pixels / width + 1;
@@ -225,36 +225,11 @@ histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) 
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// How many levels a source is told apart by.
+/// Number of levels that a source is counted by.
 template <class Pixel>
 inline constexpr int source_levels = std::same_as<Pixel, std::uint16_t> ? 65536 : 256;
 
-/// A value for each of 256 levels.
-template <class T>
-class level_values {
-  public:
-    explicit level_values(std::shared_ptr<const std::vector<T>> values) : values_(std::move(values)) {}
-
-    T operator()(std::uint8_t level) const { return (*values_)[level]; }
-    void row(const std::uint8_t* from, T* to, int count, int, int) const {
-        const T* const values = values_->data();
-        for (int i = 0; i < count; ++i) to[i] = values[from[i]];
-    }
-
-    /// What a function makes of them.
-    template <class F>
-    auto then(const F& f) const {
-        using result = std::invoke_result_t<const F&, const T&>;
-        std::vector<result> results;
-        for (const T& value : *values_) results.push_back(f(value));
-        return level_values<result>(std::make_shared<const std::vector<result>>(std::move(results)));
-    }
-
-  private:
-    std::shared_ptr<const std::vector<T>> values_;  // passes are copied; the table isn't
-};
-
-/// A new value for each level; floats take that of the nearest of 256 levels, NaN stays.
+/// Maps each level to a value; floats take that of the nearest of 256 levels, NaN stays NaN.
 template <countable_pixel Pixel>
 class level_map {
   public:
@@ -286,15 +261,12 @@ class level_map {
         }
     }
 
-    /// The same of pixels that are known by their levels.
-    level_values<Pixel> by_level() const { return level_values<Pixel>(values_); }
-
   private:
     std::shared_ptr<const std::vector<Pixel>> values_;  // passes are copied; the table isn't
 };
 
-/// The map of histeq: each source level goes to the first level of `wanted` whose cumulative share reaches that of the
-/// source, less half of the level's own share (which the first and the last level don't get).
+/// The map of histeq: each source level goes to the first level of `wanted` whose cumulative share reaches the
+/// source's, less half of the level's own share except at the first and the last level.
 template <class Pixel>
 level_map<Pixel> map_levels(const histogram& source, const histogram& wanted) {
     const auto source_total = static_cast<double>((std::max)(source.total(), std::uint64_t{1}));
@@ -323,16 +295,9 @@ level_map<Pixel> map_levels(const histogram& source, const histogram& wanted) {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// Looks at no more of an image of floats than how often each of 256 levels comes: `f.pass(histogram)` returns a
-/// function of the level.
-template <class F>
-concept level_filter = requires(const F& f, const histogram& counted) {
-    { f.pass(counted) } -> pixel_function<std::uint8_t>;
-};
-
 /// Spreads the values evenly over [0, 1]. MATLAB: histeq(I, levels).
 struct equalize {
-    int levels = 64;  ///< how many different values come out, 2 to 65536
+    int levels = 64;  ///< number of distinct values in the result, 2 to 65536
 
     using is_filter = std::true_type;
 
@@ -340,21 +305,14 @@ struct equalize {
     template <countable_pixel Pixel, executor_argument E = serial_executor>
     INSONIFY_MEMBER detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         detail::require_bins("equalize.levels", levels);
-        return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), flat());
+        const histogram flat{std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)};
+        return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), flat);
     }
-    /// For floats that were counted by 256 levels.
-    INSONIFY_MEMBER detail::level_values<float> pass(const histogram& counted) const {
-        detail::require_bins("equalize.levels", levels);
-        return detail::map_levels<float>(counted, flat()).by_level();
-    }
-
-  private:
-    INSONIFY_MEMBER histogram flat() const { return {std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)}; }
 };
 
 /// Gives an image the histogram of a reference, by bins: fast, and as coarse as the bins. MATLAB: imhistmatch(I,
-/// reference, bins). The reference is counted once and not kept; what has been counted before, from one image or from
-/// many, does as well. Floats become floats, codes codes.
+/// reference, bins). The reference is counted once and not kept; a histogram of one or many images is taken as well.
+/// Floats become floats, codes become codes.
 class match_binned {
   public:
     using is_filter = std::true_type;
@@ -377,10 +335,6 @@ class match_binned {
     template <countable_pixel Pixel, executor_argument E = serial_executor>
     INSONIFY_MEMBER detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), wanted_);
-    }
-    /// For floats that were counted by 256 levels.
-    INSONIFY_MEMBER detail::level_values<float> pass(const histogram& counted) const {
-        return detail::map_levels<float>(counted, wanted_).by_level();
     }
 
   private:

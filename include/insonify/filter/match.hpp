@@ -1,4 +1,4 @@
-// Gives an image the distribution of a reference by exact ranks: no bins, every distinct value counts.
+// Histogram matching by exact ranks: an image takes the distribution of a reference, without bins.
 //
 // Based on: Rafael C. Gonzalez, Richard E. Woods. Digital Image Processing, section 3.3 (histogram specification), with
 // the rule of scikit-image's match_histograms: the share of pixels up to a value, looked up in the reference's shares
@@ -62,7 +62,7 @@ inline void sort_keys(std::vector<std::uint32_t>& keys) {
 
 inline namespace INSONIFY_ONCE {
 
-/// Counts the finite pixels; others are passed over.
+/// Distribution of the finite pixels; others are skipped.
 INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source);
 
 #if INSONIFY_BODIES
@@ -90,7 +90,7 @@ INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source) {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Counts codes; the values are code / 255 or code / 65535.
+/// Distribution of codes; values are code / 255 or code / 65535.
 template <pixel_code Code, executor_argument E = serial_executor>
 distribution distribution_of(image_view<const Code> source, E&& ex = {}) {
     const histogram codes = histogram_of(source, (std::numeric_limits<Code>::max)() + 1, ex);
@@ -122,7 +122,7 @@ inline std::vector<float> values_at_ranks(const distribution& source, const dist
     std::size_t above = 0;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const double rank = static_cast<double>(source.cumulative[i]) / total;
-        // The first share that is no less: not far from the one before, if the source has as many values.
+        // Galloping search for the first share that is not less, starting at the last one found.
         std::size_t step = 1, last = reference.values.size() - 1;
         while (above + step < last && share(above + step) < rank) above += std::exchange(step, 2 * step);
         last = (std::min)(last, above + step);
@@ -145,7 +145,7 @@ inline std::vector<float> values_at_ranks(const distribution& source, const dist
     return result;
 }
 
-/// Sends each value that was measured to the value of its rank; a table of buckets finds it in a step or two.
+/// Replaces each value by the reference's value of the same rank; buckets find a value in one or two steps.
 class rank_pass {
   public:
     rank_pass(distribution source, const distribution& reference) {
@@ -177,7 +177,7 @@ class rank_pass {
   private:
     struct table {
         std::vector<float> values;          // of the source, rising
-        std::vector<float> ranked;          // what they become
+        std::vector<float> ranked;          // the reference's values at their ranks
         std::vector<std::uint32_t> starts;  // where each bucket of values begins
         double scale = 0;
 
@@ -191,14 +191,14 @@ class rank_pass {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// Gives an image the distribution of a reference, by exact ranks. What the reference was is counted once and shared by
-/// copies of the filter. Floats become floats, NaN stays NaN; codes become codes, to the nearest. An image without a
-/// finite pixel passes through.
+/// Gives an image the distribution of a reference, by exact ranks. The reference's distribution is computed once and
+/// shared by copies of the filter. Floats become floats, NaN stays NaN; codes become the nearest codes. An image
+/// without a finite pixel passes through.
 ///
 /// A constant image becomes the reference's largest value, as in scikit-image: all its pixels have the highest rank.
 ///
-/// Floats are sorted, which takes its time; `image | to_uint16 | match | to_float` counts instead, and what is closer
-/// than 1 / 65535 then has one rank.
+/// Floats are sorted. `image | to_uint16 | match | to_float` counts instead and is faster; values closer than 1 / 65535
+/// then share a rank.
 class match_histogram {
   public:
     using is_filter = std::true_type;

@@ -1,4 +1,4 @@
-// Noise by pixel that a sensor or a channel adds: gaussian, speckle (uniform or gaussian) and salt and pepper.
+// Noise filters of sensors and channels: gaussian, speckle (uniform or gaussian), salt and pepper.
 //
 // As in MATLAB's imnoise, the image is clipped to [0, 1] before and after, codes of 8 and 16 bits stand for code / 255
 // and code / 65535, and colours get noise in each channel. NaN (no data) stays NaN.
@@ -28,7 +28,7 @@ inline void check_variance(const char* name, const parameter& variance) {
         name, [](float v) { return numeric::is_finite(v) && v >= 0; }, "finite and at least 0");
 }
 
-/// The square roots of a parameter, by runs.
+/// Standard deviations of a variance parameter, run by run.
 class deviation {
   public:
     /// @param factor  by which the variance is multiplied first
@@ -44,7 +44,7 @@ class deviation {
         }
         return values_;
     }
-    void place(const pixel_area& area) { variance_.place(name_, area); }
+    void prepare(const pixel_area& area) { variance_.prepare(name_, area); }
 
   private:
     float root(float variance) const {
@@ -74,13 +74,13 @@ struct multiplied_draw {
     }
 };
 
-/// One draw per pixel, as wide as a deviation says.
+/// A rule applied with one draw per pixel, scaled by the deviation.
 template <class Draws, class Rule>
 class scaled_law {
   public:
     scaled_law(Rule rule, noise_key noise, deviation scale) : rule_(rule), noise_(noise), scale_(std::move(scale)) {}
 
-    /// With draws that are alike where they are close.
+    /// With correlated draws.
     scaled_law(Rule rule, noise_key noise, deviation scale, const correlation_length& length)
         : scaled_law(rule, noise, std::move(scale)) {
         if (length.x > 0 || length.y > 0)
@@ -99,7 +99,7 @@ class scaled_law {
         }
         apply_rule(rule_, from, draws, scale, to, run.count);
     }
-    void place(const pixel_area& area) { scale_.place(area); }
+    void prepare(const pixel_area& area) { scale_.prepare(area); }
 
   private:
     Rule rule_;
@@ -108,7 +108,7 @@ class scaled_law {
     std::optional<correlated_draws> correlated_;
 };
 
-/// Black or white by chance: p is uniform in (0, 1].
+/// Salt and pepper: p is uniform in (0, 1].
 struct struck_pixel {
     template <int N>
     INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& p, const lanes<float, N>& density) const {
@@ -130,7 +130,7 @@ class salt_law {
         const float* const p = white_draws<unit_draws>(buffer, noise_, 0, run);
         apply_rule(struck_pixel{}, from, p, density, to, run.count);
     }
-    void place(const pixel_area& area) { density_.place("salt_and_pepper.density", area); }
+    void prepare(const pixel_area& area) { density_.prepare("salt_and_pepper.density", area); }
 
   private:
     noise_key noise_;
@@ -199,10 +199,10 @@ struct gaussian_speckle {
     }
 };
 
-/// Makes a share of the pixels black or white, half of it each. MATLAB, Octave: imnoise(I, "salt & pepper", density);
-/// scikit-image: random_noise(I, "s&p", amount=density). Pixels without a number stay.
+/// Makes a fraction of the pixels black or white, half each. MATLAB, Octave: imnoise(I, "salt & pepper", density);
+/// scikit-image: random_noise(I, "s&p", amount=density). NaN stays NaN.
 struct salt_and_pepper {
-    parameter density = 0.05f;  ///< the share, 0 to 1
+    parameter density = 0.05f;  ///< fraction of the pixels, 0 to 1
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 

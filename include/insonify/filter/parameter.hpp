@@ -1,4 +1,4 @@
-// A parameter of a filter: one number, a number for each pixel, or a number for each type of seabed.
+// Filter parameters: one number, a number for each pixel, or a number for each seabed type.
 #pragma once
 
 #include <insonify/core/image_view.hpp>
@@ -26,8 +26,8 @@ inline void check_size(const std::string& name, int width, int height, const pix
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// One number for all pixels, or a map of them that is as large as the image. Views are looked at when the filter runs,
-/// and not kept alive.
+/// One number for all pixels, or a map of the image's size. Views are read when the filter runs; their pixels have to
+/// exist until then.
 ///
 ///     in::speckle{.variance = 0.05f}
 ///     in::speckle{.variance = variances.view()}
@@ -42,7 +42,7 @@ class parameter {
     INSONIFY_MEMBER parameter(image_view<const float> map) : map_(map) {}
     INSONIFY_MEMBER parameter(image_view<float> map) : map_(map) {}
 
-    /// `values[type]` for a pixel of that type, the last of them for types beyond.
+    /// `values[type]` for a pixel of that type; types past the end take the last value.
     /// @throws invalid_input for no values
     INSONIFY_MEMBER parameter(image_view<const std::uint8_t> types, std::vector<float> values)
         : values_(std::move(values)), types_(types), by_type_(true) {
@@ -54,9 +54,9 @@ class parameter {
     /// The number of all pixels. @pre is_constant()
     INSONIFY_MEMBER float value() const { return values_.front(); }
 
-    /// Where the pixels that it is asked for lie.
+    /// Sets the image's origin and size before the first call of `row`.
     /// @throws invalid_input for a map of another size
-    INSONIFY_TAGGED void place(const std::string& name, const pixel_area& area) {
+    INSONIFY_TAGGED void prepare(const std::string& name, const pixel_area& area) {
         x_ = area.x, y_ = area.y;
         if (by_type_) {
             detail::check_size(name, types_.width(), types_.height(), area);
@@ -65,7 +65,7 @@ class parameter {
         }
     }
 
-    /// The numbers of `count` pixels of a row from (x, y) on, into `buffer`.
+    /// Writes the numbers of `count` pixels of a row, the first at (x, y), to `buffer`.
     INSONIFY_TAGGED void row(float* buffer, int count, int x, int y) const {
         if (by_type_) {
             const std::uint8_t* const type = types_.row(y - y_).data() + (x - x_);

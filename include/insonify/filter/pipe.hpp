@@ -1,15 +1,14 @@
-// Filters by `|`: `image | f` applies, `f | g` makes a chain without touching a pixel, `apply` brings an executor,
-// `apply_into` and `apply_in_place` the memory.
+// Filter pipes: `image | f` applies a filter, `f | g` composes a chain; `apply` takes an executor, `apply_into` and
+// `apply_in_place` the memory of the result.
 //
-// Point-wise neighbours run as one sweep over the image, and a measured stage is the first of the sweep behind it
-// (filter/concept.hpp says which is which). Between the two are the pixels or, where it asks for no more, their levels;
-// if it turns out that one of them is NaN, which has none, the stages before run again.
+// Adjacent point-wise stages run as one pass over the image. A measured stage reads the finished image of the stages
+// before it and starts the next pass (filter/concept.hpp defines both kinds).
 //
-// A user's lambda or class is a filter as it is. One of the two sides of `f | g` must be a filter of the library (they
-// declare `is_filter`) or a chain; `filter_chain<>{} | mine | yours` starts one without.
+// Lambdas and users' classes are filters as they are. One side of `f | g` must declare `is_filter`, as the library's
+// filters do, or be a chain; `filter_chain<>{} | f | g` composes others.
 #pragma once
 
-#include <insonify/filter/detail/level_sweep.hpp>
+#include <insonify/filter/detail/run_pass.hpp>
 
 #include <algorithm>
 #include <concepts>
@@ -31,7 +30,7 @@ inline constexpr bool is_image<image<T>> = true;
 template <class T>
 inline constexpr bool is_image<image_view<T>> = true;
 
-/// A stage that is itself the function of the pixel; it outlives the sweep.
+/// A stage that is itself a pixel function. It outlives the pass.
 template <class F>
 struct pass_by_reference {
     const F* stage;
@@ -51,7 +50,7 @@ struct untouched {
     }
 };
 
-/// Two passes in one.
+/// Two passes fused into one.
 template <class First, class Second>
 struct fused {
     First first;
@@ -75,9 +74,9 @@ struct fused {
             call_row(second, buffer, to, count, x, y);
         }
     }
-    void place(const pixel_area& area) {
-        place_pass(first, area);
-        place_pass(second, area);
+    void prepare(const pixel_area& area) {
+        prepare_pass(first, area);
+        prepare_pass(second, area);
     }
 };
 
@@ -109,7 +108,7 @@ struct filter_result<F, Pixel> {
         typename std::remove_cvref_t<decltype(std::declval<const F&>()(std::declval<image<Pixel>>()))>::value_type;
 };
 
-/// Whether each stage takes what the one before it makes.
+/// Whether each stage accepts the result of the one before.
 template <class Pixel>
 constexpr bool chain_takes() {
     return true;
@@ -123,16 +122,16 @@ constexpr bool chain_takes() {
     }
 }
 
-/// The pixels go to a new image, or to the memory of the old one where it is given away and the type stays.
+/// Results go to a new image, or in place where the source is an rvalue of the same pixel type.
 struct into_image {};
 
-/// The pixels go where somebody wants them.
+/// Results go to the caller's view.
 template <class To>
 struct into_view {
     image_view<To> target;
 };
 
-/// What stays the same from stage to stage.
+/// Arguments that all stages share.
 template <class E, class Sink>
 struct run_context {
     E& ex;
@@ -149,7 +148,7 @@ image_view<const T> look_at(image_view<T> source) {
     return source;
 }
 
-/// The pixels behind a pass, in the source's own memory where that is ours and fits.
+/// Runs a pass and returns its image: in place where the source is an rvalue of the same pixel type.
 template <class Source, class Pass, executor E>
 auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) {
     using from = typename std::remove_cvref_t<Source>::value_type;
@@ -158,11 +157,11 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
     if constexpr (std::is_same_v<Pass, untouched>) {
         return image<from>(std::forward<Source>(source));
     } else if constexpr (owned && std::is_same_v<from, to>) {
-        sweep(look_at(source), source.view(), pass, ex, origin);
+        run_pass(look_at(source), source.view(), pass, ex, origin);
         return std::move(source);
     } else {
         image<to> out(source.width(), source.height(), uninitialized{}, memory_of(ex));
-        sweep(look_at(source), out.view(), pass, ex, origin);
+        run_pass(look_at(source), out.view(), pass, ex, origin);
         return out;
     }
 }
@@ -172,14 +171,7 @@ concept library_filter = requires {
     typename std::remove_cvref_t<F>::is_filter;
 };
 
-/// A filter of the library behind a pass of few values: each is asked for once, not pixel by pixel.
-template <class Pass, class F>
-concept by_value_of_level = library_filter<F> && requires(const Pass& pass, const F& f) {
-    f(pass(std::uint8_t{}));
-    pass.then(f);
-};
-
-/// Runs the stages on `source`, of which `pass` is still to be done.
+/// Runs the stages on `source` after `pass`, which has not run yet.
 template <class Source, class Pass, class E>
 auto run_stages(Source&& source, const Pass& pass, const run_context<E, into_image>& run) {
     return materialize(std::forward<Source>(source), pass, run.ex, run.origin);
@@ -189,7 +181,7 @@ void run_stages(const Source& source, const Pass& pass, const run_context<E, int
     const image_view<To> target = run.sink.target;
     require(source.width() == target.width(), "to.width()", target.width(), "that of the result");
     require(source.height() == target.height(), "to.height()", target.height(), "that of the result");
-    sweep(look_at(source), target, pass, run.ex, run.origin);
+    run_pass(look_at(source), target, pass, run.ex, run.origin);
 }
 template <class Source, class Pass, class E, class Sink, class F, class... Rest>
 auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& run, const F& stage,
@@ -206,17 +198,9 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     } else if constexpr (clean) {
         return run_stages(std::forward<Source>(source), make_pass(stage, look_at(source), run.ex), run, rest...);
     } else if constexpr (measured_filter<F, pixel>) {
-        if constexpr (std::same_as<pixel, float> && level_filter<F>) {
-            // Levels are a quarter of what the pixels are.
-            image<std::uint8_t> levels(source.width(), source.height(), uninitialized{}, memory_of(run.ex));
-            if (const auto counted = sweep_levels(look_at(source), levels.view(), pass, run.ex, run.origin))
-                return run_stages(std::move(levels), stage.pass(*counted), run, rest...);
-        }
         image<pixel> seen = materialize(std::forward<Source>(source), pass, run.ex, run.origin);
         const auto next = make_pass(stage, look_at(seen), run.ex);
         return run_stages(std::move(seen), next, run, rest...);
-    } else if constexpr (by_value_of_level<Pass, F>) {
-        return run_stages(std::forward<Source>(source), pass.then(stage), run, rest...);
     } else {
         auto next = make_pass(stage, image_view<const pixel>{}, run.ex);
         return run_stages(std::forward<Source>(source), fused<Pass, decltype(next)>{pass, std::move(next)}, run,
@@ -226,7 +210,8 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// Filters in a row, made by `f | g`. Stages are kept by value; the same chain serves any number of images.
+/// A sequence of filters, composed by `f | g`. Stages are stored by value; a chain may be applied to any number of
+/// images.
 template <class... Stages>
 struct filter_chain {
     using is_filter = std::true_type;
@@ -288,12 +273,12 @@ auto apply_to(Source&& source, const F& f, E& ex, pixel_origin origin, Sink sink
 
 inline namespace INSONIFY_FLAGS {
 
-/// The filtered image, its rows shared out by the executor; the same bytes for any executor. An image that is moved in
-/// lends its memory to the result where the pixel type stays.
+/// Applies a filter; the result is the same bytes for any executor. An image that is moved in is filtered in place
+/// where the pixel type stays.
 ///
-/// @param origin  where the image's first pixel lies in a larger one: parts that are filtered one by one get the noise
-///                of the whole. What measures an image measures the part.
-/// @throws whatever a stage says of its parameters, before the first pixel of its sweep
+/// @param origin  position of the image's first pixel in a larger one: parts that are filtered one by one get the noise
+///                of the whole. Measured filters measure the part.
+/// @throws what a stage throws for its parameters, before the first pixel of its pass
 template <class Pixel, filter_for<Pixel> F, executor_argument Executor = serial_executor>
 auto apply(const image<Pixel>& in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
     return detail::apply_to(in, f, ex, origin, detail::into_image{});
@@ -309,8 +294,8 @@ auto apply(image_view<Pixel> in, const F& f, Executor&& ex = serial_executor{}, 
     return detail::apply_to(in, f, ex, origin, detail::into_image{});
 }
 
-/// Filters into memory that is there already. `to` is all of `in` (no other part of it) or apart from it.
-/// @throws invalid_input if `to` isn't as large as the result; and as `apply`
+/// Filters into the caller's memory. `to` is exactly `in`, or does not overlap it.
+/// @throws invalid_input if `to` does not have the size of the result; and as `apply`
 template <class Pixel, class To, filter_for<std::remove_const_t<Pixel>> F, executor_argument Executor = serial_executor>
     requires(std::same_as<typename detail::filter_result<F, std::remove_const_t<Pixel>>::type, To>)
 void apply_into(image_view<Pixel> in, image_view<To> to, const F& f, Executor&& ex = serial_executor{},
@@ -318,7 +303,7 @@ void apply_into(image_view<Pixel> in, image_view<To> to, const F& f, Executor&& 
     detail::apply_to(in, f, ex, origin, detail::into_view<To>{to});
 }
 
-/// Filters where the pixels are.
+/// Filters in place.
 template <class Pixel, filter_for<Pixel> F, executor_argument Executor = serial_executor>
     requires(std::same_as<typename detail::filter_result<F, Pixel>::type, Pixel>)
 void apply_in_place(image_view<Pixel> pixels, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
@@ -341,7 +326,7 @@ auto operator|(image_view<Pixel> in, const F& f) {
     return apply(in, f);
 }
 
-// A filter of the library on pixels that it, or a stage of it, doesn't take: compilers show these lines.
+// Deleted overloads, so that compilers name the filter that does not accept these pixels.
 // clang-format off
 template <class Pixel, detail::library_filter F>
 void operator|(const image<Pixel>&, const F&) requires(!filter_for<F, Pixel>) = delete;
@@ -349,7 +334,7 @@ template <class Pixel, detail::library_filter F>
 void operator|(image_view<Pixel>, const F&) requires(!filter_for<F, std::remove_const_t<Pixel>>) = delete;
 // clang-format on
 
-/// `filter | filter`: both in a row, for later. One of them must be a filter of the library or a chain.
+/// `filter | filter`: a chain of both. One of them must be a filter of the library or a chain.
 template <detail::stage F, detail::stage G>
     requires(detail::library_filter<F> || detail::library_filter<G>)
 auto operator|(F&& f, G&& g) {

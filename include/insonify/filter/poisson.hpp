@@ -1,10 +1,15 @@
-// Shot noise: each pixel becomes the count of a Poisson draw whose mean it was.
+// Shot noise: each pixel becomes a Poisson count whose mean it was.
+//
+// Counts of means below 10 are found by inversion, larger ones by transformed rejection with squeeze, in 1.1 to 1.2
+// trials. Both follow the Poisson law to the 2^-32 of their uniform numbers.
 //
 // Based on: Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random Variables. Insurance:
-// Mathematics and Economics 12, 1993 (algorithm PTRS, means of 256 and above; below there are tables).
+// Mathematics and Economics 12, 1993 (algorithm PTRS).
 #pragma once
 
-#include <insonify/filter/detail/poisson_tables.hpp>
+#include <insonify/filter/detail/rejection.hpp>
+
+#include <array>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -13,104 +18,127 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// ln k! - k ln m + m for whole k >= 10 and m > 0, less half of ln(k + 1): what is left of a Poisson probability,
-/// without the large terms that cancel. Stirling's series to below 1e-11.
+/// ln k! less Stirling's (k + 1/2) ln(k + 1) - (k + 1) + ln(2 pi) / 2, for k from 0 to 9.
+inline constexpr std::array<double, 10> stirling_error = [] {
+    std::array<double, 10> error{};
+    double log_factorial = 0;
+    for (std::size_t k = 0; k < error.size(); ++k) {
+        const double n = static_cast<double>(k + 1);
+        error[k] = log_factorial - ((n - 0.5) * numeric::log(n) - n + 0.91893853320467274);
+        log_factorial += numeric::log(n);
+    }
+    return error;
+}();
+
+/// ln k! - k ln m + m - ln(k + 1) / 2 for whole k >= 0 and m > 0: minus the logarithm of a Poisson probability, without
+/// the large terms that cancel. To 1e-11.
 template <int N>
 INSONIFY_INLINE void poisson_deficit(lanes<double, N>& into, const lanes<double, N>& k, const lanes<double, N>& m) {
     using doubles = lanes<double, N>;
     constexpr double half_log_two_pi = 0.91893853320467274;
     const doubles n = k + 1.0, r = 1.0 / n, s = r * r;
-    const doubles tail = (1.0 / 12 - (1.0 / 360 - (1.0 / 1260 - s * (1.0 / 1680)) * s) * s) * r;
+    doubles error = (1.0 / 12 - (1.0 / 360 - (1.0 / 1260 - s * (1.0 / 1680)) * s) * s) * r;
+    if (any(lanes<std::int64_t, N>(k < 10.0))) {
+        for (int i = 0; i < N; ++i)
+            if (lane(k, i) < 10) set_lane(error, i, stirling_error[static_cast<std::size_t>(lane(k, i))]);
+    }
     doubles log_ratio;
     log_lanes<N>(log_ratio, m * r);
-    into = (m - n) - k * log_ratio + (half_log_two_pi + tail);
+    into = (m - n) - k * log_ratio + (half_log_two_pi + error);
 }
 
-/// For means of 256 and above, where counts below 10 don't occur: transformed rejection with squeeze; 1.1 attempts, two
-/// of them from one block.
-struct poisson_rejection {
+/// Draws Poisson counts for rejection_kernel, two trials a block.
+struct poisson_counts {
+    static constexpr double min_rejection_mean = 10;
+
     static std::uint32_t block(std::uint32_t trial) { return trial / 2; }
 
     template <int N>
     INSONIFY_INLINE void attempt(lanes<double, N>& count, lanes<std::int64_t, N>& settled,
                                  const lanes<std::uint64_t, N> (&word)[4], const lanes<double, N>& mean,
                                  std::uint32_t trial) const {
-        using doubles = lanes<double, N>;
         using flags = lanes<std::int64_t, N>;
-        doubles u, v, b;
+        lanes<double, N> u, v;
         uniform_lanes<N>(u, word[2 * (trial & 1)]);
         uniform_lanes<N>(v, word[2 * (trial & 1) + 1]);
-        u = u - 0.5;
-        square_root<N>(b, mean);
-        b = 0.931 + 2.53 * b;
-        const doubles a = -0.059 + 0.02483 * b;
+        const flags is_small = flags(mean < min_rejection_mean);
+        count = lanes<double, N>{};
+        settled = is_small;
+        if (any(flags(is_small == 0))) reject<N>(count, settled, u, v, mean);
+        if (any(is_small)) invert<N>(count, u, mean);
+    }
+
+  private:
+    /// The smallest count whose cumulative probability reaches u, where the mean is small.
+    template <int N>
+    INSONIFY_INLINE static void invert(lanes<double, N>& count, const lanes<double, N>& u,
+                                       const lanes<double, N>& mean) {
+        for (int i = 0; i < N; ++i) {
+            const double m = lane(mean, i);
+            if (!(m < min_rejection_mean)) continue;
+            double k = 0, p = numeric::exp(-m), sum = p;
+            while (sum < lane(u, i) && k < 100) {
+                k += 1;
+                p *= m / k;
+                sum += p;
+            }
+            set_lane(count, i, k);
+        }
+    }
+
+    template <int N>
+    INSONIFY_INLINE static void reject(lanes<double, N>& count, lanes<std::int64_t, N>& settled,
+                                       const lanes<double, N>& uniform, const lanes<double, N>& v,
+                                       const lanes<double, N>& mean) {
+        using doubles = lanes<double, N>;
+        using flags = lanes<std::int64_t, N>;
+        const doubles u = uniform - 0.5;
+        doubles root;
+        square_root<N>(root, mean);
+        const doubles b = 0.931 + 2.53 * root, a = -0.059 + 0.02483 * b;
         const doubles edge = 0.5 - (u < 0.0 ? 0.0 - u : u);
         floor_lanes<N>(count, (2.0 * a / edge + b) * u + mean + 0.43);
         const flags squeezed = flags(edge >= 0.07) & flags((0.9277 - v) * (b - 2.0) >= 3.6224);
         // Hormann's ln(v / (alpha (a / edge^2 + b))) <= k ln m - m - ln k!, in fewer logarithms and quotients.
         const doubles square = edge * edge;
         const doubles height = v * (1.1239 * b - (1.1239 * 3.4 - 1.1328)) * square / ((b - 3.4) * (a + b * square));
-        const doubles whole = count > 10.0 ? count : doubles{} + 10.0;
+        const doubles k = count > 0.0 ? count : doubles{};
         doubles log_height, deficit;
-        log_lanes<N>(log_height, height * height * (whole + 1.0));
-        poisson_deficit<N>(deficit, whole, mean);
-        settled = squeezed | (flags(count >= 10.0) & (flags(edge >= 0.013) | flags(v <= edge)) &
-                              flags(0.5 * log_height + deficit <= 0.0));
+        log_lanes<N>(log_height, height * height * (k + 1.0));
+        poisson_deficit<N>(deficit, k, mean);
+        settled = settled | squeezed |
+                  (flags(count >= 0.0) & (flags(edge >= 0.013) | flags(v <= edge)) &
+                   flags(0.5 * log_height + deficit <= 0.0));
     }
 };
 
-/// Counts of means of 256 and above, exactly.
-struct rejected_large_counts {
-    noise_key noise;
-
-    /// Pixels of the list become counts over photons; they held their means.
-    void operator()(float* pixels, const pixel_list& large, const noise_run& run, float photons) const {
-        double mean[run_length], count[run_length];
-        pixel_list open = large;
-        for (int k = 0; k < large.count; ++k) mean[large.places[k]] = static_cast<double>(pixels[large.places[k]]);
-        dispatch(rejection_kernel<poisson_rejection>{{}, mean, count, &open, run, noise}, best_isa());
-        for (int k = 0; k < large.count; ++k) {
-            const std::uint16_t i = large.places[k];
-            pixels[i] = clip_to_unit(static_cast<float>(count[i] / static_cast<double>(photons)));
-        }
-    }
-};
-
-/// @tparam LargeCounts  what draws for means of 256 and above
-template <class LargeCounts>
 class poisson_law {
   public:
-    /// @param photons  for a pixel of 1; 0: as many as the pixel has levels, or 1e6 for floats
-    poisson_law(float photons, std::uint64_t seed, std::uint32_t frame, LargeCounts large_counts)
-        : photons_(photons), small_(seed, noise_stream::small_poisson, frame), large_counts_(large_counts) {}
+    poisson_law(float photons, noise_key noise) : photons_(photons), noise_(noise) {}
 
     void row(const float* from, float* to, const noise_run& run) const {
-        const float photons = photons_ > 0 ? photons_ : run.levels > 1 ? static_cast<float>(run.levels) : 1e6f;
-        draw_buffer words, uniforms;
-        const float* const word = white_draws<word_draws>(words, small_, 0, run);
-        const float* const uniform = white_draws<unit_draws>(uniforms, small_, 1, run);
-        pixel_list large;
-        dispatch(poisson_table_kernel{poisson_tables::shared().entries(), from, word, uniform, to, run.count, photons,
-                                      &large},
-                 best_isa());
-        if (large.count > 0) large_counts_(to, large, run, photons);
+        double mean[run_length], count[run_length];
+        pixel_list open;
+        for (int i = 0; i < run.count; ++i) {
+            count[i] = mean[i] = static_cast<double>(clip_to_unit(from[i]) * photons_);
+            add_if(mean[i] == mean[i], i, open.places, open.count);
+        }
+        dispatch(rejection_kernel<poisson_counts>{{}, mean, count, &open, run, noise_}, best_isa());
+        for (int i = 0; i < run.count; ++i)
+            to[i] = clip_to_unit(static_cast<float>(count[i] / static_cast<double>(photons_)));
     }
-    void place(const pixel_area&) {}
+    void prepare(const pixel_area&) {}
 
   private:
     float photons_;
-    noise_key small_;
-    LargeCounts large_counts_;
+    noise_key noise_;
 };
-
-inline auto exact_poisson(float photons, std::uint64_t seed, std::uint32_t frame) {
-    return noise_pass(poisson_law(photons, seed, frame, rejected_large_counts{{seed, noise_stream::poisson, frame}}));
-}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
 /// Poisson counts: J = k / photons, k drawn with the mean I photons. The default is what MATLAB's
-/// imnoise(I, "poisson") does to uint8 images; its rule for doubles, photons = 1e12, is no noise at all to the eye.
+/// imnoise(I, "poisson") does to uint8 images; for its other classes, photons is 65535 (uint16), 1e6 (single) or 1e12
+/// (double), which is no visible noise at all.
 struct poisson {
     float photons = 255;  ///< mean count of a white pixel, in (0, 1e9]
     std::uint64_t seed = 0;
@@ -119,21 +147,10 @@ struct poisson {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for photons outside (0, 1e9]
-    INSONIFY_MEMBER auto pass() const {
+    INSONIFY_TAGGED auto pass() const {
         detail::require(photons > 0 && photons <= 1e9f, "poisson.photons", photons, "above 0 and at most 1e9");
-        return detail::exact_poisson(photons, seed, frame);
+        return detail::noise_pass(detail::poisson_law(photons, {seed, detail::noise_stream::poisson, frame}));
     }
-};
-
-/// MATLAB's rule by class: codes of 8 and 16 bits are counts themselves, floats (MATLAB: single) count 1e6 for white.
-/// On 8 bits the same draws as `poisson{}`.
-struct matlab_poisson {
-    std::uint64_t seed = 0;
-    std::uint32_t frame = 0;  ///< which image of a set
-
-    using is_filter = std::true_type;
-
-    INSONIFY_MEMBER auto pass() const { return detail::exact_poisson(0, seed, frame); }
 };
 
 }  // namespace INSONIFY_ABI

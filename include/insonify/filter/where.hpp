@@ -1,4 +1,4 @@
-// A filter for some of the pixels: `image | where(labels.shadow, match)` measures and changes these and no others.
+// Masked filters: `image | where(labels.shadow, match)` measures and changes the pixels of the mask alone.
 #pragma once
 
 #include <insonify/filter/parameter.hpp>
@@ -11,7 +11,7 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A pass for the pixels of a mask that are not 0; the others stay.
+/// Applies a pass where the mask is not 0 and copies the other pixels.
 template <class Pass>
 class masked_pass {
   public:
@@ -28,10 +28,10 @@ class masked_pass {
         const std::uint8_t* const chosen = mask_.row(y - y_).data() + (x - x_);
         for (int i = 0; i < count; ++i) to[i] = chosen[i] != 0 ? changed[i] : from[i];
     }
-    void place(const pixel_area& area) {
+    void prepare(const pixel_area& area) {
         check_size("where", mask_.width(), mask_.height(), area);
         x_ = area.x, y_ = area.y;
-        place_pass(pass_, area);
+        prepare_pass(pass_, area);
     }
 
   private:
@@ -44,8 +44,8 @@ class masked_pass {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The pixels where the mask isn't 0, in one row: what `histogram_of`, `distribution_of` and the filters that match
-/// take for a reference, if only a part of a picture is one.
+/// The pixels where the mask is not 0, as one row: a reference for `histogram_of`, `distribution_of` and the matching
+/// filters where only part of an image is to count.
 /// @throws invalid_input for a mask of another size
 template <class Pixel>
 image<Pixel> pixels_where(image_view<const std::uint8_t> mask, image_view<const Pixel> source) {
@@ -92,8 +92,8 @@ struct where_filter {
     }
 };
 
-/// Does to the pixels where `mask` isn't 0 what a filter does, and leaves the others alone. A filter that measures
-/// measures these alone. Nothing changes where the mask chooses nothing.
+/// Applies a filter where `mask` is not 0; the other pixels stay. Measured filters measure the masked pixels alone. An
+/// empty mask leaves the image as it is.
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///
@@ -103,7 +103,7 @@ template <class F>
 where_filter<std::decay_t<F>> where(image_view<const std::uint8_t> mask, F&& filter) {
     return {mask, std::forward<F>(filter)};
 }
-/// Does so stage by stage.
+/// The same for each stage of a chain.
 template <class... Stages>
 filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask, const filter_chain<Stages...>& chain) {
     return std::apply(

@@ -127,24 +127,82 @@ TEST_CASE("Mean amplitudes: closed forms, and both sides of where a series takes
     CHECK(mean_of_rice(1e6) == Approx(1).epsilon(1e-6));
 }
 
-TEST_CASE("Correlated echoes keep their law, and their intensities fall to 1 / e where they should") {
-    const auto check = [](const auto& noise, double index) {
-        const auto picture = noisy(noise);
-        CHECK(of(picture).mean == Approx(static_cast<double>(level)).epsilon(0.02));
-        CHECK(of(picture).index == Approx(index).epsilon(0.06));
-        CHECK(correlation(picture, picture, 3, 0) == Approx(std::exp(-1)).margin(0.04));
-        CHECK(correlation(picture, picture, 0, 2) == Approx(std::exp(-1)).margin(0.04));
-        CHECK(correlation(picture, picture, 12, 0) == Approx(0).margin(0.03));
-    };
-    const in::correlation_length length{3, 2};
+namespace {
+
+/// The distance along x at which the autocorrelation crosses 1 / e: ln r is interpolated over d^2, in which a Gaussian
+/// is a straight line.
+double length_of(const in::image<float>& picture) {
+    double last = 0;
+    for (int d = 1; d < 40; ++d) {
+        const double now = std::log(std::fmax(correlation(picture, picture, d, 0), 1e-3));
+        if (now <= -1) {
+            const double d0 = (d - 1.0) * (d - 1.0), d1 = static_cast<double>(d * d);
+            return std::sqrt(d0 + (d1 - d0) * (-1 - last) / (now - last));
+        }
+        last = now;
+    }
+    return 40;
+}
+
+}  // namespace
+
+TEST_CASE("The intensities of correlated echo noise have the 1/e length of the parameter, for every law") {
     using enum in::echo;
-    check(in::rayleigh{.of = intensity, .correlation = length}, 1);
-    check(in::gamma_speckle{.looks = 2, .of = intensity, .correlation = length}, 0.5);
-    const auto steady = noisy(in::rician{.steady = 1, .of = intensity, .correlation = length});
-    CHECK(of(steady).index == Approx(0.75).epsilon(0.06));
-    const auto rough = noisy(in::k_speckle{.shape = 4, .of = intensity, .correlation = length});
-    CHECK(of(rough).index == Approx(1.5).epsilon(0.08));
-    CHECK(correlation(rough, rough, 1, 0) > 0.2);
+    const float length = GENERATE(1.0f, 1.5f, 2.0f, 4.0f);
+    const auto check = [&](const char* law, const auto& noise, double index) {
+        const auto picture = noisy(noise);
+        INFO(law << ", length " << length);
+        CHECK(of(picture).mean == Approx(static_cast<double>(level)).epsilon(0.05));
+        CHECK(of(picture).index == Approx(index).epsilon(0.12));
+        CHECK(length_of(picture) == Approx(static_cast<double>(length)).epsilon(0.08));
+        CHECK(correlation(picture, picture, 0, 16) == Approx(0).margin(0.04));
+    };
+    const in::correlation_length both{length, length};
+    check("Rayleigh", in::rayleigh{.of = intensity, .correlation = both}, 1);
+    check("looks", in::gamma_speckle{.looks = 3, .of = intensity, .correlation = both}, 1 / 3.0);
+    check("Rician 1", in::rician{.steady = 1, .of = intensity, .correlation = both}, 0.75);
+    check("Rician 8", in::rician{.steady = 8, .of = intensity, .correlation = both}, 17 / 81.0);
+    check("K 1.5", in::k_speckle{.shape = 1.5f, .of = intensity, .correlation = both}, 1 + 2 / 1.5);
+    check("K 4", in::k_speckle{.shape = 4, .of = intensity, .correlation = both}, 1.5);
+    check("K 6, 4 looks", in::k_speckle{.shape = 6, .looks = 4, .of = intensity, .correlation = both},
+          7.0 / 6 * 5 / 4 - 1);
+}
+
+TEST_CASE("Below a pixel, adjacent echoes are correlated as the Gaussian of that 1/e length, down to 0.3") {
+    using enum in::echo;
+    for (const float length : {0.3f, 0.5f, 0.6f, 0.7f, 0.85f}) {
+        const double l = static_cast<double>(length);
+        const in::correlation_length x{length, 0};
+        const auto rayleigh = noisy(in::rayleigh{.of = intensity, .correlation = x});
+        CHECK(correlation(rayleigh, rayleigh, 1, 0) == Approx(std::exp(-1 / (l * l))).margin(0.01));
+        CHECK(correlation(rayleigh, rayleigh, 0, 1) == Approx(0).margin(0.01));
+        // The field's correlation c at the length, from c^2 + 2 s c = (1 + 2 s) / e, is the Gaussian's value there.
+        const double s = 3, c = -s + std::sqrt(s * s + (1 + 2 * s) / std::exp(1.0));
+        const double field = std::pow(c, 1 / (l * l));
+        const auto rician = noisy(in::rician{.steady = 3, .of = intensity, .correlation = x});
+        CHECK(correlation(rician, rician, 1, 0) == Approx((field * field + 2 * s * field) / (1 + 2 * s)).margin(0.01));
+    }
+}
+
+TEST_CASE("Correlated textures have the gamma law's moments and quantiles") {
+    for (const double shape : {0.05, 0.5, 1.0, 4.0, 100.0, 1e5}) {
+        const in::detail::gamma_texture texture(shape);
+        double mean = 0, square = 0, product = 0;
+        for (int i = 0; i < 100000; ++i) {
+            const double z = -7 + 14e-5 * (i + 0.5),
+                         p = 14e-5 * std::exp(-0.5 * z * z) / std::sqrt(2 * in::numeric::pi);
+            const auto t = static_cast<double>(texture(static_cast<float>(z)));
+            mean += p * t;
+            square += p * t * t;
+            product += p * t * z;
+        }
+        INFO("shape " << shape);
+        CHECK(mean == Approx(1).epsilon(1e-4));
+        CHECK(square - 1 == Approx(1 / shape).epsilon(1e-3));
+        CHECK(texture.correlation(1) == Approx(1).epsilon(1e-9));
+        CHECK(texture.correlation(1e-4) / 1e-4 == Approx(product * product * shape).epsilon(0.01));
+    }
+    CHECK(in::detail::gamma_texture(1)(0) == Approx(std::log(2.0)).epsilon(1e-4));  // exponential: the median
 }
 
 TEST_CASE("Correlated gaussian noise: its variance, and 1 / e at its length") {

@@ -2,7 +2,7 @@
 #include <insonify/filter/echo_noise.hpp>
 #include <insonify/filter/histogram.hpp>
 #include <insonify/filter/noise.hpp>
-#include <insonify/filter/quick_poisson.hpp>
+#include <insonify/filter/poisson.hpp>
 
 #include <cmath>
 #include <vector>
@@ -48,26 +48,15 @@ floats by_draws(int count, in::isa level) {
 }
 
 floats by_poisson(int count, float photons, in::isa level) {
-    const noise_run run{11, 13, count, 0, 1};
-    const floats from = pixels(count), word = by_draws<word_draws>(count, in::isa::scalar),
-                 uniform = by_draws<unit_draws>(count + 3, in::isa::scalar);
-    floats to(from.size());
-    pixel_list large;
-    dispatch(poisson_table_kernel{poisson_tables::shared().entries(), from.data(), word.data(), uniform.data() + 3,
-                                  to.data(), count, photons, &large},
-             level);
-    std::vector<double> mean(to.begin(), to.end()), drawn(to.size());
-    dispatch(rejection_kernel<poisson_rejection>{{}, mean.data(), drawn.data(), &large, run, key}, level);
+    std::vector<double> mean, drawn(static_cast<std::size_t>(count));
+    pixel_list list;
+    for (int i = 0; i < count; ++i) {
+        mean.push_back(static_cast<double>(photons) * (i * 37 % 101) / 100);
+        add_if(true, i, list.places, list.count);
+    }
+    dispatch(rejection_kernel<poisson_counts>{{}, mean.data(), drawn.data(), &list, {11, 13, count, 0, 1}, key}, level);
+    floats to;
     for (const double d : drawn) to.push_back(static_cast<float>(d));
-    return to;
-}
-
-floats by_quick_poisson(int count, float mean, in::isa level) {
-    const floats normal = by_draws<normal_draws>(count, in::isa::scalar);
-    floats to(normal.size(), mean);
-    pixel_list large;
-    for (int i = 0; i < count; i += 1 + i % 3) add_if(true, i, large.places, large.count);
-    dispatch(quick_poisson_kernel{normal.data(), to.data(), &large, 2 * mean}, level);
     return to;
 }
 
@@ -106,7 +95,6 @@ TEST_CASE("Kernels of filters make the same bytes at every instruction set") {
     same_at_all_levels([](int n, isa level) { return by_poisson(n, 1, level); });
     same_at_all_levels([](int n, isa level) { return by_poisson(n, 255, level); });
     same_at_all_levels([](int n, isa level) { return by_poisson(n, 1e9, level); });
-    same_at_all_levels([](int n, isa level) { return by_quick_poisson(n, 255.5f, level); });
     same_at_all_levels([](int n, isa level) { return by_gamma(n, 0.3, level); });
     same_at_all_levels([](int n, isa level) { return by_gamma(n, 7, level); });
 }

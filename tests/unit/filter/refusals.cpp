@@ -9,7 +9,6 @@
 #include <insonify/filter/noise.hpp>
 #include <insonify/filter/pipe.hpp>
 #include <insonify/filter/poisson.hpp>
-#include <insonify/filter/quick_poisson.hpp>
 #include <insonify/filter/where.hpp>
 
 namespace in = insonify;
@@ -49,7 +48,6 @@ TEST_CASE("Noise refuses each field by name") {
 
 TEST_CASE("Photon noise refuses each field by name") {
     walk<in::poisson>("poisson.", {}, use, {FIELD(photons, outside(0, 1e9))});
-    walk<in::quick_poisson>("quick_poisson.", {}, use, {FIELD(photons, outside(0, 1e6))});
 }
 
 TEST_CASE("Echoes refuse each field by name") {

@@ -1,4 +1,4 @@
-// Normal draws that are like their neighbours: white noise under a Gaussian filter, row by row.
+// Correlated normal draws: white noise through a separable filter, row by row.
 #pragma once
 
 #include <insonify/core/detail/correlation.hpp>
@@ -11,8 +11,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Over how many pixels noise stays alike: where its correlation has fallen to 1 / e, or for what echoes make, that of
-/// their intensity (a tenth less at 1, where a filter has few taps). 0: not at all.
+/// Distance in pixels at which the noise's autocorrelation has fallen to 1 / e; for echo noise, that of the intensity.
+/// 0: white noise. Between lengths of 0 and 1 the correlation of adjacent pixels rises from 0 to 1 / e.
 struct correlation_length {
     float x = 0, y = 0;  ///< 0 to 16
 };
@@ -24,8 +24,8 @@ inline void require_correlation(const char* name, const correlation_length& leng
         require(pixels >= 0 && pixels <= 16, name, pixels, "0 to 16 pixels");
 }
 
-/// Standard normal draws, one for each pixel and field, that are correlated along rows and columns. What a pixel gets
-/// depends on its place alone; rows that follow each other share their work.
+/// Standard normal draws, one for each pixel and field, correlated along rows and columns. A draw depends on the
+/// pixel's place alone. Consecutive rows share the rows that both filter.
 class correlated_draws {
   public:
     /// @param x, y  taps of the filters along rows and columns

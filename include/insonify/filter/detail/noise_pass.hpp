@@ -1,7 +1,7 @@
-// How noise goes over an image: by runs of a row, whatever the pixels are and wherever the run begins.
+// Noise laws as filter passes: draws for runs of a row, and the pass that applies a law to every pixel type.
 //
-// Noise is defined on floats in [0, 1]. Codes of 8 and 16 bits are taken there and back, as MATLAB's imnoise does, and
-// each channel of a colour has noise of its own.
+// Laws are defined on floats in [0, 1]. Codes of 8 and 16 bits are converted to floats and back, as MATLAB's imnoise
+// does; each channel of a colour has independent noise. Draws do not depend on where a run begins.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -21,7 +21,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// One stream per kind of noise; the numbers are part of what a seed means.
+/// One random stream per kind of noise. Changing a number changes the noise of every seed.
 enum class noise_stream : std::uint32_t {
     gaussian = 0x6E6F6900,
     speckle,
@@ -32,12 +32,10 @@ enum class noise_stream : std::uint32_t {
     gamma_speckle,
     k_speckle,
     rician,
-    texture,
-    quick_poisson,
-    small_poisson
+    texture
 };
 
-/// What the draws of one filter hang on, besides the pixel.
+/// What a filter's draws depend on, besides the pixel.
 struct noise_key {
     philox_key key;
     std::uint32_t frame;
@@ -51,21 +49,21 @@ struct noise_run {
     int x, y;               // of the first pixel
     int count;              // 1 to run_length
     std::uint32_t channel;  // 0 to 2
-    int levels;             // the largest code that the pixels had, 1 for floats
+    int levels;             // the largest code of the pixel type, 1 for floats
 };
 
 constexpr float clip_to_unit(float value) {
     return value < 0 ? 0.0f : value > 1 ? 1.0f : value;
 }
 
-/// NaN stays.
+/// Clips to [0, 1]; NaN stays NaN.
 template <int N>
 INSONIFY_INLINE void clip_lanes(lanes<float, N>& value) {
     value = value < 0.0f ? lanes<float, N>{} : value;
     value = value > 1.0f ? lanes<float, N>{} + 1.0f : value;
 }
 
-/// What a pixel holds that noise can be added to: floats in [0, 1], codes, or colours of either.
+/// Channel types that noise applies to: floats in [0, 1] and codes. Pixels are channels or colours of them.
 template <class T>
 concept noise_channel = std::same_as<T, float> || pixel_code<T>;
 template <class T>
@@ -85,7 +83,7 @@ void to_floats(const Code* from, float* to, int count, std::size_t step) {
     for (int i = 0; i < count; ++i) to[i] = dequantize(from[static_cast<std::size_t>(i) * step]);
 }
 
-/// A law of noise, `law.row(from, to, run)` on floats, as a pass over pixels of every kind.
+/// Applies a noise law, `law.row(from, to, run)` on floats, to pixels of any type.
 template <class Law>
 class noise_pass {
   public:
@@ -114,7 +112,7 @@ class noise_pass {
         }
     }
 
-    void place(const pixel_area& area) { law_.place(area); }
+    void prepare(const pixel_area& area) { law_.prepare(area); }
 
   private:
     template <noise_channel Channel>
@@ -137,7 +135,7 @@ class noise_pass {
     Law law_;
 };
 
-/// Four draws from four words, by kind.
+/// Policies that turn four random words into four draws.
 struct normal_draws {
     template <int N>
     static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
@@ -155,12 +153,6 @@ struct unit_draws {
     template <int N>
     static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { unit_lanes<N>(into[i], word[i]); });
-    }
-};
-struct word_draws {  // as they are, to be taken for whole numbers again
-    template <int N>
-    static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
-        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { std::memcpy(&into[i], &word[i], sizeof into[i]); });
     }
 };
 struct radius_draws {
@@ -194,10 +186,10 @@ struct draw_kernel {
     }
 };
 
-/// Room for the draws of a run: those of its first block that lie before it, and those of the last lanes behind it.
+/// Buffer for the draws of a run, with room for those of its first block before the run and of the last lanes past it.
 using draw_buffer = float[run_length + 64];
 
-/// Independent draws, one for each pixel and `field`, in `buffer` from the place that is returned on.
+/// Writes independent draws, one for each pixel and `field`, and returns the first; they lie in `buffer`.
 template <class Draws>
 float* white_draws(draw_buffer& buffer, const noise_key& noise, std::uint32_t field, const noise_run& run) {
     const int before = run.x & 3;
@@ -210,7 +202,7 @@ float* white_draws(draw_buffer& buffer, const noise_key& noise, std::uint32_t fi
     return buffer + before;
 }
 
-/// to = clipped rule(clipped from, draw, scale), several pixels at a time.
+/// to = clip(rule(clip(from), draw, scale)).
 template <class Rule>
 struct rule_kernel {
     Rule rule;
@@ -222,7 +214,7 @@ struct rule_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        const rule_kernel own = *this;  // which nothing that is stored can change
+        const rule_kernel own = *this;  // local copy, so that stores cannot alias it
         int i = 0;
         for (; i + N <= own.count; i += N) own.at<N>(i);
         for (; i < own.count; ++i) own.at<1>(i);

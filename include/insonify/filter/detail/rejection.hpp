@@ -1,4 +1,4 @@
-// Draws by trial: pixels whose trial fails go on to the next, side by side with others that failed.
+// Rejection sampling over SIMD lanes: pixels whose trial fails are compacted and tried again together.
 #pragma once
 
 #include <insonify/filter/detail/noise_pass.hpp>
@@ -9,13 +9,13 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Pixels of a run, by their place in it.
+/// Indices of some pixels of a run.
 struct pixel_list {
     int count = 0;
     std::uint16_t places[run_length + 8];
 };
 
-/// Adds a place to those of a list without a jump, because what comes next is anyone's guess.
+/// Appends a place to a list if wanted, without a branch: the outcome is random.
 INSONIFY_INLINE void add_if(bool wanted, int place, std::uint16_t* places, int& count) {
     places[count] = static_cast<std::uint16_t>(place);
     count += wanted ? 1 : 0;
@@ -23,8 +23,8 @@ INSONIFY_INLINE void add_if(bool wanted, int place, std::uint16_t* places, int& 
 
 /// Draws a number for each pixel of a list.
 ///
-/// `method.template attempt<N>(result, words, parameter, trial)` makes one trial of N pixels and returns which of them
-/// it settled; `words` are those of block `method.block(trial)` of each pixel.
+/// `method.template attempt<N>(result, settled, words, parameter, trial)` makes one trial for N pixels and sets the
+/// lanes of `settled` whose result is final; `words` are those of block `method.block(trial)` of each pixel.
 template <class Method>
 struct rejection_kernel {
     Method method;
@@ -44,7 +44,7 @@ struct rejection_kernel {
         for (std::uint32_t trial = 0; count > 0; ++trial) {
             int left = 0;
             for (int first = 0; first < count; first += N) {
-                // Lanes behind the last pixel do it again.
+                // Lanes past the last pixel repeat it.
                 int place[static_cast<unsigned>(N)];
                 for (int k = 0; k < N; ++k) place[k] = places[first + k < count ? first + k : count - 1];
                 words block[4];

@@ -1,4 +1,4 @@
-// One pass over an image: row by row, in runs that fit the nearest cache, shared out by an executor.
+// Runs one pass over an image: row by row, in runs that fit the first-level cache, rows shared out by an executor.
 #pragma once
 
 #include <insonify/core/executor.hpp>
@@ -12,14 +12,15 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Column and row that filters take the first pixel of an image for.
+/// Column and row of an image's first pixel, for filters that depend on the place: parts of an image that are filtered
+/// one by one pass theirs.
 struct pixel_origin {
     int x = 0, y = 0;
 };
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Neighbours in a row, at most run_length of them; `to` may be `from`.
+/// Applies a pass to at most run_length adjacent pixels of a row; `to` may be `from`.
 template <class Pass, class From, class To>
 INSONIFY_INLINE void call_row(Pass& pass, const From* from, To* to, int count, int x, int y) {
     if constexpr (row_function<Pass, From>) {
@@ -29,26 +30,22 @@ INSONIFY_INLINE void call_row(Pass& pass, const From* from, To* to, int count, i
     }
 }
 
-/// Whoever wants to know where the image lies and how large it is before its pixels come is told.
+/// Passes that need the image's origin and size implement `prepare(area)`; it runs before the first pixel.
 template <class Pass>
-void place_pass(Pass& pass, const pixel_area& area) {
-    if constexpr (requires { pass.place(area); }) pass.place(area);
+void prepare_pass(Pass& pass, const pixel_area& area) {
+    if constexpr (requires { pass.prepare(area); }) pass.prepare(area);
 }
 
-/// What is done with a run's pass behind its last row: nothing.
-inline constexpr auto forget_pass = [](const auto&) {};
-
-/// Rows in runs of some 64 Ki pixels, in any order, each with a copy of the pass; `to` may be `from`.
-/// @param done  called with each of the copies, by any of the executor's threads
-template <class From, class To, class Pass, executor E, class Done = decltype(forget_pass)>
-void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin,
-           const Done& done = forget_pass) {
-    Pass placed = pass;
-    place_pass(placed, {origin.x, origin.y, from.width(), from.height()});
+/// Applies a pass to an image, in bands of some 64 Ki pixels in any order, each with its own copy of the pass; `to` may
+/// be `from`.
+template <class From, class To, class Pass, executor E>
+void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin) {
+    Pass prepared = pass;
+    prepare_pass(prepared, {origin.x, origin.y, from.width(), from.height()});
     const int rows = 65536 / (std::max)(from.width(), 1) + 1;
     bulk_ranges(ex, static_cast<std::size_t>(from.height()), static_cast<std::size_t>(rows),
                 [&](std::size_t first, std::size_t last) {
-                    Pass own = placed;
+                    Pass own = prepared;
                     for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
                         const From* const source = from.row(y).data();
                         To* const target = to.row(y).data();
@@ -57,7 +54,6 @@ void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& 
                             call_row(own, source + x, target + x, count, origin.x + x, origin.y + y);
                         }
                     }
-                    done(own);
                 });
 }
 
