@@ -85,7 +85,7 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
         const auto a = result.row(y), b = truth.row(y);
         for (std::size_t x = 0; x < b.size(); ++x) {
             if (a[x] == b[x]) continue;  // equal infinities too
-            const double difference = numeric::magnitude(static_cast<double>(a[x]) - static_cast<double>(b[x]));
+            const double difference = numeric::abs(static_cast<double>(a[x]) - static_cast<double>(b[x]));
             row_sum += difference * difference;
             if (!(difference <= out.largest) && out.largest == out.largest) out.largest = difference;  // keeps a NaN
         }

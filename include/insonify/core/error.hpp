@@ -1,7 +1,6 @@
-// The two errors that leave the library, and the one way they do.
+// The library's two exceptions, and the functions that throw them.
 //
-// Bad data that comes by the million (a NaN vertex, a degenerate triangle) is never an error: it is skipped and
-// counted.
+// Bad elements of large data (a NaN vertex, a degenerate triangle) are not errors: they are skipped and counted.
 #pragma once
 
 #include <insonify/config.hpp>

@@ -1,4 +1,5 @@
-// Who runs the loops. An executor is an argument, serial by default; the library starts no thread of its own.
+// Executors run the library's parallel loops. An executor is an argument, serial by default; the library starts no
+// threads.
 #pragma once
 
 #include <insonify/core/detail/block_pool.hpp>
@@ -27,7 +28,7 @@ struct serial_executor {
     }
 };
 
-/// Lets a temporary stand for the default: `Executor&& ex = serial_executor{}`.
+/// Accepts temporaries, as in the default argument `Executor&& ex = serial_executor{}`.
 template <class E>
 concept executor_argument = executor<std::remove_reference_t<E>>;
 
@@ -42,8 +43,8 @@ shared_pool memory_of(const E& ex) {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// Any executor by reference, an executor itself: what takes one is compiled once for all of them, at the price of one
-/// indirect call per run. The executor has to outlive it.
+/// Type-erased reference to an executor: functions that take it are compiled once, at the cost of one indirect call per
+/// index. The executor has to outlive it.
 class executor_ref {
   public:
     template <executor E>

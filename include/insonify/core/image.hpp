@@ -1,4 +1,4 @@
-// Pixels that own their memory.
+// Owning images, and the RGB pixel type.
 #pragma once
 
 #include <insonify/core/detail/uninitialized.hpp>
@@ -52,7 +52,7 @@ class image {
         }
     }
 
-    /// A packed copy of what a view shows.
+    /// A packed copy of a view.
     INSONIFY_TAGGED explicit image(image_view<const T> source)
         : image(source.width(), source.height(), detail::uninitialized{}) {
         for (int y = 0; y < height_; ++y) {

@@ -1,4 +1,4 @@
-// A window onto pixels that live somewhere else: pointer, size and row stride. Every algorithm takes these.
+// Non-owning views of pixels: pointer, size and row stride. Every algorithm takes these.
 #pragma once
 
 #include <insonify/core/error.hpp>

@@ -1,5 +1,5 @@
-// The products of vectors and matrices, written out: GLM's may be compiled with fused multiply-add, which rounds
-// differently, and then a picture would depend on the user's flags. Storage, sums and scalings stay GLM's.
+// Products of vectors and matrices with fixed rounding. GLM's may be compiled with fused multiply-add, which would make
+// pictures depend on compiler flags. Storage, sums and scalings are GLM's.
 #pragma once
 
 #include <insonify/config.hpp>

@@ -1,7 +1,7 @@
-// Mathematics that gives the same bits on every machine, and the `deg` literal.
+// Elementary functions with the same bits on every machine, and the `deg` literal.
 //
-// The C library's log, sin and exp differ between versions and even between processors of one version, so whatever
-// reaches a pixel is computed here: + - * / and the correctly rounded square root alone, in a fixed order.
+// log, sin and exp of C libraries differ between versions and between processors, so values that reach a pixel are
+// computed here, from + - * / and the correctly rounded square root in a fixed order.
 #pragma once
 
 #include <insonify/core/detail/portable.hpp>
@@ -60,9 +60,9 @@ constexpr bool is_finite(double value) {
     return (numeric::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
 
-/// A number without its sign.
+/// Absolute value.
 template <class T>
-constexpr T magnitude(T value) {
+constexpr T abs(T value) {
     return value < 0 ? -value : value;
 }
 

@@ -1,4 +1,4 @@
-// From [0, 1] to codes of 8 or 16 bits and back: the one rounding rule of filters and files.
+// Quantization of [0, 1] to codes of 8 or 16 bits and back, by the one rounding rule of filters and files.
 #pragma once
 
 #include <insonify/core/simd/dispatch.hpp>

@@ -1,6 +1,6 @@
-// Random numbers without state: a number is a pure function of (seed, stream, counter).
+// Counter-based random numbers: a number is a pure function of (seed, stream, counter).
 //
-// Noise that is counted by pixel or world cell doesn't depend on tiling, cropping, threads or the order of frames.
+// Noise counted by pixel or world cell does not depend on tiling, cropping, threads or the order of frames.
 //
 // Based on: John K. Salmon, Mark A. Moraes, Ron O. Dror, David E. Shaw. Parallel Random Numbers: As Easy as 1, 2, 3.
 // SC11, 2011 (Philox4x32-10; checked against the known answers of Random123).

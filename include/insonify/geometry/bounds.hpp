@@ -55,7 +55,7 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The least and the largest coordinates of positions, if all of them are finite.
+/// The smallest box around positions, if all of them are finite.
 struct bounds_kernel {
     const glm::vec3* positions;
     std::size_t count;

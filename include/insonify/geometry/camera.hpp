@@ -1,4 +1,4 @@
-// A camera for `draw`: where it stands, what it looks at, and the perspective of its picture.
+// A camera for `draw`: position, target, and perspective projection.
 //
 // Its clip space is the library's: visible is -w <= x <= w, -w <= y <= w with y up, and 0 <= z <= w. Depth is reversed,
 // z / w = z_near / distance, so that precision does not fall off far away (draw with keep_depth::larger).
@@ -24,7 +24,7 @@ struct camera {
     glm::dvec3 up{0, 0, 1};                                     ///< appears upwards; not along the line of sight
     float field_of_view = static_cast<float>(numeric::pi / 3);  ///< from the picture's bottom to its top, radians
     float aspect = 1;                                           ///< width of the picture / its height
-    float z_near = 0.01f;                                       ///< metres; what is nearer is clipped
+    float z_near = 0.01f;                                       ///< metres; nearer surfaces are clipped
 };
 
 inline namespace INSONIFY_FLAGS {

@@ -1,4 +1,4 @@
-// Shading normals for meshes that come without.
+// Shading normals for meshes without normals.
 //
 // Based on: Grit Thuermer, Charles A. Wuethrich. Computing Vertex Normals from Polygonal Facets. Journal of Graphics
 // Tools 3(1), 1998.

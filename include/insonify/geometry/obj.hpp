@@ -208,7 +208,7 @@ class obj_reader {
             out.triangles.emplace_back(vertex[i], vertex[i + 1], vertex[i + 2]);
         }
 
-        // Compute what the file left out.
+        // Compute missing normals.
         if (!complete) {
             const std::vector<glm::vec3> smooth = smooth_normals(out);
             for (std::size_t i = 0; i < smooth.size(); ++i) {

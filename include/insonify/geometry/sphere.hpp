@@ -23,7 +23,7 @@ struct sphere {
     int segments = 64;  ///< around z, 3 to 8192; half as many rings from pole to pole
 };
 
-/// The upper half of a sphere, standing on the plane z = 0 with a flat base: what a half-buried one shows.
+/// The upper half of a sphere on the plane z = 0, with a flat base: the visible part of a half-buried sphere.
 struct hemisphere {
     float radius = 0.5f;  ///< metres
     glm::vec3 aspect{1};

@@ -19,7 +19,7 @@ inline namespace INSONIFY_ABI {
 
 /// What a mesh is to a shadow policy.
 enum class surface_kind {
-    open,         ///< nothing is known
+    open,         ///< neither was proven
     closed,       ///< each edge is run along as often one way as the other: a ray that comes from outside and ends
                   ///< outside crosses as many triangles from behind as from the front, whatever the surface intersects
     heightfield,  ///< z over a convex part of the xy plane, all triangles counter-clockwise from above

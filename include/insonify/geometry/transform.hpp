@@ -1,4 +1,4 @@
-// Where a mesh stands in the world: poses for people, affine maps for the machine. Double precision throughout.
+// Placement of meshes in the world: poses for users, affine maps for computation. Double precision throughout.
 //
 // A world position may be 10^7 m from the origin (UTM), where a float steps by 1 m. Compose the maps first, from object
 // to camera, and round to float last.

@@ -1,4 +1,4 @@
-// Whole files: read at once, and written so that a reader finds the old file or the new one, never half of one.
+// Whole-file reads and atomic writes: a reader finds the old file or the new one, never a part.
 #pragma once
 
 #include <insonify/core/error.hpp>

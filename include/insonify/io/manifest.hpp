@@ -1,4 +1,4 @@
-// Tables of what is in which image: comma-separated values as of RFC 4180, written all or nothing.
+// CSV tables by RFC 4180, such as the contents of a data set's images, written atomically.
 //
 // Based on: Yakov Shafranovich. Common Format and MIME Type for Comma-Separated Values (CSV) Files. RFC 4180, 2005.
 #pragma once

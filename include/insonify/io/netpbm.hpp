@@ -1,4 +1,4 @@
-// PGM, PPM and PFM: images as plain files, read whatever they claim to be and written all or nothing.
+// Reading and writing PGM, PPM and PFM images. Malformed files are refused; writes are atomic.
 //
 //     pixel                     written as            read from
 //     std::uint8_t              P5, maxval 255        P2, P5 up to maxval 255: the samples as they are

@@ -54,24 +54,24 @@ void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit)
 
 inline namespace INSONIFY_FLAGS {
 
-/// The surface of a heightfield as a mesh of the triangles that it takes, given what it may be off by: at no point of a
-/// triangle is the drawn surface (`height_at`) farther above or below it than `allowed` at the triangle's corners; nor
-/// are the slopes at any vertex below it, and the vertices below it are all of one type. Where nothing may be left out
-/// the triangles are those of `tessellate`; a plane takes two, and some more beside an edge whose length isn't a power
-/// of two cells. Finding them takes several times as long as `tessellate` does.
+/// Adaptive mesh of a heightfield: at no point of a triangle is the full surface (`height_at`) farther above or below
+/// than `allowed` at the triangle's corners; the slopes at the vertices that a triangle replaces stay within `allowed`,
+/// too, and these vertices are of one type. At a tolerance of 0 on rough ground the triangles are those of
+/// `tessellate`; a plane takes two, and some more beside an edge whose length is not a power of two cells. Takes
+/// several times as long as `tessellate`.
 ///
 /// No two triangles that share a longest side could be replaced by the one that they are halves of.
 /// @param first  as for `tessellate`
-/// @throws invalid_input as `tessellate`, and for a negative or NaN leeway or a nadir that is not finite
+/// @throws invalid_input as `tessellate`, and for a negative or NaN tolerance or a nadir that is not finite
 template <executor_argument Executor = serial_executor>
-adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Executor&& ex = serial_executor{},
+adaptive_mesh tessellate(const heightfield& field, const tolerance& allowed, Executor&& ex = serial_executor{},
                          glm::ivec2 first = {0, 0}) {
     validate(field);
-    detail::require(allowed.height >= 0, "leeway.height", allowed.height, "metres, at least 0");
-    detail::require(allowed.slope >= 0, "leeway.slope", allowed.slope, "a slope, at least 0");
-    detail::require(allowed.lean >= 0, "leeway.lean", allowed.lean, "square metres, at least 0");
-    insonify::detail::require_finite("leeway.nadir.x", allowed.nadir.x);
-    insonify::detail::require_finite("leeway.nadir.y", allowed.nadir.y);
+    detail::require(allowed.height >= 0, "tolerance.height", allowed.height, "metres, at least 0");
+    detail::require(allowed.slope >= 0, "tolerance.slope", allowed.slope, "a slope, at least 0");
+    detail::require(allowed.lean >= 0, "tolerance.lean", allowed.lean, "square metres, at least 0");
+    insonify::detail::require_finite("tolerance.nadir.x", allowed.nadir.x);
+    insonify::detail::require_finite("tolerance.nadir.y", allowed.nadir.y);
     const image<float>& heights = field.heights;
     detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(), "below 2^32");
     const detail::needed_vertices needed(field, allowed, ex);

@@ -1,7 +1,7 @@
-// Any seabed, by value: the library's models and users' own alike.
+// Type-erased seabed: holds any model, the library's or a user's.
 //
-// The model is stored once, immutable and shared by copies; calls go through a virtual function once per row, never per
-// point. No list of types is kept anywhere: what a program does not use, it does not compile.
+// The model is immutable and shared by copies. There is one virtual call per row, none per point, and no list of types:
+// models that a program does not use are not compiled.
 #pragma once
 
 #include <insonify/seabed/model.hpp>

@@ -1,4 +1,4 @@
-// Where a type of bottom lies: random patches, shapes, pictures; each as a signed distance to its border.
+// Areas of the seabed as signed distances to their border: random patches, shapes, and images.
 #pragma once
 
 #include <insonify/core/image.hpp>

@@ -1,4 +1,4 @@
-// Two seabeds side by side: patches of one in the other, with natural borders, and the type at every point.
+// Blends of two seabeds: patches of one in the other, with natural borders and a label at every point.
 #pragma once
 
 #include <insonify/seabed/cover.hpp>

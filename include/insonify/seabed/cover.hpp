@@ -1,4 +1,4 @@
-// One bottom laid over another, with a natural border: what stands high is buried last.
+// Composites one seabed over another with a natural border: high ground is buried last.
 //
 // Across a border the layer rises from beneath: its crests come out first, as narrow tips, while its troughs are still
 // filled; further in, the highest of what lies below looks out of it last. Types follow the surface that is on top.
@@ -34,7 +34,7 @@ class border {
         const float rise = layer - below;
         if (t <= 0) return {below, false};
         if (t >= 1) return {layer, true};
-        // Relief beyond what was foreseen fades.
+        // Relief beyond the expected range fades.
         if (t < 0.5f) {
             const float over = rise - relief_ * (1 - 2 * t);
             return {over > 0 ? below + over * clamp01(4 * t) : below, over > 0};

@@ -1,5 +1,5 @@
-// A coarse survey with relief finer than its grid, as multibeam maps of a metre's spacing need under a sonar that
-// resolves centimetres.
+// Adds relief finer than the grid to a coarse survey: multibeam maps of a metre's spacing lack what a sonar of
+// centimetres resolves.
 #pragma once
 
 #include <insonify/seabed/detail/noise.hpp>

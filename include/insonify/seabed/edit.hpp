@@ -1,4 +1,4 @@
-// What hands, plows and currents do to a seabed, an edit at a time: see sculpt.hpp for how they are applied.
+// Edits of a seabed, by hand, plow or current; sculpt.hpp applies them.
 #pragma once
 
 #include <insonify/seabed/area.hpp>
@@ -46,7 +46,7 @@ struct stamp {
     float every = 0;               ///< metres along the path from mark to mark; 0: without end
 };
 
-/// What a current digs around a target: a moat, deepest on the side it comes from, and two tails of what it dug.
+/// Scour by a current around a target: a moat, deepest upstream, and two tails of deposited sediment.
 struct scour {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 0.5f;  ///< metres, > 0: of the target
@@ -56,7 +56,7 @@ struct scour {
     float tail = 2;       ///< metres, >= 0
 };
 
-/// Sediment heaped up to a level: what half buries a target. Ground that is higher stays.
+/// Sediment heaped up to a level, to half bury a target. Higher ground stays.
 struct heap {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 0.5f;  ///< metres, >= 0: of its level top
@@ -79,8 +79,8 @@ constexpr float plateau(float r) {
     return fade(clamp01(4 - 4 * r));
 }
 
-/// From one height to another, all the way at a weight of 1.
-constexpr float pulled(float height, float to, float weight) {
+/// Linear interpolation; the target height at a weight of 1.
+constexpr float lerp(float height, float to, float weight) {
     return height * (1 - weight) + to * weight;
 }
 
@@ -88,7 +88,7 @@ inline float length(double x, double y) {
     return static_cast<float>(numeric::square_root(x * x + y * y));
 }
 
-/// A box that holds all that an edit changes.
+/// A box around everything that an edit changes.
 struct box {
     glm::dvec2 low, high;
 };
@@ -174,25 +174,25 @@ inline box box_of(const moat& e) {
     return box_around(e.outline, moat_reach(e));
 }
 
-/// What an edit makes of a height at a position.
-inline float worked(const raise& e, const glm::dvec2& p, float height) {
+/// The height at a position after an edit.
+inline float height_after(const raise& e, const glm::dvec2& p, float height) {
     return height + e.height * brush(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius);
 }
-inline float worked(const flatten& e, const glm::dvec2& p, float height) {
-    return pulled(height, e.level, plateau(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius));
+inline float height_after(const flatten& e, const glm::dvec2& p, float height) {
+    return lerp(height, e.level, plateau(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius));
 }
-inline float worked(const ramp& e, const glm::dvec2& p, float height) {
+inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
     const glm::dvec2 way = e.to - e.from, off = p - e.from;
     const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
     const double t = (way.x * off.x + way.y * off.y) / square;
     const double side = (way.x * off.y - way.y * off.x) / span;
     // Beyond its ends the ramp is level, and fades as at its sides.
     const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
-    const float weight = plateau(static_cast<float>(2 * numeric::magnitude(side)) / e.width) *
+    const float weight = plateau(static_cast<float>(2 * numeric::abs(side)) / e.width) *
                          fade(clamp01(1 - 4 * static_cast<float>(past) / e.width));
-    return pulled(height, mix(e.from_height, e.to_height, clamp01(static_cast<float>(t))), weight);
+    return lerp(height, mix(e.from_height, e.to_height, clamp01(static_cast<float>(t))), weight);
 }
-inline float worked(const stamp& e, const glm::dvec2& p, float height) {
+inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
     if (e.every <= 0) return height + e.height * brush(static_cast<float>(distance_to_path(p, e.path)) / e.radius);
     // The mark next to the nearest place on each leg of the path, counted along it.
     const double every = static_cast<double>(e.every);
@@ -212,7 +212,7 @@ inline float worked(const stamp& e, const glm::dvec2& p, float height) {
     }
     return height + e.height * brush(static_cast<float>(numeric::square_root(nearest)) / e.radius);
 }
-inline float worked(const scour& e, const glm::dvec2& p, float height) {
+inline float height_after(const scour& e, const glm::dvec2& p, float height) {
     const auto flow = numeric::sin_cos(static_cast<double>(e.current));
     const glm::dvec2 off = p - e.centre;
     const auto along = static_cast<float>(off.x * flow.cosine + off.y * flow.sine);
@@ -222,48 +222,48 @@ inline float worked(const scour& e, const glm::dvec2& p, float height) {
     const float lee = r > 0 ? 0.75f - 0.25f * along / r : 1.0f;
     const float moat = -e.depth * lee * brush(beyond > 0 ? beyond : 0.0f);
     if (e.tail <= 0 || along <= 0) return height + moat;
-    const float way = clamp01(along / (e.radius + e.width + e.tail)), side = numeric::magnitude(across);
+    const float way = clamp01(along / (e.radius + e.width + e.tail)), side = numeric::abs(across);
     const float tail = 0.4f * e.depth * 4 * way * (1 - way) * brush((side - e.radius) / e.width);
     return height + moat + tail;
 }
-inline float worked(const moat& e, const glm::dvec2& p, float height) {
+inline float height_after(const moat& e, const glm::dvec2& p, float height) {
     return height + static_cast<float>(moat_change(e, p));
 }
-inline float worked(const heap& e, const glm::dvec2& p, float height) {
+inline float height_after(const heap& e, const glm::dvec2& p, float height) {
     const float beyond = length(p.x - e.centre.x, p.y - e.centre.y) - e.radius;
     return (std::max)(height, e.level - e.slope * (std::max)(beyond, 0.0f));
 }
 
-/// What an edit makes of heights in a range, wherever it works.
+/// The range of heights after an edit, for heights in a given range before it.
 inline height_range added(const height_range& ground, double least, double most) {
     return {ground.lowest + (std::min)(1.00001 * least, 0.0), ground.highest + (std::max)(1.00001 * most, 0.0)};
 }
-inline height_range pulled(const height_range& ground, double to) {
+inline height_range including(const height_range& ground, double to) {
     return merge(ground, {to, to});
 }
-inline height_range worked_range(const raise& e, const height_range& ground) {
+inline height_range range_after(const raise& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
 }
-inline height_range worked_range(const flatten& e, const height_range& ground) {
-    return pulled(ground, static_cast<double>(e.level));
+inline height_range range_after(const flatten& e, const height_range& ground) {
+    return including(ground, static_cast<double>(e.level));
 }
-/// A mean of what is there.
-inline height_range worked_range(const smooth&, const height_range& ground) {
+/// Means stay within the range.
+inline height_range range_after(const smooth&, const height_range& ground) {
     return ground;
 }
-inline height_range worked_range(const ramp& e, const height_range& ground) {
-    return pulled(pulled(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height));
+inline height_range range_after(const ramp& e, const height_range& ground) {
+    return including(including(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height));
 }
-inline height_range worked_range(const stamp& e, const height_range& ground) {
+inline height_range range_after(const stamp& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
 }
-inline height_range worked_range(const scour& e, const height_range& ground) {
+inline height_range range_after(const scour& e, const height_range& ground) {
     return added(ground, -static_cast<double>(e.depth), 0.4 * static_cast<double>(e.depth));
 }
-inline height_range worked_range(const moat& e, const height_range& ground) {
+inline height_range range_after(const moat& e, const height_range& ground) {
     return added(ground, -static_cast<double>(e.depth), static_cast<double>(e.mound));
 }
-inline height_range worked_range(const heap& e, const height_range& ground) {
+inline height_range range_after(const heap& e, const height_range& ground) {
     return {ground.lowest, (std::max)(ground.highest, static_cast<double>(e.level))};
 }
 
@@ -272,7 +272,7 @@ inline height_range worked_range(const heap& e, const height_range& ground) {
 inline std::array<float, 16> smooth_shares(float fraction) {
     std::array<float, 16> shares;
     for (std::size_t n = 0; n < 16; ++n) {
-        const float t = numeric::magnitude(0.25f * (fraction + 7 - static_cast<float>(n)));
+        const float t = numeric::abs(0.25f * (fraction + 7 - static_cast<float>(n)));
         const float s = 2 - t;
         shares[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
     }
@@ -301,7 +301,7 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
         const auto across = smooth_shares(u.fraction);
         float even = 0;
         for (std::size_t n = 0; n < 16; ++n) even += across[n] * from[n];
-        heights[i] = pulled(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));
+        heights[i] = lerp(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));
     }
 }
 

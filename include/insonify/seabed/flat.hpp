@@ -1,4 +1,4 @@
-// Flat sand: nothing but the roughness that the sea left.
+// Flat sand with power-law roughness.
 #pragma once
 
 #include <insonify/seabed/detail/noise.hpp>

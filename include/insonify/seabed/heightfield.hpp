@@ -1,4 +1,4 @@
-// A grid of sampled or measured heights: the form in which a seabed is stored, drawn, and rested upon.
+// Heightfields: regular grids of sampled or measured heights, with labels, and placement of objects on them.
 #pragma once
 
 #include <insonify/core/image.hpp>

@@ -1,4 +1,4 @@
-// A seabed of layers: bottoms laid over a base, each within its own area, with the label at every point.
+// Layered seabeds: models composited over a base, each within its area, with a label at every point.
 #pragma once
 
 #include <insonify/seabed/cover.hpp>

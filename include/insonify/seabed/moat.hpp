@@ -1,4 +1,4 @@
-// Scour around what has lain long: a moat along its outline, and down-current a mound of what was dug.
+// Scour around an object that has lain for long: a moat along its outline and a mound of sediment down-current.
 //
 // Sources: Richard J. S. Whitehouse. Scour at Marine Structures: A Manual for Practical Applications, 1998 (scour is
 // deepest up-current, and half of that in the lee). G. F. Caston. Wreck marks: indicators of net sand transport. Marine

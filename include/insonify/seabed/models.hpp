@@ -1,4 +1,4 @@
-// Every seabed of the library.
+// Includes every seabed model of the library.
 #pragma once
 
 #include <insonify/seabed/blend.hpp>

@@ -1,4 +1,4 @@
-// Mud: gentle relief with the mounds and pock marks of what lives and seeps in it, and the tracks of trawls.
+// Mud: gentle relief with mounds by burrowing animals, pock marks of seeps, and trawl tracks.
 #pragma once
 
 #include <insonify/seabed/detail/noise.hpp>

@@ -1,4 +1,4 @@
-// Sand ripples: one system of crests, or two that cross, and what lies on them.
+// Sand ripples: one system of crests or two that cross, with fine roughness.
 #pragma once
 
 #include <insonify/seabed/detail/noise.hpp>
@@ -25,7 +25,7 @@ struct ripples {
     float bandwidth = 0.09f;                             ///< in [0, 0.25]: of the wave number, relative
     float sharpness = 0.25f;                             ///< in [0, 0.9]: of the crests, 0 for a sinusoid
     ripple_system second{.steepness = 0};                ///< other waves' ripples, added; none if they have no height
-    roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< what lies on the ripples, beyond their height
+    roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< fine relief on the ripples, beyond their height
     std::uint64_t seed = 1;
     type kind = type::ripples;
 

@@ -1,4 +1,4 @@
-// From model to heightfield: evaluates a seabed at the vertices of a grid, a row per task.
+// Samples a seabed model at the vertices of a grid, a row per task.
 #pragma once
 
 #include <insonify/core/executor.hpp>

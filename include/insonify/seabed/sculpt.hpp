@@ -1,4 +1,4 @@
-// A seabed edited by hand: raised, lowered, flattened, smoothed, ramped, stamped, scoured, heaped up; in order.
+// Sculpted seabeds: a base and a sequence of edits that raise, lower, flatten, smooth, ramp, stamp, scour or heap.
 //
 // An edit is a function of the position and of the height after the edits before it, so that a sculpted seabed stays
 // unbounded and independent of the grid. Outside an edit's bounds no bit changes.
@@ -50,7 +50,7 @@ class sculpt_sampler {
     height_range range() const {
         height_range all = ground_.range();
         for (const bounded_edit& e : edits_)
-            all = std::visit([&](const auto& held) { return detail::worked_range(held, all); }, e.done);
+            all = std::visit([&](const auto& held) { return detail::range_after(held, all); }, e.done);
         return all;
     }
 
@@ -85,7 +85,7 @@ class sculpt_sampler {
                     });
                 } else {
                     for (std::size_t i = 0; i < part.size(); ++i)
-                        part[i] = detail::worked(e, {there.x(i), there.y}, part[i]);
+                        part[i] = detail::height_after(e, {there.x(i), there.y}, part[i]);
                 }
             },
             done);

@@ -63,7 +63,7 @@ inline sediment sediment_of_phi(float phi) {
     detail::require(numeric::is_finite(phi), "phi", phi, "a finite grain size");
     const sediment_facts* best = sediments;
     for (const sediment_facts& s : sediments)
-        if (numeric::magnitude(s.phi - phi) < numeric::magnitude(best->phi - phi)) best = &s;
+        if (numeric::abs(s.phi - phi) < numeric::abs(best->phi - phi)) best = &s;
     return static_cast<sediment>(best->label);
 }
 

@@ -1,4 +1,4 @@
-// From heightfield to triangles.
+// Tessellates heightfields into triangle meshes.
 #pragma once
 
 #include <insonify/core/executor.hpp>

@@ -1,7 +1,7 @@
 // Labels of the sea floor and their properties: name, brightness and speckle.
 //
-// A label is one byte. The library's own are the rows of registry.hpp; those from `own_type(0)` on are free for users'
-// seabeds, which bring the properties of their labels along (see model.hpp).
+// A label is one byte. The library's labels are the rows of registry.hpp; `own_type(0)` and above are free for users'
+// seabeds, which state the properties of their labels (see model.hpp).
 #pragma once
 
 #include <insonify/core/error.hpp>
@@ -15,21 +15,21 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// How an intensity fluctuates around its mean. As it is: Rayleigh amplitudes, exponential intensities. The
-/// scintillation index, variance / mean^2 of the intensity, is
+/// Statistics of an intensity. By default Rayleigh amplitudes, exponential intensities. The scintillation index,
+/// variance / mean^2 of the intensity, is
 /// (1 + 1 / texture) (1 + (1 + 2 steady) / (looks (1 + steady)^2)) - 1.
 struct speckle_law {
     int looks = 1;  ///< independent intensities that are averaged: 1 to 64
     float texture =
         0;  ///< shape of the gamma-distributed mean of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: none
-    float steady = 0;  ///< power of a steady echo among the others, over theirs: Rician amplitudes
+    float steady = 0;  ///< power of a steady echo over that of the diffuse ones: Rician amplitudes
     friend bool operator==(const speckle_law&, const speckle_law&) = default;
 };
 
 namespace seabed {
 
-/// What the bottom is made of, as a label: four types of relief, the twelve of `sediment` (see sediment.hpp), and
-/// users' own from 16 on.
+/// Label of the bottom: four types of relief, the twelve of `sediment` (see sediment.hpp), and user-defined ones from
+/// 16 on.
 enum class type : std::uint8_t {
     sand,
     ripples,

@@ -99,7 +99,7 @@ class speckle_field {
         for (int i = 0; i < count; ++i) {
             const auto to = field.row(i);
             for (int j = -reach; j <= reach; ++j) {
-                const float tap = along_[static_cast<std::size_t>(numeric::magnitude(j))];
+                const float tap = along_[static_cast<std::size_t>(numeric::abs(j))];
                 const float* const from = blurred.row(i + reach + j).data();
                 for (std::size_t x = 0; x < to.size(); ++x) to[x] += tap * from[x];
             }

@@ -30,7 +30,7 @@ struct counting_kernel {
         constexpr int N = Width > 1 ? Width / 2 : 1;
         using words = lanes<std::uint64_t, N>;
         words step;
-        count_up<std::uint64_t, N>(step);
+        iota<std::uint64_t, N>(step);
         for (std::size_t first = 0; first < count; first += N) {
             words word[4] = {step + std::uint64_t{first}, words{} + std::uint64_t{0xFFFFFFFFu}, words{},
                              words{} + std::uint64_t{7}};

@@ -1,4 +1,4 @@
-// Meshes of as few triangles as a leeway allows: within it everywhere, without a crack, and with none to spare.
+// Meshes of as few triangles as a tolerance allows: within it everywhere, without a crack, and with none to spare.
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/topology.hpp>
@@ -103,7 +103,7 @@ TEST_CASE("A plane takes two triangles where the field is a square of a power of
                 field.heights(i, j) = 0.125f * static_cast<float>(i) - 0.25f * static_cast<float>(j);
     };
     tilt(tilted);
-    const auto two = sb::tessellate(tilted, sb::leeway{});
+    const auto two = sb::tessellate(tilted, sb::tolerance{});
     CHECK(two.shape.triangles.size() == 2);
     CHECK(two.shape.positions.size() == 4);
     CHECK(farthest_off(tilted, two.shape) < 1e-6);
@@ -111,7 +111,7 @@ TEST_CASE("A plane takes two triangles where the field is a square of a power of
         CAPTURE(width, height);
         sb::heightfield other = field_of(sb::none{}, width, height);
         tilt(other);
-        const auto few = sb::tessellate(other, sb::leeway{});
+        const auto few = sb::tessellate(other, sb::tolerance{});
         CHECK(cracks(other, few.shape) == 0);
         CHECK(area_of(few.shape) == Approx(other.spacing * other.spacing * (width - 1) * (height - 1)));
         CHECK(few.shape.triangles.size() <= 2u * static_cast<unsigned>(width - 1) * static_cast<unsigned>(height - 1));
@@ -119,7 +119,7 @@ TEST_CASE("A plane takes two triangles where the field is a square of a power of
     }
 }
 
-TEST_CASE("No point of the mesh is farther off than the leeway, and no crack opens, on any seabed") {
+TEST_CASE("No point of the mesh is farther off than the tolerance, and no crack opens, on any seabed") {
     for (const sb::any& seabed : seabeds)
         for (const auto& [width, height] : {std::pair{65, 65}, {50, 71}})
             for (const double allowed : {0.0, 0.0005, 0.004, 0.03}) {
@@ -139,7 +139,7 @@ TEST_CASE("No point of the mesh is farther off than the leeway, and no crack ope
 TEST_CASE("Where nothing may be left out, the triangles are those of the whole grid") {
     const sb::heightfield field = field_of(sb::rock{}, 40, 57);
     const in::mesh whole = sb::tessellate(field);
-    const auto same = sb::tessellate(field, sb::leeway{});
+    const auto same = sb::tessellate(field, sb::tolerance{});
     CHECK((shapes(same.shape) == shapes(whole)));
     CHECK((same.shape.normals == whole.normals));
 }
@@ -225,7 +225,7 @@ TEST_CASE("Below the camera more may be left out than at the picture's edge, as 
     CHECK(inner * 3 < outer * 0.8);  // the outer ring has three times the area
 }
 
-TEST_CASE("Slopes stay within their leeway at every vertex, and types keep their borders") {
+TEST_CASE("Slopes stay within their tolerance at every vertex, and types keep their borders") {
     const sb::heightfield field = field_of(sb::blend{.patch = 1.5f, .border = 0.3f}, 97, 97);
     REQUIRE(!field.types.empty());
     const double slope = 0.05;
@@ -271,7 +271,7 @@ TEST_CASE("Missing heights are left out as they are by the whole grid") {
     CHECK(sb::tessellate(field_of(sb::none{}, 33, 20), {.height = 1}).shape.triangles.empty());
 }
 
-TEST_CASE("The mesh is the same for any executor, and a leeway below zero is refused") {
+TEST_CASE("The mesh is the same for any executor, and a tolerance below zero is refused") {
     const sb::heightfield field = field_of(sb::rock{}, 200, 150);
     in::thread_pool pool(3);
     const auto serial = sb::tessellate(field, {.height = 0.01, .slope = 0.3}),

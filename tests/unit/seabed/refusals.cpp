@@ -129,9 +129,10 @@ TEST_CASE("Each field of a heightfield and of what samples and draws one is refu
         "heightfield.", field, used,
         {FIELD(origin.x, outside(-1e9, 1e9)), FIELD(origin.y, outside(-1e9, 1e9)), FIELD(spacing, outside(0, most))});
     CHECK_THAT(refusal([&] { used({.heights = in::image<float>(1, 3)}); }), ContainsSubstring("heights.width()"));
-    walk<sb::leeway>("leeway.", {}, [&](const sb::leeway& allowed) { (void)sb::tessellate(field, allowed); },
-                     {FIELD(height, {nan_value, -infinity, -1}), FIELD(slope, {nan_value, -infinity, -1}),
-                      FIELD(lean, {nan_value, -infinity, -1}), FIELD(nadir.x, not_finite), FIELD(nadir.y, not_finite)});
+    walk<sb::tolerance>(
+        "tolerance.", {}, [&](const sb::tolerance& allowed) { (void)sb::tessellate(field, allowed); },
+        {FIELD(height, {nan_value, -infinity, -1}), FIELD(slope, {nan_value, -infinity, -1}),
+         FIELD(lean, {nan_value, -infinity, -1}), FIELD(nadir.x, not_finite), FIELD(nadir.y, not_finite)});
     for (const double value : not_above_0)
         CHECK_THAT(refusal([&] { (void)sb::grid_over({0, 0}, {1, 1}, value); }), ContainsSubstring("spacing"));
     for (const double value : not_finite) CHECK(refusal([&] { (void)sb::grid_over({0, value}, {1, 1}, 0.5); }) != "");

@@ -1,5 +1,5 @@
-// Numbers of twice a double's precision, as the unevaluated sum of two: for the few pixels whose depth a double can't
-// round with certainty. Relative error of each operation below 2^-100.
+// Double-double arithmetic: the unevaluated sum of two doubles, for the few pixels whose depth a double cannot round
+// with certainty. Relative error of each operation below 2^-100.
 //
 // This work is based on:
 // T. J. Dekker. A Floating-Point Technique for Extending the Available Precision. 1971

@@ -1,5 +1,4 @@
-// Images of one value, made by all threads: filling a large one takes as long as drawing a small picture, most of it
-// to get hold of the memory.
+// Images filled with one value in parallel, since filling a large image takes as long as drawing a small picture.
 #pragma once
 
 #include <insonify/core/detail/portable.hpp>
@@ -22,7 +21,7 @@ image<T> filled(int width, int height, T value, E& ex) {
     bulk_ranges(ex, static_cast<std::size_t>(height), rows, [&](std::size_t first, std::size_t last) {
         T* const start = result.row(static_cast<int>(first)).data();
         const std::size_t count = (last - first) * static_cast<std::size_t>(width);
-        // Most values are the same byte over and over, which the system writes fastest.
+        // memset is the fastest fill for values of equal bytes.
         const auto bytes = numeric::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
         if (std::count(bytes.begin(), bytes.end(), bytes[0]) == std::ssize(bytes))
             std::memset(start, bytes[0], count * sizeof(T));

@@ -1,4 +1,4 @@
-// Gamma-distributed numbers: what averages of looks and textures of the seabed are.
+// Gamma-distributed random numbers, for averages of looks and for textures of the seabed.
 //
 // Based on: George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM Transactions on
 // Mathematical Software 26, 2000.

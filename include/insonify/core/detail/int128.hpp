@@ -1,5 +1,5 @@
-// Integers of 128 bits, as far as exact geometry far from the picture needs them: products of two 64-bit numbers, their
-// sums, and what can be asked of those. Two's complement in two halves, so that every compiler has them.
+// 128-bit integers for exact geometry: products of two 64-bit numbers, sums, comparisons. Two's complement in two
+// halves, portable to every compiler.
 #pragma once
 
 #include <insonify/config.hpp>

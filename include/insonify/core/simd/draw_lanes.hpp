@@ -1,4 +1,4 @@
-// Draws as floats, 16 or 32 at a time: what fills an image with noise.
+// Random floats, 16 or 32 at a time, for image noise.
 //
 // The law is that of the draws in random.hpp to a float's rounding: a normal draw is off by less than 6e-7 of what
 // exact arithmetic makes of its two words, and no probability by more than 6e-8. Same bits at every N.
@@ -73,7 +73,7 @@ INSONIFY_INLINE void symmetric_lanes(lanes<float, N>& into, const lanes<std::uin
     into = into * 0x1p-31f;
 }
 
-/// Uniform in (0, 1]: 31 bits, of which 24 are kept; what is close to 0 is as fine as what isn't.
+/// Uniform in (0, 1]: 31 bits, rounded to 24.
 template <int N>
 INSONIFY_INLINE void unit_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
     signed_float<N>(into, word >> 1);

@@ -1,8 +1,8 @@
-// Several values that go through one instruction: GNU vector types, or a plain value where N is 1.
+// SIMD values: lanes<T, N> is a GNU vector of N values, or a plain value where N is 1.
 //
-// Kernels write `mask ? a : b` and + - * < & on these and read the same for one lane and for eight. Lanes stay local:
-// they cross function boundaries by reference or inside always-inlined code only, because a 32-byte vector by value
-// means something else to a caller compiled without AVX.
+// Kernels use `mask ? a : b` and + - * < & and read the same for one lane and for eight. Lanes cross function
+// boundaries by reference or in always-inlined code only: passing a 32-byte vector by value has another ABI without
+// AVX.
 #pragma once
 
 #include <insonify/config.hpp>
@@ -35,7 +35,7 @@ struct lanes_of<T, 1> {
 template <class T, int N>
 using lanes = typename lanes_of<T, N>::type;
 
-/// Something that will be read soon.
+/// Prefetches the cache line of an address.
 INSONIFY_INLINE void prefetch(const void* address) {
 #if defined(__GNUC__)
     __builtin_prefetch(address);
@@ -53,20 +53,20 @@ INSONIFY_INLINE void store(T* into, const Lanes& from) {
     std::memcpy(into, &from, sizeof from);
 }
 
-/// One value for every lane: where it is read as a whole vector, it takes no instruction to spread it.
+/// One value in every lane, stored as a whole vector: loading it takes no broadcast instruction.
 template <class T>
-struct spread {
+struct broadcast {
     alignas(64) T values[16];
-    spread(T value = {}) {
+    broadcast(T value = {}) {
         for (T& v : values) v = value;
     }
 };
 template <class T, class Lanes>
-INSONIFY_INLINE void load(Lanes& into, const spread<T>& from) {
+INSONIFY_INLINE void load(Lanes& into, const broadcast<T>& from) {
     std::memcpy(&into, from.values, sizeof into);
 }
 
-/// Each lane as a cast would make it.
+/// Converts each lane as static_cast does.
 template <class To, class From>
 INSONIFY_INLINE void convert(To& into, const From& from) {
 #if INSONIFY_SIMD
@@ -104,7 +104,7 @@ INSONIFY_INLINE bool any(const Mask& mask) {
 
 /// Bit k is set where lane k of a mask is; for 1, 4, 8 or 16 lanes of 32 bits.
 template <int N>
-INSONIFY_INLINE unsigned set_lanes(const lanes<std::int32_t, N>& mask) {
+INSONIFY_INLINE unsigned movemask(const lanes<std::int32_t, N>& mask) {
 #if INSONIFY_SIMD && defined(__SSE2__)
     if constexpr (N == 4) {
         return static_cast<unsigned>(__builtin_ia32_movmskps(lanes<float, 4>(mask)));
@@ -112,7 +112,7 @@ INSONIFY_INLINE unsigned set_lanes(const lanes<std::int32_t, N>& mask) {
         return [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
             const lanes<std::int32_t, N / 2> low = __builtin_shufflevector(mask, mask, I...),
                                              high = __builtin_shufflevector(mask, mask, N / 2 + I...);
-            return set_lanes<N / 2>(low) | set_lanes<N / 2>(high) << N / 2;
+            return movemask<N / 2>(low) | movemask<N / 2>(high) << N / 2;
         }
         (std::make_integer_sequence<int, N / 2>{});
     } else
@@ -126,7 +126,7 @@ INSONIFY_INLINE unsigned set_lanes(const lanes<std::int32_t, N>& mask) {
     }
 }
 
-/// One lane, to look at and to change.
+/// Reads or replaces one lane.
 template <class Lanes>
 INSONIFY_INLINE auto lane(const Lanes& lanes, int i) {
     if constexpr (std::is_arithmetic_v<Lanes>)
@@ -152,7 +152,7 @@ INSONIFY_INLINE void gather(Lanes& into, const From& from) {
 }
 
 #if INSONIFY_SIMD
-/// What `work(half, from)` makes of the lower half of N lanes and of the upper one.
+/// Applies `work(half, from)` to the lower and the upper half of N lanes.
 template <int N, class Lanes, class Work>
 INSONIFY_INLINE void in_halves(Lanes& into, const Lanes& of, const Work& work) {
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
@@ -178,8 +178,8 @@ INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& o
         gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
 }
 
-/// body(0), body(1), ... body(Count - 1), written out, which g++ doesn't do at -O2: what a body keeps in an array may
-/// then live in registers, and what hangs on the count alone is a constant.
+/// Calls body(0), body(1), ... body(Count - 1), unrolled, which g++ does not do at -O2: arrays indexed by the count
+/// then live in registers.
 template <int Count, class Body>
 INSONIFY_INLINE void unroll(const Body& body) {
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
@@ -188,7 +188,7 @@ INSONIFY_INLINE void unroll(const Body& body) {
     (std::make_integer_sequence<int, Count>{});
 }
 
-/// Two neighbouring 32-bit values at N places: lane k of `first` and `second` is what from(k) points to.
+/// Gathers pairs of adjacent 32-bit values: lane k of `first` and of `second` are the two values at from(k).
 template <int N, class Lanes, class From>
 INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
 #if INSONIFY_SIMD
@@ -218,7 +218,7 @@ INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from)
 }
 
 #if INSONIFY_SIMD
-/// Lane i is lane `from(i)` of two vectors side by side.
+/// Lane i is lane `from(i)` of the concatenation of two vectors.
 template <int N, class From, class Into, class Lanes>
 INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second, const From&) {
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
@@ -227,7 +227,7 @@ INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second
     (std::make_integer_sequence<int, N>{});
 }
 
-/// Four values from each of N / 4 places.
+/// Loads four values from each of N / 4 addresses.
 template <int N, class From>
 INSONIFY_INLINE void load_fours(lanes<float, N>& into, const From& from) {
     if constexpr (N == 4) {
@@ -258,7 +258,7 @@ INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N
 #endif
 
 #if INSONIFY_SIMD
-/// Four rows of three floats, one after another, as three columns.
+/// Transposes four consecutive rows of three floats.
 INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* rows) {
     lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
     load(a, rows), load(b, rows + 4), load(c, rows + 8);
@@ -270,7 +270,7 @@ INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* r
 }
 #endif
 
-/// Lane k of both, side by side: gather_pairs the other way.
+/// Stores lane k of both vectors side by side: the inverse of gather_pairs.
 template <int N>
 INSONIFY_INLINE void store_pairs(float* into, const lanes<float, N>& first, const lanes<float, N>& second) {
 #if INSONIFY_SIMD
@@ -288,12 +288,12 @@ INSONIFY_INLINE void store_pairs(float* into, const lanes<float, N>& first, cons
     }
 }
 
-/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 1, 4, 8 or 16.
+/// Transposes N rows of four floats: lane k of into[i] is rows(k)[i]; N is 1, 4, 8 or 16.
 template <int N, class Rows>
 INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
 #if INSONIFY_SIMD
     if constexpr (N > 1) {
-        // Four lanes of many lie side by side with the other fours and go the same way.
+        // Groups of four lanes are transposed independently.
         lanes<float, N> row[4];
         unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
         transpose_fours<N>(into, row);
@@ -304,7 +304,7 @@ INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
 
 /// 0, 1, ... N - 1.
 template <class T, int N>
-INSONIFY_INLINE void count_up(lanes<T, N>& into) {
+INSONIFY_INLINE void iota(lanes<T, N>& into) {
     T values[static_cast<unsigned>(N)];
     for (int i = 0; i < N; ++i) values[i] = static_cast<T>(i);
     load(into, values);

@@ -1,4 +1,4 @@
-// The numbers of random.hpp, several at a time and to the same bits: blocks of Philox, uniform and normal draws.
+// SIMD versions of random.hpp to the same bits: Philox blocks, uniform and normal draws.
 #pragma once
 
 #include <insonify/core/numeric.hpp>

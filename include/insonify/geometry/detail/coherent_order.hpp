@@ -1,4 +1,4 @@
-// Triangles in an order in which neighbours follow one another, so that what draws them finds its memory warm.
+// Orders triangles along a space-filling curve, so that consecutive triangles share vertices in cache.
 //
 // Based on: Guy M. Morton. A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing. IBM, 1966.
 #pragma once
@@ -17,7 +17,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Whether most triangles share no vertex with the one before, as those of shuffled meshes and of triangle soups don't.
+/// Whether most triangles share no vertex with the one before, as in shuffled meshes and triangle soups.
 inline bool is_incoherent(const mesh& m) {
     std::size_t jumps = 0;
     for (std::size_t i = 1; i < m.triangles.size(); ++i) {

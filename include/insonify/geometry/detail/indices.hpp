@@ -1,4 +1,4 @@
-// Whether a mesh's triangles refer to positions that are there.
+// Checks that a mesh's triangles index existing positions.
 #pragma once
 
 #include <insonify/core/executor.hpp>

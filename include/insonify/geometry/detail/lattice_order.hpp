@@ -1,5 +1,5 @@
-// Heightfields over a regular lattice whose vertices or triangles come in another order, as after a mesh optimizer:
-// found by where the vertices lie, and put in the order of the lattice.
+// Restores the lattice order of heightfields whose vertices or triangles were reordered, for example by a mesh
+// optimizer. They are recognized by the positions of their vertices.
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -38,7 +38,7 @@ class triangle_lattice {
         l.origin_ = corner[right_angle];
         l.right_ = corner[(right_angle + 1) % 3] - l.origin_;
         l.up_ = corner[(right_angle + 2) % 3] - l.origin_;
-        if (numeric::magnitude(l.up_.x) > numeric::magnitude(l.right_.x)) std::swap(l.right_, l.up_);
+        if (numeric::abs(l.up_.x) > numeric::abs(l.right_.x)) std::swap(l.right_, l.up_);
         if (l.right_.x < 0) l.right_ = -l.right_;
         if (l.up_.y < 0) l.up_ = -l.up_;
         const double area = l.right_.x * l.up_.y - l.right_.y * l.up_.x;
@@ -55,9 +55,9 @@ class triangle_lattice {
         constexpr double farthest = 1 << 24;
         glm::ivec2 whole;
         for (int axis = 0; axis < 2; ++axis) {
-            if (!(numeric::magnitude(at[axis]) < farthest)) return std::nullopt;
+            if (!(numeric::abs(at[axis]) < farthest)) return std::nullopt;
             whole[axis] = static_cast<int>(numeric::floor_to_int(at[axis] + 0.5));
-            if (numeric::magnitude(at[axis] - whole[axis]) > 0.25) return std::nullopt;
+            if (numeric::abs(at[axis] - whole[axis]) > 0.25) return std::nullopt;
         }
         return whole;
     }

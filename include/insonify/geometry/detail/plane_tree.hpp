@@ -1,4 +1,4 @@
-// Finds the triangles of a mesh that a plane may cut, without looking at the others.
+// Bounding-volume tree that finds the triangles of a mesh that a plane may cut.
 //
 // Boxes around runs of eight triangles, boxes around eight of those, and so on: an implicit tree over the triangles in
 // their own order, which shared_mesh keeps coherent. Building it is one pass, and triangles are visited in order.
@@ -63,12 +63,12 @@ class plane_tree {
             }
         }
         bool meets(const glm::dvec3& normal, double offset) const {
-            double lowest = offset, highest = offset, size = numeric::magnitude(offset);
+            double lowest = offset, highest = offset, size = numeric::abs(offset);
             for (int i = 0; i < 3; ++i) {
                 const double a = normal[i] * static_cast<double>(low[i]), b = normal[i] * static_cast<double>(high[i]);
                 lowest += (std::min)(a, b);
                 highest += (std::max)(a, b);
-                size += (std::max)(numeric::magnitude(a), numeric::magnitude(b));
+                size += (std::max)(numeric::abs(a), numeric::abs(b));
             }
             const double rounding = 1e-12 * size;
             return lowest <= rounding && highest >= -rounding;  // false for an empty box

@@ -1,4 +1,4 @@
-// Polygons into triangles: a fan where the polygon is convex, ear clipping where it is not.
+// Triangulates polygons: convex ones as a fan, others by ear clipping.
 //
 // Based on: Joseph O'Rourke. Computational Geometry in C, 2nd edition, 1998, section 1.6 (clipping an ear changes
 // whether its two neighbours are ears, and no other: quadratic in all).

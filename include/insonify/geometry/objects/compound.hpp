@@ -1,4 +1,4 @@
-// Several meshes as one target, each with a reflectivity of its own.
+// Compound targets: several meshes, each with its own reflectivity.
 #pragma once
 
 #include <insonify/geometry/objects/detail/solids.hpp>

@@ -275,7 +275,7 @@ struct assembly_kernel {
         t.centers(picture, pixels);
         ints disjoint;
         pixels.is_disjoint(picture.pixels, disjoint);
-        const unsigned outside = set_lanes<N>(disjoint);
+        const unsigned outside = movemask<N>(disjoint);
         if (outside == all) return true;
         if (!t.are_small()) return false;
         ints area, empty, culled = ints{};
@@ -289,8 +289,8 @@ struct assembly_kernel {
         const int size = tiles.log2_size;  // see tile_range::pack
         const ints first_tile = ints((pixels.x0 >> size) | (pixels.y0 >> size << 16)),
                    last_tile = ints(((pixels.x1 - 1) >> size) | ((pixels.y1 - 1) >> size << 16));
-        const unsigned degenerate = set_lanes<N>(ints(area == 0)) & ~outside, turned = set_lanes<N>(culled) & ~outside,
-                       drawn = all & ~(set_lanes<N>(empty) | degenerate | turned);
+        const unsigned degenerate = movemask<N>(ints(area == 0)) & ~outside, turned = movemask<N>(culled) & ~outside,
+                       drawn = all & ~(movemask<N>(empty) | degenerate | turned);
         out.stats.degenerate += static_cast<unsigned>(std::popcount(degenerate));
         out.stats.culled += static_cast<unsigned>(std::popcount(turned));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));

@@ -79,7 +79,7 @@ class run_reader {
     template <int N>
     INSONIFY_INLINE int take_small(std::uint32_t (&ids)[static_cast<unsigned>(2 * N)]) {
         lanes<std::uint32_t, N> number;
-        count_up<std::uint32_t, N>(number);
+        iota<std::uint32_t, N>(number);
         int count = 0;
         while (count < N && !runs_.empty() && runs_.front().is_small) {
             const triangle_run& run = runs_.front();

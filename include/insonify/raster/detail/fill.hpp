@@ -27,8 +27,8 @@ INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<HasIds>& tile, st
     using masks = lanes<std::int32_t, N>;
     ints column;
     doubles column_x;
-    count_up<Int, N>(column);
-    count_up<double, N>(column_x);
+    iota<Int, N>(column);
+    iota<double, N>(column_x);
     const floats lowest = floats{} + t.depth.lowest, highest = floats{} + t.depth.highest;
     const doubles error = doubles{} + t.depth.error;
     const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + id;
@@ -117,7 +117,7 @@ struct small_fill {
         load(first, t.y0);
         load(end, t.y1);
         height = end - first;
-        count_up<std::int32_t, N>(number);
+        iota<std::int32_t, N>(number);
         width = number < count ? width : ints{};
     }
 
@@ -251,7 +251,7 @@ struct small_fill {
     template <class RoundedDepth>
     INSONIFY_INLINE void fill_columns(int k, int first, const RoundedDepth& rounded_depth) const {
         ints at;
-        count_up<std::int32_t, N>(at);
+        iota<std::int32_t, N>(at);
         at = at + first;
         ints bc = t.bc.origin[k] + at * t.bc.dx[k];
         ints ca = t.ca.origin[k] + at * t.ca.dx[k];

@@ -137,8 +137,8 @@ struct edge_function {
     /// Whether E fits 32 bits everywhere in a rectangle of that size.
     bool is_narrow(int width, int height) const {
         constexpr std::int64_t limit = std::int64_t{1} << 31;
-        return numeric::magnitude(dx) < limit && numeric::magnitude(dy) < limit && -limit < origin && origin < limit &&
-               numeric::magnitude(origin) + numeric::magnitude(dx) * width + numeric::magnitude(dy) * height < limit;
+        return numeric::abs(dx) < limit && numeric::abs(dy) < limit && -limit < origin && origin < limit &&
+               numeric::abs(origin) + numeric::abs(dx) * width + numeric::abs(dy) * height < limit;
     }
 
     /// An equivalent function for a rectangle of that size. Where E has the same sign at all pixels, it is replaced by
@@ -182,7 +182,7 @@ struct depth_plane {
         // Each product of a gradient has a relative error of 2^-53, multiplied by the box's width or height.
         const auto span = [](double u, double v) { return (std::max)({u, v, 0.0}) - (std::min)({u, v, 0.0}); };
         const double swing = 4 * (highest - lowest) * span(bx, cx) * span(by, cy);
-        const double largest = (std::max)(numeric::magnitude(lowest), numeric::magnitude(highest)) * area;
+        const double largest = (std::max)(numeric::abs(lowest), numeric::abs(highest)) * area;
         plane.error = 0x1p-49 * (swing + largest) / area;
         return plane;
     }

@@ -108,7 +108,7 @@ struct row_centers {
     positions down;   ///< y
 
     INSONIFY_INLINE row_centers(const pixel_grid& grid, int row) : y(row), subpixel_bits(grid.subpixel_bits) {
-        count_up<std::uint32_t, N>(first);
+        iota<std::uint32_t, N>(first);
         first = (first << subpixel_bits) + static_cast<std::uint32_t>(grid.half());
         down = positions{} + static_cast<std::uint32_t>(grid.center(row));
     }
@@ -151,7 +151,7 @@ struct lane_shading_kernel {
         using ints = lanes<std::int32_t, N>;
         const row_centers<N> row(screen.grid(), y);
         ints column;
-        count_up<std::int32_t, N>(column);
+        iota<std::int32_t, N>(column);
         int count = 0;
         for (int x = x0; x < (std::min)(pixels.x1, x0 + part); x += N) {
             const std::uint32_t* const ids = tile.id_at(x, y);

@@ -1,4 +1,4 @@
-// Angular blocks strewn over the plane: what broken rock is made of.
+// Angular blocks scattered over the plane, for broken rock.
 //
 // Each cell of a lattice may hold one flat-topped, tilted, eight-sided block with steep walls; the surface is the
 // highest of the blocks that reach a point. Where blocks are many they meet in Voronoi-like edges, where they are few
@@ -70,7 +70,7 @@ class block_layer {
             using ints = lanes<std::int32_t, N>;
             using floats = lanes<float, N>;
             words number, first, second;
-            insonify::detail::count_up<std::uint32_t, N>(number);
+            insonify::detail::iota<std::uint32_t, N>(number);
             hash.mixed(first, words(number + column));
             second = (first ^ (first >> 15)) * 0x2C1B3C6Du;
             second = (second ^ (second >> 12)) * 0x297A2D39u;

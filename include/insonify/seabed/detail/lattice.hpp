@@ -1,4 +1,4 @@
-// The world's lattices: where positions lie on them, and random bits for their cells.
+// World-fixed lattices: cell coordinates of positions, and random bits by cell.
 //
 // Random draws are keyed by lattice cell, so that a place looks the same in any grid, tile or order of evaluation.
 // Cells are found in double; what goes to float is the way across a cell alone, so precision is that of home at 10^7 m
@@ -124,7 +124,7 @@ struct lattice_coordinate {
         : cell(numeric::floor_to_int(cells)), fraction(static_cast<float>(cells - static_cast<double>(cell))) {}
 };
 
-/// The part of a row that is worked on at a time: its positions, and the last of them again to fill whole vectors.
+/// The part of a row that is processed at a time: its positions, and the last of them again to fill whole vectors.
 struct stretch {
     static constexpr std::size_t padded = chunk;  // which is a multiple of every lane count
 

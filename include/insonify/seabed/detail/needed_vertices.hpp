@@ -1,4 +1,4 @@
-// Which vertices of a heightfield a mesh needs, given how far off it may be.
+// Selects the vertices of a heightfield that a mesh needs for a given tolerance.
 //
 // The hierarchy halves right triangles at the middle of their longest side. A middle is a vertex of the grid, and the
 // two triangles on its sides are halved together or not at all: so no vertex ever lies on another triangle's side, and
@@ -18,14 +18,14 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// How far a mesh may be from its heightfield.
-struct leeway {
+/// Largest deviations of a mesh from its heightfield.
+struct tolerance {
     double height = 0;  ///< metres, anywhere, >= 0
     /// Of the rises per metre along x and y that normals are made of, >= 0.
     double slope = (std::numeric_limits<double>::infinity)();
-    /// Square metres: at a distance r from `nadir`, heights may be off by no more than lean / r. A camera above it
-    /// shows what is off by h as displaced by h r / altitude, so lean = altitude x the displacement on the ground it
-    /// forgives.
+    /// Square metres: at a distance r from `nadir`, heights may be off by at most lean / r. A camera above `nadir`
+    /// shows a height error h as a displacement of h r / altitude, so lean = altitude x the tolerated displacement on
+    /// the ground.
     double lean = (std::numeric_limits<double>::infinity)();
     glm::dvec2 nadir{0.0, 0.0};  ///< below the camera, metres from the heightfield's vertex (0, 0)
 };
@@ -38,7 +38,7 @@ namespace detail::inline INSONIFY_FLAGS {
 class needed_vertices {
   public:
     template <executor E>
-    needed_vertices(const heightfield& field, const leeway& allowed, E& ex)
+    needed_vertices(const heightfield& field, const tolerance& allowed, E& ex)
         : field_(field),
           allowed_(allowed),
           columns_(field.heights.width() - 1),
@@ -245,7 +245,7 @@ class needed_vertices {
             const float* const row = values_.row(y).data();
             const float start = at_ + dy_ * static_cast<float>(y - from_.y);
             floats across;
-            count_up<float, N>(across);
+            iota<float, N>(across);
             int x = first;
             for (; x + N <= last + 1; x += N) {
                 floats value;
@@ -295,7 +295,7 @@ class needed_vertices {
     }
 
     const heightfield& field_;
-    leeway allowed_;
+    tolerance allowed_;
     int columns_, rows_, size_ = 1;
     image<std::uint8_t> needed_;
     image<float> slope_x_, slope_y_;  // rises per cell, or empty where slopes may be anything

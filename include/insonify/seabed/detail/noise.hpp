@@ -129,7 +129,7 @@ class gradient_noise {
         template <int N>
         INSONIFY_INLINE void tabulate(side* sides, std::uint32_t first, int last) const {
             words<N> column;
-            insonify::detail::count_up<std::uint32_t, N>(column);
+            insonify::detail::iota<std::uint32_t, N>(column);
             column = column + first;
             for (int i = 0; i <= last; i += N) {
                 lanes<float, N> height, slope;

@@ -1,7 +1,7 @@
 // Normals of a heightfield, by finite differences of its vertices.
 //
-// Central differences are what a mesh of the field needs: they see the relief that is drawn, and nothing finer,
-// whatever the recipe was. Of a wave of n vertices to the length they give sin(2 pi / n) / (2 pi / n) of the slope:
+// Central differences match the mesh of the field: they see the relief that is drawn and nothing finer, whatever the
+// model. Of a wave of n vertices to the length they give sin(2 pi / n) / (2 pi / n) of the slope:
 // 0.90 at 8, 0.97 at 16.
 #pragma once
 

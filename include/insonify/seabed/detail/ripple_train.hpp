@@ -1,4 +1,4 @@
-// One system of sand ripples: crests of one height that meander, end and fork, as waves over sand make them.
+// One system of sand ripples: crests of equal height that meander, end and fork, as wave-made ripples do.
 //
 // A Gaussian random field of ripples fades in and out, which real ones don't. Here the phase of such a field,
 // psi(x) = sum_n exp i(k_n . x + phi_n), drives a profile of constant amplitude: height = (eta / 2) cos arg psi. Crests
@@ -154,7 +154,7 @@ class ripple_train {
             wave_x_[n] = k * along.cosine - carrier_x_;
             wave_y_[n] = k * along.sine - carrier_y_;
             phase_[n] = draw.uniform();
-            largest = (std::max)(largest, numeric::magnitude(wave_x_[n]));
+            largest = (std::max)(largest, numeric::abs(wave_x_[n]));
         }
 
         // Space the lattice so that the fastest wave turns by a sixteenth per step: cubic interpolation then errs by

@@ -1,4 +1,4 @@
-// Furrows that trawl boards plough: long, nearly straight, in the few directions in which boats work.
+// Furrows of trawl boards: long, nearly straight, in a few directions.
 //
 // Boats of one direction go side by side in lanes that meander a little; a lane holds one furrow, which comes and goes
 // along it. The spoil lies in a low berm on either side.

@@ -33,7 +33,7 @@ class light_rays {
             for (int i = 0; i < 3; ++i) {
                 insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
                                           "finite coordinates");
-                light_reach_ = (std::max)(light_reach_, numeric::magnitude(source_[i]));
+                light_reach_ = (std::max)(light_reach_, numeric::abs(source_[i]));
             }
         }
     }
@@ -46,8 +46,7 @@ class light_rays {
                      const glm::dvec3& from) const {
         const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
         // The corners as the ray sees them, along the two axes that it follows less: one rounding for each corner.
-        const glm::dvec3 way{numeric::magnitude(to_light.x), numeric::magnitude(to_light.y),
-                             numeric::magnitude(to_light.z)};
+        const glm::dvec3 way{numeric::abs(to_light.x), numeric::abs(to_light.y), numeric::abs(to_light.z)};
         const int axis = way.x >= way.y ? (way.x >= way.z ? 0 : 2) : (way.y >= way.z ? 1 : 2);
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         const double shear_u = to_light[u] / to_light[axis], shear_v = to_light[v] / to_light[axis];
@@ -63,9 +62,7 @@ class light_rays {
         if (!is_left && !is_right) return false;
         const glm::dvec3 normal = numeric::cross(b - a, c - a);
         // From the corner that is nearest: another may lie so far off that its distance rounds away the point's.
-        const auto size = [](const glm::dvec3& d) {
-            return numeric::magnitude(d.x) + numeric::magnitude(d.y) + numeric::magnitude(d.z);
-        };
+        const auto size = [](const glm::dvec3& d) { return numeric::abs(d.x) + numeric::abs(d.y) + numeric::abs(d.z); };
         const glm::dvec3& some = size(a) <= size(b) ? a : b;
         const double along = numeric::dot(normal, to_light),
                      behind = numeric::dot(normal, size(some) <= size(c) ? some : c);

@@ -53,7 +53,7 @@ struct lit_grid {
         const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
         double travel_x = cross(glm::dvec2(travel), y) / cross(x, y),
                travel_y = cross(x, glm::dvec2(travel)) / cross(x, y);
-        if (numeric::magnitude(travel_y) > numeric::magnitude(travel_x)) {
+        if (numeric::abs(travel_y) > numeric::abs(travel_x)) {
             std::swap(columns, rows);
             std::swap(along, across);
             std::swap(x, y);
@@ -250,8 +250,7 @@ class horizon_bounds {
         : grid_(lattice, travel), heights_(m, grid_, ex), off_(off) {
         const auto greatest = static_cast<double>(heights_.greatest), least = static_cast<double>(heights_.least);
         const double relief = grid_.drop * (greatest - least);
-        const double size =
-            grid_.columns + grid_.drop * (std::max)(numeric::magnitude(greatest), numeric::magnitude(least));
+        const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
         margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;

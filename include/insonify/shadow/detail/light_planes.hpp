@@ -52,7 +52,7 @@ class light_plane {
     /// Number of the plane of a point light over which a point lies.
     static int side_of(const point_light& light, const glm::dvec3& p) {
         const glm::dvec3 d = p - light.position;
-        const glm::dvec3 size{numeric::magnitude(d.x), numeric::magnitude(d.y), numeric::magnitude(d.z)};
+        const glm::dvec3 size{numeric::abs(d.x), numeric::abs(d.y), numeric::abs(d.z)};
         const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
         return 2 * axis + (d[axis] < 0 ? 1 : 0);
     }

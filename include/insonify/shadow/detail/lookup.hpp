@@ -55,7 +55,7 @@ class map_receiver {
   public:
     map_receiver(const height_map& map, const receiver_plane& r)
         : map_(map), at_(map.on_map(r.uvz)), slope_u_(map.on_map(r.slope_u)), slope_v_(map.on_map(r.slope_v)) {
-        bias_ = 1e-6f + numeric::magnitude(slope_u_) + numeric::magnitude(slope_v_);  // heights are rounded to 1e-7
+        bias_ = 1e-6f + numeric::abs(slope_u_) + numeric::abs(slope_v_);  // heights are rounded to 1e-7
     }
 
     /// Whether no texel within `radius` of the nearest one is on the map: nothing can be in the way.

@@ -171,7 +171,7 @@ struct tile_assembly_kernel {
             convert(to[axis], l);
         });
         outside = (outside & ints(t.state == 0.0f)) | ints(t.state == plane_vertex::not_finite) | t.is_behind;
-        const unsigned drawn = ~set_lanes<N>(outside) & ((2u << (count - 1)) - 1);
+        const unsigned drawn = ~movemask<N>(outside) & ((2u << (count - 1)) - 1);
         if (drawn == 0) return;
         const ints first_tile = from[0] | from[1] << 16, last_tile = to[0] | to[1] << 16;
         const auto id = static_cast<std::uint32_t>(start);

@@ -94,9 +94,9 @@ struct occlusion_kernel {
         const ints facing = ints((is_turned ? 0.0f - area : area) > area_off) & ints(t.state == 0.0f);
         const bool skips_own = may_skip == skip::facing_its_own;
         if (may_skip == skip::facing || (skips_own && !receivers.has_others(number))) missed |= facing;
-        const unsigned open = ~set_lanes<N>(missed) & ((2u << (count - 1)) - 1);
+        const unsigned open = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
         if (open == 0) return;
-        const unsigned for_others = skips_own ? set_lanes<N>(facing) : 0;
+        const unsigned for_others = skips_own ? movemask<N>(facing) : 0;
         // Counter-clockwise on the plane.
         const ints turned = ints(area < 0.0f);
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
@@ -149,7 +149,7 @@ struct occlusion_kernel {
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
         ints column;
-        count_up<std::int32_t, N>(column);
+        iota<std::int32_t, N>(column);
         const float *const us = receivers.u.data(), *const vs = receivers.v.data(),
                            *const heights = receivers.height.data();
         std::int32_t* const casters = receivers.caster.data();
@@ -180,7 +180,7 @@ struct occlusion_kernel {
             const ints certain =
                 asked & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) & ints(above < 0.0f - doubt);
             store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
-            for (unsigned left = set_lanes<N>(ints(asked & ~certain)); left != 0; left &= left - 1) {
+            for (unsigned left = movemask<N>(ints(asked & ~certain)); left != 0; left &= left - 1) {
                 const std::size_t at = i + static_cast<std::size_t>(std::countr_zero(left));
                 if (decide(id, at)) casters[at] = static_cast<std::int32_t>(number);
             }

@@ -39,7 +39,7 @@ inline void validate(const ping& p) {
     detail::require_finite("ping.position.y", p.position.y);
     detail::require_finite("ping.position.z", p.position.z);
     detail::require_finite("ping.yaw", p.yaw);
-    detail::require(numeric::magnitude(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
+    detail::require(numeric::abs(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
                     "at most 80 degrees, in radians");
     detail::require_finite("ping.roll", p.roll);
 }

@@ -1,4 +1,4 @@
-// What stands on a ship's decks and what falls off them: deckhouse, funnel, masts, boilers, debris.
+// Fittings of a ship: deckhouse, funnel, masts, boilers, and the debris they leave.
 #pragma once
 
 #include <insonify/geometry/objects/detail/hull_structure.hpp>

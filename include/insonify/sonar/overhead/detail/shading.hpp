@@ -192,7 +192,7 @@ class surface_shader {
         if (!is_near_) return;
         floats altitude, step, column, height, square = floats{}, length;
         load(altitude, altitude_), load(step, ray_step_);
-        count_up<float, N>(column);
+        iota<float, N>(column);
         f.interpolate(height, 3);
         const floats down = altitude - height;
         const floats position[3] = {(column + (static_cast<float>(f.x) + left_)) * step * down,
@@ -218,10 +218,10 @@ class surface_shader {
     shaded_images into_;
     Law law_;
     bool is_near_;
-    float left_, top_;        ///< from the picture's middle to the first pixel's centre, in pixels
-    spread<float> ray_step_;  ///< see overhead_geometry::ray_step
-    spread<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
-    spread<float> to_light_[3];                           ///< unit vector, or the position of a near light
+    float left_, top_;           ///< from the picture's middle to the first pixel's centre, in pixels
+    broadcast<float> ray_step_;  ///< see overhead_geometry::ray_step
+    broadcast<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
+    broadcast<float> to_light_[3];                           ///< unit vector, or the position of a near light
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

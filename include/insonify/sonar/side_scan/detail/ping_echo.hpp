@@ -345,7 +345,7 @@ class ping_tracer {
         const double outwards = counts_time ? dx * ray.sine + ddown * ray.cosine : dx;
         const double turning = dx * ray.cosine - ddown * ray.sine;
         const double half = 0.5 * range * ray.width * outwards / (turning * bin_);
-        return static_cast<float>(numeric::magnitude(half));
+        return static_cast<float>(numeric::abs(half));
     }
 
     /// Power that a surface of reflectivity 1 returns from a ray: the ray's cross-section over the sine of the grazing

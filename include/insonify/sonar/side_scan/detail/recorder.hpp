@@ -181,7 +181,7 @@ class recorder {
             const auto weight = [&](int j) {
                 return j * spacing() <= beam.reach(slant) ? beam.pattern(j * spacing(), slant) : 0.0;
             };
-            for (int j = -reach; j <= reach; ++j) sum += weight(numeric::magnitude(j));
+            for (int j = -reach; j <= reach; ++j) sum += weight(numeric::abs(j));
             for (int j = 0; j <= reach; ++j) weights(b, j) = static_cast<float>(weight(j) / sum);
         }
         image<float> blurred(bins, rows);
@@ -190,7 +190,7 @@ class recorder {
             const auto to = blurred.row(y);
             for (int j = -reach; j <= reach; ++j) {
                 const int other = (std::min)((std::max)(y + j, 0), rows - 1);
-                const float* const weight = weights.row(numeric::magnitude(j)).data();
+                const float* const weight = weights.row(numeric::abs(j)).data();
                 const float* const from = out_.image.row(other).data();
                 for (std::size_t b = 0; b < to.size(); ++b) to[b] += weight[b] * from[b];
             }
