@@ -106,8 +106,9 @@ struct poisson_counts {
         doubles log_height, deficit;
         log_lanes<N>(log_height, height * height * (k + 1.0));
         poisson_deficit<N>(deficit, k, mean);
-        settled = settled | (flags(count >= 0.0) & (flags(edge >= 0.013) | flags(v <= edge)) &
-                             flags(0.5 * log_height + deficit <= 0.0));
+        settled = settled | squeezed |
+                  (flags(count >= 0.0) & (flags(edge >= 0.013) | flags(v <= edge)) &
+                   flags(0.5 * log_height + deficit <= 0.0));
     }
 };
 

@@ -172,10 +172,10 @@ class horizon_triangles {
             met = met - margin;
             may_meet = may_meet + margin;
             floats row;
-            count_up<float, N>(row);
+            iota<float, N>(row);
             const auto dx = static_cast<float>(whole.eye_.x - x);
             const floats dy = static_cast<float>(whole.eye_.y - y) - row;
-            const floats error = 4 * margin * ((2 + numeric::magnitude(dx)) + (dy < 0.0f ? 0.0f - dy : dy));
+            const floats error = 4 * margin * ((2 + numeric::abs(dx)) + (dy < 0.0f ? 0.0f - dy : dy));
             const floats eye = static_cast<float>(whole.eye_u_) - error;
             const triangle_lanes<N> known_of{
                 met, may_meet, eye, dy, dx, static_cast<float>(grid.slope), static_cast<float>(whole.rise_)};
