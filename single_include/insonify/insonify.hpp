@@ -464,10 +464,9 @@ char* format_number(char* first, char* last, Number value) {
 }  // namespace insonify
 
 // ------------ insonify/core/error.hpp -------------------------------------------------------------------
-// The two errors that leave the library, and the one way they do.
+// The library's two exceptions, and the functions that throw them.
 //
-// Bad data that comes by the million (a NaN vertex, a degenerate triangle) is never an error: it is skipped and
-// counted.
+// Bad elements of large data (a NaN vertex, a degenerate triangle) are not errors: they are skipped and counted.
 
 #include <exception>
 #include <stdexcept>
@@ -530,7 +529,8 @@ void require(bool holds, std::string_view argument, Number value, std::string_vi
 }  // namespace insonify
 
 // ------------ insonify/core/executor.hpp ----------------------------------------------------------------
-// Who runs the loops. An executor is an argument, serial by default; the library starts no thread of its own.
+// Executors run the library's parallel loops. An executor is an argument, serial by default; the library starts no
+// threads.
 
 #include <concepts>
 
@@ -553,7 +553,7 @@ struct serial_executor {
     }
 };
 
-/// Lets a temporary stand for the default: `Executor&& ex = serial_executor{}`.
+/// Accepts temporaries, as in the default argument `Executor&& ex = serial_executor{}`.
 template <class E>
 concept executor_argument = executor<std::remove_reference_t<E>>;
 
@@ -568,8 +568,8 @@ shared_pool memory_of(const E& ex) {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// Any executor by reference, an executor itself: what takes one is compiled once for all of them, at the price of one
-/// indirect call per run. The executor has to outlive it.
+/// Type-erased reference to an executor: functions that take it are compiled once, at the cost of one indirect call per
+/// index. The executor has to outlive it.
 class executor_ref {
   public:
     template <executor E>
@@ -739,7 +739,7 @@ using uninitialized_vector = std::vector<T, uninitialized_allocator<T>>;
 }  // namespace insonify
 
 // ------------ insonify/core/image_view.hpp --------------------------------------------------------------
-// A window onto pixels that live somewhere else: pointer, size and row stride. Every algorithm takes these.
+// Non-owning views of pixels: pointer, size and row stride. Every algorithm takes these.
 
 #include <span>
 
@@ -812,7 +812,7 @@ class image_view {
 }  // namespace insonify
 
 // ------------ insonify/core/image.hpp -------------------------------------------------------------------
-// Pixels that own their memory.
+// Owning images, and the RGB pixel type.
 
 #include <cstdint>
 #include <initializer_list>
@@ -859,7 +859,7 @@ class image {
         }
     }
 
-    /// A packed copy of what a view shows.
+    /// A packed copy of a view.
     INSONIFY_TAGGED explicit image(image_view<const T> source)
         : image(source.width(), source.height(), detail::uninitialized{}) {
         for (int y = 0; y < height_; ++y) {
@@ -948,8 +948,8 @@ auto map_pixels(const image<T>& source, Fn&& fn) {
 }  // namespace insonify
 
 // ------------ insonify/core/linear.hpp ------------------------------------------------------------------
-// The products of vectors and matrices, written out: GLM's may be compiled with fused multiply-add, which rounds
-// differently, and then a picture would depend on the user's flags. Storage, sums and scalings stay GLM's.
+// Products of vectors and matrices with fixed rounding. GLM's may be compiled with fused multiply-add, which would make
+// pictures depend on compiler flags. Storage, sums and scalings are GLM's.
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -1016,10 +1016,10 @@ T determinant(const glm::mat<3, 3, T>& m) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/numeric.hpp -----------------------------------------------------------------
-// Mathematics that gives the same bits on every machine, and the `deg` literal.
+// Elementary functions with the same bits on every machine, and the `deg` literal.
 //
-// The C library's log, sin and exp differ between versions and even between processors of one version, so whatever
-// reaches a pixel is computed here: + - * / and the correctly rounded square root alone, in a fixed order.
+// log, sin and exp of C libraries differ between versions and between processors, so values that reach a pixel are
+// computed here, from + - * / and the correctly rounded square root in a fixed order.
 
 #include <cmath>
 #include <numbers>
@@ -1070,9 +1070,9 @@ constexpr bool is_finite(double value) {
     return (numeric::bit_cast<std::uint64_t>(value) & 0x7FF0000000000000u) != 0x7FF0000000000000u;
 }
 
-/// A number without its sign.
+/// Absolute value.
 template <class T>
-constexpr T magnitude(T value) {
+constexpr T abs(T value) {
     return value < 0 ? -value : value;
 }
 
@@ -1314,11 +1314,11 @@ void dispatch(const Kernel& kernel, isa level) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/simd/lanes.hpp --------------------------------------------------------------
-// Several values that go through one instruction: GNU vector types, or a plain value where N is 1.
+// SIMD values: lanes<T, N> is a GNU vector of N values, or a plain value where N is 1.
 //
-// Kernels write `mask ? a : b` and + - * < & on these and read the same for one lane and for eight. Lanes stay local:
-// they cross function boundaries by reference or inside always-inlined code only, because a 32-byte vector by value
-// means something else to a caller compiled without AVX.
+// Kernels use `mask ? a : b` and + - * < & and read the same for one lane and for eight. Lanes cross function
+// boundaries by reference or in always-inlined code only: passing a 32-byte vector by value has another ABI without
+// AVX.
 
 #include <cstring>
 
@@ -1344,7 +1344,7 @@ struct lanes_of<T, 1> {
 template <class T, int N>
 using lanes = typename lanes_of<T, N>::type;
 
-/// Something that will be read soon.
+/// Prefetches the cache line of an address.
 INSONIFY_INLINE void prefetch(const void* address) {
 #if defined(__GNUC__)
     __builtin_prefetch(address);
@@ -1362,20 +1362,20 @@ INSONIFY_INLINE void store(T* into, const Lanes& from) {
     std::memcpy(into, &from, sizeof from);
 }
 
-/// One value for every lane: where it is read as a whole vector, it takes no instruction to spread it.
+/// One value in every lane, stored as a whole vector: loading it takes no broadcast instruction.
 template <class T>
-struct spread {
+struct broadcast {
     alignas(64) T values[16];
-    spread(T value = {}) {
+    broadcast(T value = {}) {
         for (T& v : values) v = value;
     }
 };
 template <class T, class Lanes>
-INSONIFY_INLINE void load(Lanes& into, const spread<T>& from) {
+INSONIFY_INLINE void load(Lanes& into, const broadcast<T>& from) {
     std::memcpy(&into, from.values, sizeof into);
 }
 
-/// Each lane as a cast would make it.
+/// Converts each lane as static_cast does.
 template <class To, class From>
 INSONIFY_INLINE void convert(To& into, const From& from) {
 #if INSONIFY_SIMD
@@ -1413,7 +1413,7 @@ INSONIFY_INLINE bool any(const Mask& mask) {
 
 /// Bit k is set where lane k of a mask is; for 1, 4, 8 or 16 lanes of 32 bits.
 template <int N>
-INSONIFY_INLINE unsigned set_lanes(const lanes<std::int32_t, N>& mask) {
+INSONIFY_INLINE unsigned movemask(const lanes<std::int32_t, N>& mask) {
 #if INSONIFY_SIMD && defined(__SSE2__)
     if constexpr (N == 4) {
         return static_cast<unsigned>(__builtin_ia32_movmskps(lanes<float, 4>(mask)));
@@ -1421,7 +1421,7 @@ INSONIFY_INLINE unsigned set_lanes(const lanes<std::int32_t, N>& mask) {
         return [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
             const lanes<std::int32_t, N / 2> low = __builtin_shufflevector(mask, mask, I...),
                                              high = __builtin_shufflevector(mask, mask, N / 2 + I...);
-            return set_lanes<N / 2>(low) | set_lanes<N / 2>(high) << N / 2;
+            return movemask<N / 2>(low) | movemask<N / 2>(high) << N / 2;
         }
         (std::make_integer_sequence<int, N / 2>{});
     } else
@@ -1435,7 +1435,7 @@ INSONIFY_INLINE unsigned set_lanes(const lanes<std::int32_t, N>& mask) {
     }
 }
 
-/// One lane, to look at and to change.
+/// Reads or replaces one lane.
 template <class Lanes>
 INSONIFY_INLINE auto lane(const Lanes& lanes, int i) {
     if constexpr (std::is_arithmetic_v<Lanes>)
@@ -1461,7 +1461,7 @@ INSONIFY_INLINE void gather(Lanes& into, const From& from) {
 }
 
 #if INSONIFY_SIMD
-/// What `work(half, from)` makes of the lower half of N lanes and of the upper one.
+/// Applies `work(half, from)` to the lower and the upper half of N lanes.
 template <int N, class Lanes, class Work>
 INSONIFY_INLINE void in_halves(Lanes& into, const Lanes& of, const Work& work) {
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
@@ -1487,8 +1487,8 @@ INSONIFY_INLINE void square_root(lanes<float, N>& into, const lanes<float, N>& o
         gather<N>(into, [&](int k) { return std::sqrt(lane(of, k)); });
 }
 
-/// body(0), body(1), ... body(Count - 1), written out, which g++ doesn't do at -O2: what a body keeps in an array may
-/// then live in registers, and what hangs on the count alone is a constant.
+/// Calls body(0), body(1), ... body(Count - 1), unrolled, which g++ does not do at -O2: arrays indexed by the count
+/// then live in registers.
 template <int Count, class Body>
 INSONIFY_INLINE void unroll(const Body& body) {
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
@@ -1497,7 +1497,7 @@ INSONIFY_INLINE void unroll(const Body& body) {
     (std::make_integer_sequence<int, Count>{});
 }
 
-/// Two neighbouring 32-bit values at N places: lane k of `first` and `second` is what from(k) points to.
+/// Gathers pairs of adjacent 32-bit values: lane k of `first` and of `second` are the two values at from(k).
 template <int N, class Lanes, class From>
 INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
 #if INSONIFY_SIMD
@@ -1527,7 +1527,7 @@ INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from)
 }
 
 #if INSONIFY_SIMD
-/// Lane i is lane `from(i)` of two vectors side by side.
+/// Lane i is lane `from(i)` of the concatenation of two vectors.
 template <int N, class From, class Into, class Lanes>
 INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second, const From&) {
     [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
@@ -1536,7 +1536,7 @@ INSONIFY_INLINE void shuffle(Into& into, const Lanes& first, const Lanes& second
     (std::make_integer_sequence<int, N>{});
 }
 
-/// Four values from each of N / 4 places.
+/// Loads four values from each of N / 4 addresses.
 template <int N, class From>
 INSONIFY_INLINE void load_fours(lanes<float, N>& into, const From& from) {
     if constexpr (N == 4) {
@@ -1567,7 +1567,7 @@ INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N
 #endif
 
 #if INSONIFY_SIMD
-/// Four rows of three floats, one after another, as three columns.
+/// Transposes four consecutive rows of three floats.
 INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* rows) {
     lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
     load(a, rows), load(b, rows + 4), load(c, rows + 8);
@@ -1579,7 +1579,7 @@ INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* r
 }
 #endif
 
-/// Lane k of both, side by side: gather_pairs the other way.
+/// Stores lane k of both vectors side by side: the inverse of gather_pairs.
 template <int N>
 INSONIFY_INLINE void store_pairs(float* into, const lanes<float, N>& first, const lanes<float, N>& second) {
 #if INSONIFY_SIMD
@@ -1597,12 +1597,12 @@ INSONIFY_INLINE void store_pairs(float* into, const lanes<float, N>& first, cons
     }
 }
 
-/// N rows of four floats as four columns: lane k of into[i] is rows(k)[i], for N of 1, 4, 8 or 16.
+/// Transposes N rows of four floats: lane k of into[i] is rows(k)[i]; N is 1, 4, 8 or 16.
 template <int N, class Rows>
 INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
 #if INSONIFY_SIMD
     if constexpr (N > 1) {
-        // Four lanes of many lie side by side with the other fours and go the same way.
+        // Groups of four lanes are transposed independently.
         lanes<float, N> row[4];
         unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
         transpose_fours<N>(into, row);
@@ -1613,7 +1613,7 @@ INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
 
 /// 0, 1, ... N - 1.
 template <class T, int N>
-INSONIFY_INLINE void count_up(lanes<T, N>& into) {
+INSONIFY_INLINE void iota(lanes<T, N>& into) {
     T values[static_cast<unsigned>(N)];
     for (int i = 0; i < N; ++i) values[i] = static_cast<T>(i);
     load(into, values);
@@ -1626,7 +1626,7 @@ INSONIFY_INLINE void count_up(lanes<T, N>& into) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/quantize.hpp ----------------------------------------------------------------
-// From [0, 1] to codes of 8 or 16 bits and back: the one rounding rule of filters and files.
+// Quantization of [0, 1] to codes of 8 or 16 bits and back, by the one rounding rule of filters and files.
 
 #include <array>
 
@@ -1759,7 +1759,7 @@ void dequantize_row(std::span<const Code> from, std::span<float> to) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/simd/random_lanes.hpp -------------------------------------------------------
-// The numbers of random.hpp, several at a time and to the same bits: blocks of Philox, uniform and normal draws.
+// SIMD versions of random.hpp to the same bits: Philox blocks, uniform and normal draws.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -1922,9 +1922,9 @@ INSONIFY_INLINE void normal_lanes(lanes<double, N>& first, lanes<double, N>& sec
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/random.hpp ------------------------------------------------------------------
-// Random numbers without state: a number is a pure function of (seed, stream, counter).
+// Counter-based random numbers: a number is a pure function of (seed, stream, counter).
 //
-// Noise that is counted by pixel or world cell doesn't depend on tiling, cropping, threads or the order of frames.
+// Noise counted by pixel or world cell does not depend on tiling, cropping, threads or the order of frames.
 //
 // Based on: John K. Salmon, Mark A. Moraes, Ron O. Dror, David E. Shaw. Parallel Random Numbers: As Easy as 1, 2, 3.
 // SC11, 2011 (Philox4x32-10; checked against the known answers of Random123).
@@ -2054,19 +2054,18 @@ constexpr rect intersect(const rect& a, const rect& b) {
 }  // namespace insonify
 
 // ------------ insonify/filter/concept.hpp ---------------------------------------------------------------
-// What may stand to the right of an image in `image | filter`.
+// Concepts of filters: what may stand to the right of an image in `image | filter`.
 //
 // A filter is a callable or a plain aggregate of one of three kinds:
 //
 //     image     f(image)                                                             -> image
-//     measured  f.pass(view), which looks at the whole image, returns a function as below; a level_filter
-//               (filter/histogram.hpp) may be told its histogram instead
+//     measured  f.pass(view) reads the whole image and returns a function as below
 //     pixel     f(pixel), f(pixel, x, y), or f.pass() that returns such a function   -> pixel
 //
-// What `pass` returns is a value and is copied for each run of rows, so it may remember what it did last. It may do
-// many pixels of a row at once, as noise does: `row(from, to, count, x, y)`, to[i] = fn(from[i], x + i, y), of at most
-// run_length pixels, where `to` may be `from`. And it may be told the pixels' area before the first of them:
-// `place(area)`, which throws where a map is of another size.
+// `pass` returns a value, which is copied for each band of rows: it may keep state between pixels. It may process up to
+// run_length adjacent pixels at once by `row(from, to, count, x, y)`, to[i] = fn(from[i], x + i, y), where `to` may be
+// `from`. Passes that need the image's origin and size implement `prepare(area)`, called before the first pixel; it may
+// throw.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2075,11 +2074,11 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// What an image can hold: not void, not bool (whose vector has no pixels to point at).
+/// Pixel types of images: not void, and not bool, whose vector has no addressable elements.
 template <class T>
 concept storable = std::movable<T> && !std::same_as<T, bool>;
 
-/// Who asks for the position gets it.
+/// Calls fn(pixel, x, y) if fn takes a position, fn(pixel) otherwise.
 template <class Fn, class Pixel>
     requires(std::invocable<Fn&, const Pixel&, int, int>)
 INSONIFY_INLINE auto call_pixel(Fn& fn, const Pixel& pixel, int x, int y) {
@@ -2099,12 +2098,12 @@ concept pixel_function = requires(Fn& fn, const Pixel& pixel) {
     { detail::call_pixel(fn, pixel, 0, 0) } -> detail::storable;
 };
 
-/// The pixels of an image, as a part of a larger one or as all of it.
+/// Origin and size of an image, which may be part of a larger one.
 struct pixel_area {
     int x, y, width, height;
 };
 
-/// The most pixels that `row` is asked for at once; they fit the nearest cache several times over.
+/// Largest count of a `row` call; its buffers fit the first-level cache several times over.
 inline constexpr int run_length = 512;
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -2114,33 +2113,33 @@ using pass_result = decltype(call_pixel(std::declval<Fn&>(), std::declval<const 
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// A function of a pixel that does many pixels of a row at once.
+/// A pixel function that also processes adjacent pixels of a row at once.
 template <class Fn, class Pixel>
 concept row_function = pixel_function<Fn, Pixel> &&
     requires(Fn& fn, const Pixel* from, detail::pass_result<Fn, Pixel>* to) {
     fn.row(from, to, 1, 0, 0);
 };
 
-/// Takes an image and returns an image. Asked first: a generic lambda (`[](const auto& picture)`) is one of these.
+/// Takes an image and returns an image. Checked first, so that a generic lambda (`[](const auto& picture)`) is one.
 template <class F, class Pixel>
 concept image_filter = requires(const F& f, image<Pixel> in) {
     requires std::same_as<std::remove_cvref_t<decltype(f(std::move(in)))>,
                           image<typename std::remove_cvref_t<decltype(f(std::move(in)))>::value_type>>;
 };
 
-/// Looks at the whole image to know what to do with a pixel.
+/// Measures the whole image, then maps pixels.
 template <class F, class Pixel>
 concept measured_filter = requires(const F& f, image_view<const Pixel> in) {
     { f.pass(in) } -> pixel_function<Pixel>;
 };
 
-/// Works pixel by pixel.
+/// Maps pixels one by one.
 template <class F, class Pixel>
 concept pixel_filter = pixel_function<const F, Pixel> || requires(const F& f) {
     { f.pass() } -> pixel_function<Pixel>;
 };
 
-/// Whatever may stand to the right of an image of such pixels.
+/// Any filter for images of such pixels.
 template <class F, class Pixel>
 concept filter_for = image_filter<F, Pixel> || measured_filter<F, Pixel> || pixel_filter<F, Pixel>;
 
@@ -2150,7 +2149,7 @@ concept filter_for = image_filter<F, Pixel> || measured_filter<F, Pixel> || pixe
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/colormap.hpp --------------------------------------------------------------
-// From gray to colour by a table of 256 entries: `image | colormap::copper`.
+// Colour maps as tables of 256 colours: `image | colormap::copper`.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2193,7 +2192,7 @@ constexpr color_table tabulate_colors(Fn color) {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Straight lines between five colours, that are those of levels 0, 63.75, 127.5, 191.25 and 255; ties up.
+/// Piecewise linear through five colours at levels 0, 63.75, 127.5, 191.25 and 255; ties round up.
 constexpr rgb8 between_colors(int level, const std::array<rgb8, 5>& colors) {
     const int quarter = (std::min)(4 * level / 255, 3), share = 4 * level - 255 * quarter;  // of 255
     const rgb8 &a = colors[static_cast<std::size_t>(quarter)], &b = colors[static_cast<std::size_t>(quarter) + 1];
@@ -2216,13 +2215,13 @@ inline constexpr color_table copper = tabulate_colors([](int level) {
                 static_cast<std::uint8_t>((4975 * level + 5000) / 10000)};
 });
 
-/// Gray as colour, for files that want three channels.
+/// Gray as colour, for files of three channels.
 inline constexpr color_table gray = tabulate_colors([](int level) {
     const auto value = static_cast<std::uint8_t>(level);
     return rgb8{value, value, value};
 });
 
-/// Black to white by way of red and yellow: MATLAB's hot(256), whose red is full at 3/8, green at 6/8 of the way.
+/// Black through red and yellow to white: MATLAB's hot(256), whose red is full at 3/8, green at 6/8 of the way.
 inline constexpr color_table hot = tabulate_colors([](int level) {
     const auto share = [](int i, int of) {
         return static_cast<std::uint8_t>(i <= 0 ? 0 : i < of ? (510 * i + of) / (2 * of) : 255);
@@ -2230,19 +2229,18 @@ inline constexpr color_table hot = tabulate_colors([](int level) {
     return rgb8{share(level + 1, 96), share(level + 1 - 96, 96), share(level + 1 - 192, 64)};
 });
 
-/// What side-scan displays and their printed records are in: black, brown, amber and a pale yellow. Straight lines
-/// between five colours a quarter apart.
+/// The amber of side-scan displays and printed records: black, brown, amber and pale yellow, piecewise linear through
+/// five colours.
 inline constexpr color_table amber = tabulate_colors([](int level) {
     return detail::between_colors(level, {{{0, 0, 0}, {74, 40, 8}, {158, 92, 16}, {230, 164, 48}, {255, 244, 200}}});
 });
 
-/// The other look of waterfall displays: black, blue-green, and white. Straight lines between five colours a quarter
-/// apart.
+/// The blue of other waterfall displays: black, blue-green and white, piecewise linear through five colours.
 inline constexpr color_table sea = tabulate_colors([](int level) {
     return detail::between_colors(level, {{{0, 0, 0}, {0, 40, 72}, {0, 104, 136}, {88, 184, 192}, {255, 255, 255}}});
 });
 
-/// What is bright becomes dark, as on the paper of old recorders.
+/// Bright becomes dark, as on paper recorders.
 inline constexpr color_table inverse_gray = tabulate_colors([](int level) {
     const auto value = static_cast<std::uint8_t>(255 - level);
     return rgb8{value, value, value};
@@ -2264,7 +2262,7 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Gray or colour, the same conversion per channel.
+/// Quantizes gray or each channel of a colour.
 template <pixel_code Code>
 struct to_code {
     using is_filter = std::true_type;
@@ -2296,12 +2294,12 @@ struct to_unit {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// [0, 1] -> 0 ... 255 or 65535, to the nearest; values outside go to the nearer end, NaN to 0.
+/// [0, 1] -> 0 ... 255 or 65535, rounded to nearest; values outside are clamped, NaN becomes 0.
 inline constexpr detail::to_code<std::uint8_t> to_uint8{};
 /// The same with 16 bits.
 inline constexpr detail::to_code<std::uint16_t> to_uint16{};
 
-/// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` takes it back exactly.
+/// 0 ... 255 or 65535 -> [0, 1]; `to_uint8` or `to_uint16` is its exact inverse.
 inline constexpr detail::to_unit to_float{};
 
 }  // namespace INSONIFY_ABI
@@ -2310,7 +2308,7 @@ inline constexpr detail::to_unit to_float{};
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/detail/gamma.hpp ------------------------------------------------------------
-// Gamma-distributed numbers: what averages of looks and textures of the seabed are.
+// Gamma-distributed random numbers, for averages of looks and for textures of the seabed.
 //
 // Based on: George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM Transactions on
 // Mathematical Software 26, 2000.
@@ -2401,7 +2399,8 @@ inline double mean_of_rice(double steady) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/detail/correlation.hpp ------------------------------------------------------
-// Filters that make neighbours of white noise alike.
+// Filters that turn white Gaussian noise into noise with a Gaussian autocorrelation exp(-(d / length)^2), exact at
+// every whole distance d and for every length, and the field lengths that give echo intensities theirs.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2409,30 +2408,67 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The taps of a Gaussian filter under which white noise keeps its variance, from the middle outwards.
-///
-/// @param deviation  of the filter; the correlation of what it makes is exp(-(d / deviation)^2 / 4) at distance d
-inline std::vector<float> gaussian_taps(double deviation) {
-    std::vector<double> taps{1};
-    double square = 1;
-    for (int i = 1; i <= 3 * deviation; ++i) {
-        taps.push_back(numeric::exp(-0.5 * i * i / (deviation * deviation)));
-        square += 2 * taps.back() * taps.back();
+/// Half of the symmetric taps, from the middle outwards; white noise keeps its variance. They are the Fourier transform
+/// of the root of the autocorrelation's spectrum: a sampled Gaussian would correlate too little below a length of 2.
+/// @param length  distance at which the autocorrelation has fallen to 1 / e, 0 to 50; 0: white
+inline std::vector<float> field_taps(double length) {
+    constexpr std::size_t period = 512, half = period / 2;
+    if (!(length > 0)) return {1.0f};
+    std::array<double, period> cosine{};
+    double c = 1, s = 0;
+    for (double& value : cosine) {
+        value = c;
+        constexpr double turn_c = 0.99992470183914450, turn_s = 0.012271538285719925;  // of 2 pi / 512
+        const double next = c * turn_c - s * turn_s;
+        s = c * turn_s + s * turn_c;
+        c = next;
+    }
+    std::array<double, half + 1> correlation{}, root{};
+    for (std::size_t d = 0; d <= half; ++d) {
+        const double ratio = static_cast<double>(d) / length;
+        correlation[d] = numeric::exp(-ratio * ratio);
+    }
+    for (std::size_t k = 0; k <= half; ++k) {
+        double power = correlation[0];
+        for (std::size_t d = 1; d <= half; ++d) power += 2 * correlation[d] * cosine[k * d % period];
+        root[k] = numeric::square_root((std::max)(power, 0.0));
+    }
+    const std::size_t reach = static_cast<std::size_t>(1.5 * length) + 3;
+    std::vector<double> taps;
+    double sum = 0;
+    for (std::size_t j = 0; j <= reach; ++j) {
+        double tap = root[0] + root[half] * cosine[half * j % period];
+        for (std::size_t k = 1; k < half; ++k) tap += 2 * root[k] * cosine[k * j % period];
+        taps.push_back(tap);
+        sum += (j == 0 ? 1 : 2) * tap * tap;
     }
     std::vector<float> result;
-    for (const double tap : taps) result.push_back(static_cast<float>(tap / numeric::square_root(square)));
+    for (const double tap : taps) result.push_back(static_cast<float>(tap / numeric::square_root(sum)));
     return result;
 }
 
-/// Taps for fields whose correlation falls to 1 / e at `length`.
-inline std::vector<float> field_taps(double length) {
-    return gaussian_taps(length * 0.5);
+/// Length of a field whose law makes intensities with a correlation of 1 / e at `length`.
+/// @param of_field  the intensities' correlation for a correlation of the field; rises from 0 at 0 to 1 at 1
+template <class Law>
+double field_length(double length, const Law& of_field) {
+    double low = 0, high = 1;
+    for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (low + high);
+        (of_field(middle) < 0.36787944117144233 ? low : high) = middle;
+    }
+    return length / numeric::square_root(-numeric::log(0.5 * (low + high)));
 }
 
-/// Taps for fields whose intensity, the sum of two squares, has a correlation that falls to 1 / e at `length`: the
-/// correlation of an intensity is the square of that of its field.
+/// Correlation of Rician intensities |s + n|^2, n a complex normal field of unit power, for one of the field. Without a
+/// steady part, and for averages of looks, it is the field's square.
+/// @param steady  s^2
+inline auto rice_correlation(double steady) {
+    return [=](double field) { return field * (field + 2 * steady) / (1 + 2 * steady); };
+}
+
+/// Taps for fields of echoes without a steady part or texture, whose intensities have the given length.
 inline std::vector<float> intensity_taps(double length) {
-    return gaussian_taps(length * 0.70710678118654752);
+    return field_taps(field_length(length, rice_correlation(0)));
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -2442,7 +2478,7 @@ inline std::vector<float> intensity_taps(double length) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/simd/draw_lanes.hpp ---------------------------------------------------------
-// Draws as floats, 16 or 32 at a time: what fills an image with noise.
+// Random floats, 16 or 32 at a time, for image noise.
 //
 // The law is that of the draws in random.hpp to a float's rounding: a normal draw is off by less than 6e-7 of what
 // exact arithmetic makes of its two words, and no probability by more than 6e-8. Same bits at every N.
@@ -2513,7 +2549,7 @@ INSONIFY_INLINE void symmetric_lanes(lanes<float, N>& into, const lanes<std::uin
     into = into * 0x1p-31f;
 }
 
-/// Uniform in (0, 1]: 31 bits, of which 24 are kept; what is close to 0 is as fine as what isn't.
+/// Uniform in (0, 1]: 31 bits, rounded to 24.
 template <int N>
 INSONIFY_INLINE void unit_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
     signed_float<N>(into, word >> 1);
@@ -2604,10 +2640,10 @@ INSONIFY_INLINE void normal_lanes(lanes<float, N>& first, lanes<float, N>& secon
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/detail/noise_pass.hpp -----------------------------------------------------
-// How noise goes over an image: by runs of a row, whatever the pixels are and wherever the run begins.
+// Noise laws as filter passes: draws for runs of a row, and the pass that applies a law to every pixel type.
 //
-// Noise is defined on floats in [0, 1]. Codes of 8 and 16 bits are taken there and back, as MATLAB's imnoise does, and
-// each channel of a colour has noise of its own.
+// Laws are defined on floats in [0, 1]. Codes of 8 and 16 bits are converted to floats and back, as MATLAB's imnoise
+// does; each channel of a colour has independent noise. Draws do not depend on where a run begins.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2615,7 +2651,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// One stream per kind of noise; the numbers are part of what a seed means.
+/// One random stream per kind of noise. Changing a number changes the noise of every seed.
 enum class noise_stream : std::uint32_t {
     gaussian = 0x6E6F6900,
     speckle,
@@ -2626,12 +2662,10 @@ enum class noise_stream : std::uint32_t {
     gamma_speckle,
     k_speckle,
     rician,
-    texture,
-    quick_poisson,
-    small_poisson
+    texture
 };
 
-/// What the draws of one filter hang on, besides the pixel.
+/// What a filter's draws depend on, besides the pixel.
 struct noise_key {
     philox_key key;
     std::uint32_t frame;
@@ -2645,21 +2679,21 @@ struct noise_run {
     int x, y;               // of the first pixel
     int count;              // 1 to run_length
     std::uint32_t channel;  // 0 to 2
-    int levels;             // the largest code that the pixels had, 1 for floats
+    int levels;             // the largest code of the pixel type, 1 for floats
 };
 
 constexpr float clip_to_unit(float value) {
     return value < 0 ? 0.0f : value > 1 ? 1.0f : value;
 }
 
-/// NaN stays.
+/// Clips to [0, 1]; NaN stays NaN.
 template <int N>
 INSONIFY_INLINE void clip_lanes(lanes<float, N>& value) {
     value = value < 0.0f ? lanes<float, N>{} : value;
     value = value > 1.0f ? lanes<float, N>{} + 1.0f : value;
 }
 
-/// What a pixel holds that noise can be added to: floats in [0, 1], codes, or colours of either.
+/// Channel types that noise applies to: floats in [0, 1] and codes. Pixels are channels or colours of them.
 template <class T>
 concept noise_channel = std::same_as<T, float> || pixel_code<T>;
 template <class T>
@@ -2679,7 +2713,7 @@ void to_floats(const Code* from, float* to, int count, std::size_t step) {
     for (int i = 0; i < count; ++i) to[i] = dequantize(from[static_cast<std::size_t>(i) * step]);
 }
 
-/// A law of noise, `law.row(from, to, run)` on floats, as a pass over pixels of every kind.
+/// Applies a noise law, `law.row(from, to, run)` on floats, to pixels of any type.
 template <class Law>
 class noise_pass {
   public:
@@ -2708,7 +2742,7 @@ class noise_pass {
         }
     }
 
-    void place(const pixel_area& area) { law_.place(area); }
+    void prepare(const pixel_area& area) { law_.prepare(area); }
 
   private:
     template <noise_channel Channel>
@@ -2731,7 +2765,7 @@ class noise_pass {
     Law law_;
 };
 
-/// Four draws from four words, by kind.
+/// Policies that turn four random words into four draws.
 struct normal_draws {
     template <int N>
     static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
@@ -2749,12 +2783,6 @@ struct unit_draws {
     template <int N>
     static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { unit_lanes<N>(into[i], word[i]); });
-    }
-};
-struct word_draws {  // as they are, to be taken for whole numbers again
-    template <int N>
-    static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
-        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { std::memcpy(&into[i], &word[i], sizeof into[i]); });
     }
 };
 struct radius_draws {
@@ -2788,10 +2816,10 @@ struct draw_kernel {
     }
 };
 
-/// Room for the draws of a run: those of its first block that lie before it, and those of the last lanes behind it.
+/// Buffer for the draws of a run, with room for those of its first block before the run and of the last lanes past it.
 using draw_buffer = float[run_length + 64];
 
-/// Independent draws, one for each pixel and `field`, in `buffer` from the place that is returned on.
+/// Writes independent draws, one for each pixel and `field`, and returns the first; they lie in `buffer`.
 template <class Draws>
 float* white_draws(draw_buffer& buffer, const noise_key& noise, std::uint32_t field, const noise_run& run) {
     const int before = run.x & 3;
@@ -2804,7 +2832,7 @@ float* white_draws(draw_buffer& buffer, const noise_key& noise, std::uint32_t fi
     return buffer + before;
 }
 
-/// to = clipped rule(clipped from, draw, scale), several pixels at a time.
+/// to = clip(rule(clip(from), draw, scale)).
 template <class Rule>
 struct rule_kernel {
     Rule rule;
@@ -2816,7 +2844,7 @@ struct rule_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        const rule_kernel own = *this;  // which nothing that is stored can change
+        const rule_kernel own = *this;  // local copy, so that stores cannot alias it
         int i = 0;
         for (; i + N <= own.count; i += N) own.at<N>(i);
         for (; i < own.count; ++i) own.at<1>(i);
@@ -2848,15 +2876,15 @@ void apply_rule(const Rule& rule, const float* from, const float* draw, const fl
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/detail/correlated.hpp -----------------------------------------------------
-// Normal draws that are like their neighbours: white noise under a Gaussian filter, row by row.
+// Correlated normal draws: white noise through a separable filter, row by row.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Over how many pixels noise stays alike: where its correlation has fallen to 1 / e, or for what echoes make, that of
-/// their intensity (a tenth less at 1, where a filter has few taps). 0: not at all.
+/// Distance in pixels at which the noise's autocorrelation has fallen to 1 / e; for echo noise, that of the intensity.
+/// 0: white noise. Between lengths of 0 and 1 the correlation of adjacent pixels rises from 0 to 1 / e.
 struct correlation_length {
     float x = 0, y = 0;  ///< 0 to 16
 };
@@ -2868,8 +2896,8 @@ inline void require_correlation(const char* name, const correlation_length& leng
         require(pixels >= 0 && pixels <= 16, name, pixels, "0 to 16 pixels");
 }
 
-/// Standard normal draws, one for each pixel and field, that are correlated along rows and columns. What a pixel gets
-/// depends on its place alone; rows that follow each other share their work.
+/// Standard normal draws, one for each pixel and field, correlated along rows and columns. A draw depends on the
+/// pixel's place alone. Consecutive rows share the rows that both filter.
 class correlated_draws {
   public:
     /// @param x, y  taps of the filters along rows and columns
@@ -2953,8 +2981,11 @@ class correlated_draws {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/filter/detail/rejection.hpp ------------------------------------------------------
-// Draws by trial: pixels whose trial fails go on to the next, side by side with others that failed.
+// ------------ insonify/filter/detail/gamma_texture.hpp --------------------------------------------------
+// Correlated gamma-distributed numbers of mean one: the gamma law's quantiles at correlated normal numbers, tabulated.
+//
+// Based on: Mircea Grigoriu. Applied Non-Gaussian Processes. 1995 (translation processes: a memoryless function of a
+// Gaussian field has any distribution, and a correlation that follows from the field's).
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -2962,13 +2993,108 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Pixels of a run, by their place in it.
+class gamma_texture {
+  public:
+    /// @param shape  0.01 to 1e6; the variance is 1 / shape
+    explicit gamma_texture(double shape) : values_(knots) {
+        tabulate(shape);
+        expand(shape);
+    }
+
+    /// The number at the probability of a standard normal number z.
+    float operator()(float z) const {
+        const float place = (std::min)((std::max)(z + static_cast<float>(reach), 0.0f) * static_cast<float>(1 / step),
+                                       static_cast<float>(knots - 2));
+        const auto knot = static_cast<std::size_t>(place);
+        const float t = place - static_cast<float>(knot);
+        return values_[knot] + t * (values_[knot + 1] - values_[knot]);
+    }
+
+    /// Correlation of two numbers whose normal numbers have the correlation r, 0 to 1.
+    double correlation(double r) const {
+        double sum = 0;
+        for (std::size_t k = terms; k-- > 0;) sum = (sum + powers_[k]) * r;
+        return sum;
+    }
+
+  private:
+    static constexpr double reach = 7, step = 0x1p-8;  ///< of the table in z
+    static constexpr std::size_t knots = 2 * 7 * 256 + 2, terms = 64, intervals = 8192;
+
+    static double normal_density(double z) { return 0.39894228040143268 * numeric::exp(-0.5 * z * z); }
+
+    /// Integrates the density of y = ln t, exp(shape (1 + y - e^y)), and reads it off at normal probabilities.
+    void tabulate(double shape) {
+        const double spread = numeric::square_root(160 / shape) + 60 / shape;  // beyond: less than e^-40
+        const double low = -(std::min)(spread, 60.0), high = numeric::log(1 + spread), dy = (high - low) / intervals;
+        const auto density = [&](double y) { return numeric::exp(shape * (1 + y - numeric::exp(y))); };
+        std::vector<double> below{density(low) / shape};  // the tail to the left is exponential
+        double last = density(low);
+        for (std::size_t i = 1; i <= intervals; ++i) {
+            const double next = density(low + static_cast<double>(i) * dy);
+            below.push_back(below.back() + 0.5 * dy * (last + next));
+            last = next;
+        }
+        double probability = 1.2798e-12;  // of less than -7
+        std::size_t i = 0;
+        for (std::size_t k = 0; k < knots; ++k) {
+            const double z = static_cast<double>(k) * step - reach;
+            if (k > 0) probability += 0.5 * step * (normal_density(z - step) + normal_density(z));
+            const double wanted = probability * below.back();
+            while (i + 1 < intervals && below[i + 1] < wanted) ++i;
+            const double t = (std::min)((std::max)((wanted - below[i]) / (below[i + 1] - below[i]), 0.0), 1.0);
+            values_[k] = static_cast<float>(numeric::exp(low + (static_cast<double>(i) + t) * dy));
+        }
+    }
+
+    /// Powers of the series in Hermite polynomials; what they leave of the variance counts as the last term.
+    void expand(double shape) {
+        std::array<double, terms> coefficient{};
+        for (std::size_t knot = 0; knot < knots; ++knot) {
+            const double z = static_cast<double>(knot) * step - reach;
+            double before = 0, now = normal_density(z) * step;  // times H_k / sqrt(k!)
+            for (std::size_t k = 0; k < terms; ++k) {
+                const auto order = static_cast<double>(k);
+                const double next = (z * now - numeric::square_root(order) * before) / numeric::square_root(order + 1);
+                before = now;
+                now = next;
+                coefficient[k] += now * static_cast<double>(values_[knot]);
+            }
+        }
+        double left = 1;
+        for (std::size_t k = 0; k < terms; ++k) {
+            powers_[k] = coefficient[k] * coefficient[k] * shape;
+            left -= powers_[k];
+        }
+        powers_[terms - 1] += left;
+    }
+
+    std::vector<float> values_;           ///< at z = -7, -7 + step, ...
+    std::array<double, terms> powers_{};  ///< of r, r^2, ...; their sum is 1
+};
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/filter/detail/rejection.hpp ------------------------------------------------------
+// Rejection sampling over SIMD lanes: pixels whose trial fails are compacted and tried again together.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Indices of some pixels of a run.
 struct pixel_list {
     int count = 0;
     std::uint16_t places[run_length + 8];
 };
 
-/// Adds a place to those of a list without a jump, because what comes next is anyone's guess.
+/// Appends a place to a list if wanted, without a branch: the outcome is random.
 INSONIFY_INLINE void add_if(bool wanted, int place, std::uint16_t* places, int& count) {
     places[count] = static_cast<std::uint16_t>(place);
     count += wanted ? 1 : 0;
@@ -2976,8 +3102,8 @@ INSONIFY_INLINE void add_if(bool wanted, int place, std::uint16_t* places, int& 
 
 /// Draws a number for each pixel of a list.
 ///
-/// `method.template attempt<N>(result, words, parameter, trial)` makes one trial of N pixels and returns which of them
-/// it settled; `words` are those of block `method.block(trial)` of each pixel.
+/// `method.template attempt<N>(result, settled, words, parameter, trial)` makes one trial for N pixels and sets the
+/// lanes of `settled` whose result is final; `words` are those of block `method.block(trial)` of each pixel.
 template <class Method>
 struct rejection_kernel {
     Method method;
@@ -2997,7 +3123,7 @@ struct rejection_kernel {
         for (std::uint32_t trial = 0; count > 0; ++trial) {
             int left = 0;
             for (int first = 0; first < count; first += N) {
-                // Lanes behind the last pixel do it again.
+                // Lanes past the last pixel repeat it.
                 int place[static_cast<unsigned>(N)];
                 for (int k = 0; k < N; ++k) place[k] = places[first + k < count ? first + k : count - 1];
                 words block[4];
@@ -3029,7 +3155,7 @@ struct rejection_kernel {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/parameter.hpp -------------------------------------------------------------
-// A parameter of a filter: one number, a number for each pixel, or a number for each type of seabed.
+// Filter parameters: one number, a number for each pixel, or a number for each seabed type.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -3046,8 +3172,8 @@ inline void check_size(const std::string& name, int width, int height, const pix
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// One number for all pixels, or a map of them that is as large as the image. Views are looked at when the filter runs,
-/// and not kept alive.
+/// One number for all pixels, or a map of the image's size. Views are read when the filter runs; their pixels have to
+/// exist until then.
 ///
 ///     in::speckle{.variance = 0.05f}
 ///     in::speckle{.variance = variances.view()}
@@ -3062,7 +3188,7 @@ class parameter {
     INSONIFY_MEMBER parameter(image_view<const float> map) : map_(map) {}
     INSONIFY_MEMBER parameter(image_view<float> map) : map_(map) {}
 
-    /// `values[type]` for a pixel of that type, the last of them for types beyond.
+    /// `values[type]` for a pixel of that type; types past the end take the last value.
     /// @throws invalid_input for no values
     INSONIFY_MEMBER parameter(image_view<const std::uint8_t> types, std::vector<float> values)
         : values_(std::move(values)), types_(types), by_type_(true) {
@@ -3074,9 +3200,9 @@ class parameter {
     /// The number of all pixels. @pre is_constant()
     INSONIFY_MEMBER float value() const { return values_.front(); }
 
-    /// Where the pixels that it is asked for lie.
+    /// Sets the image's origin and size before the first call of `row`.
     /// @throws invalid_input for a map of another size
-    INSONIFY_TAGGED void place(const std::string& name, const pixel_area& area) {
+    INSONIFY_TAGGED void prepare(const std::string& name, const pixel_area& area) {
         x_ = area.x, y_ = area.y;
         if (by_type_) {
             detail::check_size(name, types_.width(), types_.height(), area);
@@ -3085,7 +3211,7 @@ class parameter {
         }
     }
 
-    /// The numbers of `count` pixels of a row from (x, y) on, into `buffer`.
+    /// Writes the numbers of `count` pixels of a row, the first at (x, y), to `buffer`.
     INSONIFY_TAGGED void row(float* buffer, int count, int x, int y) const {
         if (by_type_) {
             const std::uint8_t* const type = types_.row(y - y_).data() + (x - x_);
@@ -3119,11 +3245,11 @@ class parameter {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/echo_noise.hpp ------------------------------------------------------------
-// Noise that echoes make of themselves: Rayleigh, averages of looks, K and Rician, on amplitudes or intensities.
+// Speckle filters: Rayleigh, averages of looks, K and Rician, on amplitudes or intensities.
 //
-// The mean of what the pixels hold stays what it was, until bright pixels saturate at 1: keep the image's mean well
-// below 1/2. Clipping, codes, colours and NaN are as in filter/noise.hpp. `with_speckle` (sonar/speckle.hpp) is the
-// same for recordings of a sonar, which have no largest value.
+// The mean is kept as long as bright pixels do not saturate at 1: keep the image's mean well below 1/2. Clipping,
+// codes, colours and NaN are treated as in filter/noise.hpp. `with_speckle` (sonar/speckle.hpp) applies the same laws
+// to sonar recordings, which have no largest value.
 //
 // Based on: E. Jakeman, P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation
 // 24, 1976 (the K-distribution).
@@ -3135,7 +3261,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What the pixels of an image of echoes hold. An amplitude is the square root of an intensity.
+/// What an image's pixels hold. An amplitude is the square root of an intensity.
 enum class echo { amplitude, intensity };
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -3161,7 +3287,7 @@ struct gamma_rejection {
     }
 };
 
-/// A drawn intensity as a factor, the scale making its mean, or that of its square root, one.
+/// Multiplies by a drawn intensity or its square root; the scale makes the factor's mean one.
 template <echo Of>
 struct echo_factor {
     template <int N>
@@ -3173,11 +3299,11 @@ struct echo_factor {
     }
 };
 
-/// What an intensity is drawn as; that hangs on the filter and not on its parameters, so that noise by a map is that of
-/// its numbers.
+/// How intensities are drawn. It depends on the filter's type and not on its parameters, so that a map of equal numbers
+/// gives the noise of that number.
 enum class echo_draw { exponential, gamma, rice };
 
-/// How an intensity fluctuates; see speckle_law of sonar/speckle.hpp, whose three numbers these are.
+/// Statistics of an intensity: the three numbers of a speckle_law, by pixel.
 struct echo_statistics {
     const char* name;  ///< of the filter's own parameter
     echo_draw draw;
@@ -3195,13 +3321,7 @@ class echo_law {
         is_constant_ = looks.is_constant() && shape.is_constant() && steady.is_constant();
         if (is_constant_ && of == echo::amplitude) last_scale_ = scale_of(looks.value(), shape.value(), steady.value());
         std::fill_n(scale_, run_length, last_scale_);
-        if (length.x > 0 || length.y > 0) {
-            const float whole = looks.is_constant() ? looks.value() : 0;
-            require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
-                    "looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
-            correlated_.emplace(noise, intensity_taps(static_cast<double>(length.x)),
-                                intensity_taps(static_cast<double>(length.y)));
-        }
+        if (length.x > 0 || length.y > 0) correlate(length);
     }
 
     void row(const float* from, float* to, const noise_run& run) {
@@ -3215,12 +3335,35 @@ class echo_law {
             apply_rule(echo_factor<echo::intensity>{}, from, intensity, scale_, to, run.count);
         }
     }
-    void place(const pixel_area& area) {
+    void prepare(const pixel_area& area) {
         for (parameter* p : {&statistics_.looks, &statistics_.texture, &statistics_.steady})
-            p->place(statistics_.name, area);
+            p->prepare(statistics_.name, area);
     }
 
   private:
+    /// Prepares fields under which the correlation of the intensities has the given length.
+    void correlate(const correlation_length& length) {
+        const parameter &looks = statistics_.looks, &shape = statistics_.texture, &steady = statistics_.steady;
+        const float whole = looks.is_constant() ? looks.value() : 0;
+        require(whole >= 1 && whole <= 64 && whole == static_cast<float>(static_cast<int>(whole)),
+                "looks of correlated speckle", whole, "a whole number, 1 to 64, for all pixels");
+        if (shape.is_constant() && shape.value() > 0) texture_.emplace(static_cast<double>(shape.value()));
+        const auto speckle = rice_correlation(steady.is_constant() ? static_cast<double>(steady.value()) : 0);
+        const double speckle_index = 1 / static_cast<double>(whole);
+        const double texture_index = texture_ ? 1 / static_cast<double>(shape.value()) : 0;
+        const double index = (1 + texture_index) * (1 + speckle_index) - 1;  // variance / mean^2 of the intensity
+        const auto intensity = [&](double field) {
+            const double texture = texture_ ? texture_->correlation(field) : 0;
+            return ((1 + texture * texture_index) * (1 + speckle(field) * speckle_index) - 1) / index;
+        };
+        const auto taps = [&](float pixels) {
+            return field_taps(texture_ ? field_length(static_cast<double>(pixels), intensity)
+                                       : field_length(static_cast<double>(pixels), speckle));
+        };
+        correlated_.emplace(noise_, taps(length.x), taps(length.y));
+        if (texture_) correlated_texture_.emplace(texture_noise_, taps(length.x), taps(length.y));
+    }
+
     /// Intensities of mean one without texture.
     float* draw(draw_buffer& buffer, const noise_run& run) {
         if (correlated_ || statistics_.draw == echo_draw::rice) {
@@ -3257,12 +3400,18 @@ class echo_law {
         }
     }
 
-    void texture(float* intensity, const noise_run& run) const {
+    void texture(float* intensity, const noise_run& run) {
+        if (texture_) {
+            float normal[run_length + 64];
+            correlated_texture_->row(normal, 0, run);
+            for (int i = 0; i < run.count; ++i) intensity[i] *= (*texture_)(normal[i]);
+            return;
+        }
         const bool none = statistics_.texture.is_constant() && statistics_.texture.value() == 0;
         if (!none) gamma(intensity, statistics_.texture, texture_noise_, run);
     }
 
-    /// Multiplies by gamma-distributed numbers of mean one, where their shape isn't 0.
+    /// Multiplies by gamma-distributed numbers of mean one where their shape is not 0.
     static void gamma(float* intensity, const parameter& shapes, const noise_key& noise, const noise_run& run) {
         float shape[run_length];
         double wide[run_length], drawn[run_length];
@@ -3286,7 +3435,7 @@ class echo_law {
         return static_cast<float>(1 / (speckle * relief));
     }
 
-    /// What it was for the last pixel it usually is for the next.
+    /// Scales of a run. Adjacent pixels mostly have equal parameters, so the last scale is kept.
     void mean_amplitudes(const noise_run& run) {
         float looks[run_length], shape[run_length], steady[run_length];
         statistics_.looks.row(looks, run.count, run.x, run.y);
@@ -3303,7 +3452,8 @@ class echo_law {
     noise_key noise_, texture_noise_;
     echo_statistics statistics_;
     echo of_;
-    std::optional<correlated_draws> correlated_;
+    std::optional<correlated_draws> correlated_, correlated_texture_;
+    std::optional<gamma_texture> texture_;  ///< where it is correlated
     bool is_constant_ = false;
     std::array<float, 3> last_{-1, -1, -1};
     float last_scale_ = 1;
@@ -3366,7 +3516,8 @@ struct k_speckle {
     parameter shape = 4;  ///< of the mean, 0.01 to 1e6
     float looks = 1;      ///< 0.01 to 1e6
     echo of = echo::amplitude;
-    correlation_length correlation{};  ///< of the speckle; for whole looks, 1 to 64
+    /// For whole looks, 1 to 64. With a map of shapes, the length is that of the speckle, under a white texture.
+    correlation_length correlation{};
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 
@@ -3390,7 +3541,8 @@ struct k_speckle {
 struct rician {
     parameter steady = 1;  ///< power of the steady echo over that of the others, 0 to 1e6; 0 is Rayleigh
     echo of = echo::amplitude;
-    correlation_length correlation{};  ///< of the others
+    /// With a map, the length is that of the other echoes, and up to 1.4 times as long for the sum.
+    correlation_length correlation{};
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 
@@ -3413,14 +3565,14 @@ struct rician {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/gray.hpp ------------------------------------------------------------------
-// From colour to gray by weights.
+// Filter from colour to gray, as a weighted sum of the channels.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What red, green and blue contribute to gray.
+/// Weights of red, green and blue.
 struct gray_weights {
     double r, g, b;
 };
@@ -3474,11 +3626,11 @@ struct to_gray {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/histogram.hpp -------------------------------------------------------------
-// Histograms of equal bins, and the two filters that MATLAB builds on them: equalize and match.
+// Histograms of equal bins, and MATLAB's two filters on them: equalize and match.
 //
-// NaN is not counted and stays what it is. An image without a number in it passes through; a constant image takes one
-// level, that of its rank: the wanted level at which the cumulative share reaches one half (or 1 at level 0 and the
-// last, as MATLAB's rule has it).
+// NaN is not counted and stays NaN. An image of NaN alone passes through. A constant image takes one level, that of its
+// rank: the wanted level at which the cumulative share reaches one half (or 1 at level 0 and the last, by MATLAB's
+// rule).
 //
 // Based on: MathWorks. Image Processing Toolbox, imhist, histeq, imhistmatch (64 bins, 256 source levels, 65536 for
 // codes of 16 bits).
@@ -3488,8 +3640,8 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// How many pixels there are of each level. Level k of n stands for the value k / (n - 1) and takes what is nearest to
-/// it, ties up; values outside [0, 1] count at the ends. Those of many images add up to that of a data set:
+/// Pixel counts by level. Level k of n counts the values nearest to k / (n - 1), ties up; values outside [0, 1] count
+/// at the ends. Histograms of many images add up to that of a data set:
 ///
 ///     in::histogram all = in::histogram_of(first);
 ///     all += in::histogram_of(second);
@@ -3514,7 +3666,7 @@ struct histogram {
     friend bool operator==(const histogram&, const histogram&) = default;
 };
 
-/// What can be counted: floats in [0, 1], or codes.
+/// Pixel types that histograms count: floats in [0, 1] and codes.
 template <class T>
 concept countable_pixel = std::same_as<T, float> || pixel_code<T>;
 
@@ -3535,7 +3687,7 @@ constexpr std::size_t bin_of(Code code, int bins) {
     return (2 * std::uint64_t{code} * static_cast<std::uint64_t>(bins - 1) + largest) / (2 * largest);
 }
 
-/// The number of values that are not numbers, several at a time.
+/// Counts NaN.
 struct count_nan_kernel {
     const float* values;
     int count;
@@ -3564,12 +3716,12 @@ inline int count_nan(const float* values, int count) {
     return found;
 }
 
-/// Counts codes. Of codes of 8 bits, four tables take turns, because pixels like their neighbours would wait for one
-/// another's count.
+/// Counts codes. For 8 bits, four tables take turns, so that equal adjacent pixels do not wait for one another's
+/// increment.
 template <pixel_code Code>
 class code_counter {
   public:
-    /// Below this many pixels, a part costs more to add up than to count.
+    /// Fewer pixels cost more to merge than to count.
     static constexpr std::size_t least_pixels = sizeof(Code) == 1 ? 1 << 16 : 1 << 20;
 
     code_counter() : counts_(tables * levels) {}
@@ -3587,7 +3739,7 @@ class code_counter {
         }
         for (; i < count; ++i) ++table[codes[i]];
     }
-    /// NaN counts nowhere.
+    /// NaN is not counted.
     void add(const float* values, int count) {
         Code codes[run_length];
         quantize_row(std::span<const float>(values, static_cast<std::size_t>(count)),
@@ -3598,7 +3750,7 @@ class code_counter {
 
     void add_to(histogram& sum) const {
         for (std::size_t i = 0; i < levels; ++i) {
-            std::uint32_t count = 0;  // of fewer than 2^32 pixels; one table may lack what another has too much
+            std::uint32_t count = 0;  // sums wrap correctly: below 2^32 pixels
             for (std::size_t table = 0; table < tables; ++table) count += counts_[table * levels + i];
             sum.counts[i] += count;
         }
@@ -3610,7 +3762,7 @@ class code_counter {
     std::vector<std::uint32_t> counts_;
 };
 
-/// Counts any pixels by any bins.
+/// Counts any pixel type into any number of bins.
 template <class Pixel>
 class bin_counter {
   public:
@@ -3631,11 +3783,11 @@ class bin_counter {
     std::vector<std::uint32_t> counts_;
 };
 
-/// The sum of what counters, made by `make()`, find in parts of an image.
+/// Counts bands of an image with counters made by `make()`, and adds them up.
 template <class Pixel, executor E, class Make>
 histogram count_parts(image_view<const Pixel> source, int bins, E& ex, const Make& make) {
     using counter = decltype(make());
-    // Up to 16 parts of 2^31 pixels at most; a part of more rows than the image has is the image.
+    // About 16 bands, each below 2^31 pixels.
     const std::size_t rows = static_cast<std::size_t>(source.height());
     const auto width = static_cast<std::size_t>((std::max)(source.width(), 1));
     const std::size_t most = (std::size_t{1} << 31) / width, least = counter::least_pixels / width + 1;
@@ -3687,36 +3839,11 @@ histogram histogram_of(const image<Pixel>& source, int bins = 256, E&& ex = {}) 
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// How many levels a source is told apart by.
+/// Number of levels that a source is counted by.
 template <class Pixel>
 inline constexpr int source_levels = std::same_as<Pixel, std::uint16_t> ? 65536 : 256;
 
-/// A value for each of 256 levels.
-template <class T>
-class level_values {
-  public:
-    explicit level_values(std::shared_ptr<const std::vector<T>> values) : values_(std::move(values)) {}
-
-    T operator()(std::uint8_t level) const { return (*values_)[level]; }
-    void row(const std::uint8_t* from, T* to, int count, int, int) const {
-        const T* const values = values_->data();
-        for (int i = 0; i < count; ++i) to[i] = values[from[i]];
-    }
-
-    /// What a function makes of them.
-    template <class F>
-    auto then(const F& f) const {
-        using result = std::invoke_result_t<const F&, const T&>;
-        std::vector<result> results;
-        for (const T& value : *values_) results.push_back(f(value));
-        return level_values<result>(std::make_shared<const std::vector<result>>(std::move(results)));
-    }
-
-  private:
-    std::shared_ptr<const std::vector<T>> values_;  // passes are copied; the table isn't
-};
-
-/// A new value for each level; floats take that of the nearest of 256 levels, NaN stays.
+/// Maps each level to a value; floats take that of the nearest of 256 levels, NaN stays NaN.
 template <countable_pixel Pixel>
 class level_map {
   public:
@@ -3748,15 +3875,12 @@ class level_map {
         }
     }
 
-    /// The same of pixels that are known by their levels.
-    level_values<Pixel> by_level() const { return level_values<Pixel>(values_); }
-
   private:
     std::shared_ptr<const std::vector<Pixel>> values_;  // passes are copied; the table isn't
 };
 
-/// The map of histeq: each source level goes to the first level of `wanted` whose cumulative share reaches that of the
-/// source, less half of the level's own share (which the first and the last level don't get).
+/// The map of histeq: each source level goes to the first level of `wanted` whose cumulative share reaches the
+/// source's, less half of the level's own share except at the first and the last level.
 template <class Pixel>
 level_map<Pixel> map_levels(const histogram& source, const histogram& wanted) {
     const auto source_total = static_cast<double>((std::max)(source.total(), std::uint64_t{1}));
@@ -3785,16 +3909,9 @@ level_map<Pixel> map_levels(const histogram& source, const histogram& wanted) {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// Looks at no more of an image of floats than how often each of 256 levels comes: `f.pass(histogram)` returns a
-/// function of the level.
-template <class F>
-concept level_filter = requires(const F& f, const histogram& counted) {
-    { f.pass(counted) } -> pixel_function<std::uint8_t>;
-};
-
 /// Spreads the values evenly over [0, 1]. MATLAB: histeq(I, levels).
 struct equalize {
-    int levels = 64;  ///< how many different values come out, 2 to 65536
+    int levels = 64;  ///< number of distinct values in the result, 2 to 65536
 
     using is_filter = std::true_type;
 
@@ -3802,21 +3919,14 @@ struct equalize {
     template <countable_pixel Pixel, executor_argument E = serial_executor>
     INSONIFY_MEMBER detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         detail::require_bins("equalize.levels", levels);
-        return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), flat());
+        const histogram flat{std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)};
+        return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), flat);
     }
-    /// For floats that were counted by 256 levels.
-    INSONIFY_MEMBER detail::level_values<float> pass(const histogram& counted) const {
-        detail::require_bins("equalize.levels", levels);
-        return detail::map_levels<float>(counted, flat()).by_level();
-    }
-
-  private:
-    INSONIFY_MEMBER histogram flat() const { return {std::vector<std::uint64_t>(static_cast<std::size_t>(levels), 1)}; }
 };
 
 /// Gives an image the histogram of a reference, by bins: fast, and as coarse as the bins. MATLAB: imhistmatch(I,
-/// reference, bins). The reference is counted once and not kept; what has been counted before, from one image or from
-/// many, does as well. Floats become floats, codes codes.
+/// reference, bins). The reference is counted once and not kept; a histogram of one or many images is taken as well.
+/// Floats become floats, codes become codes.
 class match_binned {
   public:
     using is_filter = std::true_type;
@@ -3840,10 +3950,6 @@ class match_binned {
     INSONIFY_MEMBER detail::level_map<Pixel> pass(image_view<const Pixel> source, E&& ex = {}) const {
         return detail::map_levels<Pixel>(histogram_of(source, detail::source_levels<Pixel>, ex), wanted_);
     }
-    /// For floats that were counted by 256 levels.
-    INSONIFY_MEMBER detail::level_values<float> pass(const histogram& counted) const {
-        return detail::map_levels<float>(counted, wanted_).by_level();
-    }
 
   private:
     histogram wanted_;
@@ -3855,7 +3961,7 @@ class match_binned {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/match.hpp -----------------------------------------------------------------
-// Gives an image the distribution of a reference by exact ranks: no bins, every distinct value counts.
+// Histogram matching by exact ranks: an image takes the distribution of a reference, without bins.
 //
 // Based on: Rafael C. Gonzalez, Richard E. Woods. Digital Image Processing, section 3.3 (histogram specification), with
 // the rule of scikit-image's match_histograms: the share of pixels up to a value, looked up in the reference's shares
@@ -3905,7 +4011,7 @@ inline void sort_keys(std::vector<std::uint32_t>& keys) {
 
 inline namespace INSONIFY_ONCE {
 
-/// Counts the finite pixels; others are passed over.
+/// Distribution of the finite pixels; others are skipped.
 INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source);
 
 #if INSONIFY_BODIES
@@ -3933,7 +4039,7 @@ INSONIFY_FUNCTION distribution distribution_of(image_view<const float> source) {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Counts codes; the values are code / 255 or code / 65535.
+/// Distribution of codes; values are code / 255 or code / 65535.
 template <pixel_code Code, executor_argument E = serial_executor>
 distribution distribution_of(image_view<const Code> source, E&& ex = {}) {
     const histogram codes = histogram_of(source, (std::numeric_limits<Code>::max)() + 1, ex);
@@ -3965,7 +4071,7 @@ inline std::vector<float> values_at_ranks(const distribution& source, const dist
     std::size_t above = 0;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const double rank = static_cast<double>(source.cumulative[i]) / total;
-        // The first share that is no less: not far from the one before, if the source has as many values.
+        // Galloping search for the first share that is not less, starting at the last one found.
         std::size_t step = 1, last = reference.values.size() - 1;
         while (above + step < last && share(above + step) < rank) above += std::exchange(step, 2 * step);
         last = (std::min)(last, above + step);
@@ -3988,7 +4094,7 @@ inline std::vector<float> values_at_ranks(const distribution& source, const dist
     return result;
 }
 
-/// Sends each value that was measured to the value of its rank; a table of buckets finds it in a step or two.
+/// Replaces each value by the reference's value of the same rank; buckets find a value in one or two steps.
 class rank_pass {
   public:
     rank_pass(distribution source, const distribution& reference) {
@@ -4020,7 +4126,7 @@ class rank_pass {
   private:
     struct table {
         std::vector<float> values;          // of the source, rising
-        std::vector<float> ranked;          // what they become
+        std::vector<float> ranked;          // the reference's values at their ranks
         std::vector<std::uint32_t> starts;  // where each bucket of values begins
         double scale = 0;
 
@@ -4034,14 +4140,14 @@ class rank_pass {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// Gives an image the distribution of a reference, by exact ranks. What the reference was is counted once and shared by
-/// copies of the filter. Floats become floats, NaN stays NaN; codes become codes, to the nearest. An image without a
-/// finite pixel passes through.
+/// Gives an image the distribution of a reference, by exact ranks. The reference's distribution is computed once and
+/// shared by copies of the filter. Floats become floats, NaN stays NaN; codes become the nearest codes. An image
+/// without a finite pixel passes through.
 ///
 /// A constant image becomes the reference's largest value, as in scikit-image: all its pixels have the highest rank.
 ///
-/// Floats are sorted, which takes its time; `image | to_uint16 | match | to_float` counts instead, and what is closer
-/// than 1 / 65535 then has one rank.
+/// Floats are sorted. `image | to_uint16 | match | to_float` counts instead and is faster; values closer than 1 / 65535
+/// then share a rank.
 class match_histogram {
   public:
     using is_filter = std::true_type;
@@ -4086,7 +4192,7 @@ class match_histogram {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/noise.hpp -----------------------------------------------------------------
-// Noise by pixel that a sensor or a channel adds: gaussian, speckle (uniform or gaussian) and salt and pepper.
+// Noise filters of sensors and channels: gaussian, speckle (uniform or gaussian), salt and pepper.
 //
 // As in MATLAB's imnoise, the image is clipped to [0, 1] before and after, codes of 8 and 16 bits stand for code / 255
 // and code / 65535, and colours get noise in each channel. NaN (no data) stays NaN.
@@ -4109,7 +4215,7 @@ inline void check_variance(const char* name, const parameter& variance) {
         name, [](float v) { return numeric::is_finite(v) && v >= 0; }, "finite and at least 0");
 }
 
-/// The square roots of a parameter, by runs.
+/// Standard deviations of a variance parameter, run by run.
 class deviation {
   public:
     /// @param factor  by which the variance is multiplied first
@@ -4125,7 +4231,7 @@ class deviation {
         }
         return values_;
     }
-    void place(const pixel_area& area) { variance_.place(name_, area); }
+    void prepare(const pixel_area& area) { variance_.prepare(name_, area); }
 
   private:
     float root(float variance) const {
@@ -4155,13 +4261,13 @@ struct multiplied_draw {
     }
 };
 
-/// One draw per pixel, as wide as a deviation says.
+/// A rule applied with one draw per pixel, scaled by the deviation.
 template <class Draws, class Rule>
 class scaled_law {
   public:
     scaled_law(Rule rule, noise_key noise, deviation scale) : rule_(rule), noise_(noise), scale_(std::move(scale)) {}
 
-    /// With draws that are alike where they are close.
+    /// With correlated draws.
     scaled_law(Rule rule, noise_key noise, deviation scale, const correlation_length& length)
         : scaled_law(rule, noise, std::move(scale)) {
         if (length.x > 0 || length.y > 0)
@@ -4180,7 +4286,7 @@ class scaled_law {
         }
         apply_rule(rule_, from, draws, scale, to, run.count);
     }
-    void place(const pixel_area& area) { scale_.place(area); }
+    void prepare(const pixel_area& area) { scale_.prepare(area); }
 
   private:
     Rule rule_;
@@ -4189,7 +4295,7 @@ class scaled_law {
     std::optional<correlated_draws> correlated_;
 };
 
-/// Black or white by chance: p is uniform in (0, 1].
+/// Salt and pepper: p is uniform in (0, 1].
 struct struck_pixel {
     template <int N>
     INSONIFY_INLINE void apply(lanes<float, N>& value, const lanes<float, N>& p, const lanes<float, N>& density) const {
@@ -4211,7 +4317,7 @@ class salt_law {
         const float* const p = white_draws<unit_draws>(buffer, noise_, 0, run);
         apply_rule(struck_pixel{}, from, p, density, to, run.count);
     }
-    void place(const pixel_area& area) { density_.place("salt_and_pepper.density", area); }
+    void prepare(const pixel_area& area) { density_.prepare("salt_and_pepper.density", area); }
 
   private:
     noise_key noise_;
@@ -4280,10 +4386,10 @@ struct gaussian_speckle {
     }
 };
 
-/// Makes a share of the pixels black or white, half of it each. MATLAB, Octave: imnoise(I, "salt & pepper", density);
-/// scikit-image: random_noise(I, "s&p", amount=density). Pixels without a number stay.
+/// Makes a fraction of the pixels black or white, half each. MATLAB, Octave: imnoise(I, "salt & pepper", density);
+/// scikit-image: random_noise(I, "s&p", amount=density). NaN stays NaN.
 struct salt_and_pepper {
-    parameter density = 0.05f;  ///< the share, 0 to 1
+    parameter density = 0.05f;  ///< fraction of the pixels, 0 to 1
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;  ///< which image of a set
 
@@ -4302,22 +4408,23 @@ struct salt_and_pepper {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/filter/detail/sweep.hpp ----------------------------------------------------------
-// One pass over an image: row by row, in runs that fit the nearest cache, shared out by an executor.
+// ------------ insonify/filter/detail/run_pass.hpp -------------------------------------------------------
+// Runs one pass over an image: row by row, in runs that fit the first-level cache, rows shared out by an executor.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Column and row that filters take the first pixel of an image for.
+/// Column and row of an image's first pixel, for filters that depend on the place: parts of an image that are filtered
+/// one by one pass theirs.
 struct pixel_origin {
     int x = 0, y = 0;
 };
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Neighbours in a row, at most run_length of them; `to` may be `from`.
+/// Applies a pass to at most run_length adjacent pixels of a row; `to` may be `from`.
 template <class Pass, class From, class To>
 INSONIFY_INLINE void call_row(Pass& pass, const From* from, To* to, int count, int x, int y) {
     if constexpr (row_function<Pass, From>) {
@@ -4327,26 +4434,22 @@ INSONIFY_INLINE void call_row(Pass& pass, const From* from, To* to, int count, i
     }
 }
 
-/// Whoever wants to know where the image lies and how large it is before its pixels come is told.
+/// Passes that need the image's origin and size implement `prepare(area)`; it runs before the first pixel.
 template <class Pass>
-void place_pass(Pass& pass, const pixel_area& area) {
-    if constexpr (requires { pass.place(area); }) pass.place(area);
+void prepare_pass(Pass& pass, const pixel_area& area) {
+    if constexpr (requires { pass.prepare(area); }) pass.prepare(area);
 }
 
-/// What is done with a run's pass behind its last row: nothing.
-inline constexpr auto forget_pass = [](const auto&) {};
-
-/// Rows in runs of some 64 Ki pixels, in any order, each with a copy of the pass; `to` may be `from`.
-/// @param done  called with each of the copies, by any of the executor's threads
-template <class From, class To, class Pass, executor E, class Done = decltype(forget_pass)>
-void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin,
-           const Done& done = forget_pass) {
-    Pass placed = pass;
-    place_pass(placed, {origin.x, origin.y, from.width(), from.height()});
+/// Applies a pass to an image, in bands of some 64 Ki pixels in any order, each with its own copy of the pass; `to` may
+/// be `from`.
+template <class From, class To, class Pass, executor E>
+void run_pass(image_view<const From> from, image_view<To> to, const Pass& pass, E& ex, pixel_origin origin) {
+    Pass prepared = pass;
+    prepare_pass(prepared, {origin.x, origin.y, from.width(), from.height()});
     const int rows = 65536 / (std::max)(from.width(), 1) + 1;
     bulk_ranges(ex, static_cast<std::size_t>(from.height()), static_cast<std::size_t>(rows),
                 [&](std::size_t first, std::size_t last) {
-                    Pass own = placed;
+                    Pass own = prepared;
                     for (int y = static_cast<int>(first); y < static_cast<int>(last); ++y) {
                         const From* const source = from.row(y).data();
                         To* const target = to.row(y).data();
@@ -4355,7 +4458,6 @@ void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& 
                             call_row(own, source + x, target + x, count, origin.x + x, origin.y + y);
                         }
                     }
-                    done(own);
                 });
 }
 
@@ -4365,74 +4467,15 @@ void sweep(image_view<const From> from, image_view<To> to, const Pass& pass, E& 
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/filter/detail/level_sweep.hpp ----------------------------------------------------
-// The levels of what a pass makes, and how often each comes: for a filter that looks at no more than that, one sweep
-// instead of two, and a quarter of the memory.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// A pass, and behind it the levels of its floats, counted.
-template <class Pass>
-struct level_pass {
-    Pass pass;
-    code_counter<std::uint8_t> counter{};
-    int nan = 0;
-
-    template <class Pixel>
-    std::uint8_t operator()(const Pixel& pixel, int x, int y) {
-        std::uint8_t level = 0;
-        row(&pixel, &level, 1, x, y);
-        return level;
-    }
-    template <class Pixel>
-    void row(const Pixel* from, std::uint8_t* to, int count, int x, int y) {
-        float values[run_length];
-        call_row(pass, from, values, count, x, y);
-        const auto pixels = static_cast<std::size_t>(count);
-        quantize_row(std::span<const float>(values, pixels), std::span<std::uint8_t>(to, pixels));
-        counter.add(to, count);
-        nan += count_nan(values, count);
-    }
-    void place(const pixel_area& area) { place_pass(pass, area); }
-};
-
-/// The nearest of 256 levels of each float that a pass makes, and how many there are of each; nothing if some of the
-/// floats are no numbers, which have no level.
-template <class From, class Pass, executor E>
-std::optional<histogram> sweep_levels(image_view<const From> from, image_view<std::uint8_t> to, const Pass& pass, E& ex,
-                                      pixel_origin origin) {
-    std::array<std::atomic<std::uint64_t>, 256> counts{};
-    std::atomic<bool> has_nan = false;
-    sweep(from, to, level_pass<Pass>{pass}, ex, origin, [&](const level_pass<Pass>& run) {
-        histogram own{std::vector<std::uint64_t>(counts.size())};
-        run.counter.add_to(own);
-        for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += own.counts[i];
-        if (run.nan > 0) has_nan = true;
-    });
-    if (has_nan) return std::nullopt;
-    return histogram{std::vector<std::uint64_t>(counts.begin(), counts.end())};
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/filter/pipe.hpp ------------------------------------------------------------------
-// Filters by `|`: `image | f` applies, `f | g` makes a chain without touching a pixel, `apply` brings an executor,
-// `apply_into` and `apply_in_place` the memory.
+// Filter pipes: `image | f` applies a filter, `f | g` composes a chain; `apply` takes an executor, `apply_into` and
+// `apply_in_place` the memory of the result.
 //
-// Point-wise neighbours run as one sweep over the image, and a measured stage is the first of the sweep behind it
-// (filter/concept.hpp says which is which). Between the two are the pixels or, where it asks for no more, their levels;
-// if it turns out that one of them is NaN, which has none, the stages before run again.
+// Adjacent point-wise stages run as one pass over the image. A measured stage reads the finished image of the stages
+// before it and starts the next pass (filter/concept.hpp defines both kinds).
 //
-// A user's lambda or class is a filter as it is. One of the two sides of `f | g` must be a filter of the library (they
-// declare `is_filter`) or a chain; `filter_chain<>{} | mine | yours` starts one without.
+// Lambdas and users' classes are filters as they are. One side of `f | g` must declare `is_filter`, as the library's
+// filters do, or be a chain; `filter_chain<>{} | f | g` composes others.
 
 #include <tuple>
 
@@ -4450,7 +4493,7 @@ inline constexpr bool is_image<image<T>> = true;
 template <class T>
 inline constexpr bool is_image<image_view<T>> = true;
 
-/// A stage that is itself the function of the pixel; it outlives the sweep.
+/// A stage that is itself a pixel function. It outlives the pass.
 template <class F>
 struct pass_by_reference {
     const F* stage;
@@ -4470,7 +4513,7 @@ struct untouched {
     }
 };
 
-/// Two passes in one.
+/// Two passes fused into one.
 template <class First, class Second>
 struct fused {
     First first;
@@ -4494,9 +4537,9 @@ struct fused {
             call_row(second, buffer, to, count, x, y);
         }
     }
-    void place(const pixel_area& area) {
-        place_pass(first, area);
-        place_pass(second, area);
+    void prepare(const pixel_area& area) {
+        prepare_pass(first, area);
+        prepare_pass(second, area);
     }
 };
 
@@ -4528,7 +4571,7 @@ struct filter_result<F, Pixel> {
         typename std::remove_cvref_t<decltype(std::declval<const F&>()(std::declval<image<Pixel>>()))>::value_type;
 };
 
-/// Whether each stage takes what the one before it makes.
+/// Whether each stage accepts the result of the one before.
 template <class Pixel>
 constexpr bool chain_takes() {
     return true;
@@ -4542,16 +4585,16 @@ constexpr bool chain_takes() {
     }
 }
 
-/// The pixels go to a new image, or to the memory of the old one where it is given away and the type stays.
+/// Results go to a new image, or in place where the source is an rvalue of the same pixel type.
 struct into_image {};
 
-/// The pixels go where somebody wants them.
+/// Results go to the caller's view.
 template <class To>
 struct into_view {
     image_view<To> target;
 };
 
-/// What stays the same from stage to stage.
+/// Arguments that all stages share.
 template <class E, class Sink>
 struct run_context {
     E& ex;
@@ -4568,7 +4611,7 @@ image_view<const T> look_at(image_view<T> source) {
     return source;
 }
 
-/// The pixels behind a pass, in the source's own memory where that is ours and fits.
+/// Runs a pass and returns its image: in place where the source is an rvalue of the same pixel type.
 template <class Source, class Pass, executor E>
 auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) {
     using from = typename std::remove_cvref_t<Source>::value_type;
@@ -4577,11 +4620,11 @@ auto materialize(Source&& source, const Pass& pass, E& ex, pixel_origin origin) 
     if constexpr (std::is_same_v<Pass, untouched>) {
         return image<from>(std::forward<Source>(source));
     } else if constexpr (owned && std::is_same_v<from, to>) {
-        sweep(look_at(source), source.view(), pass, ex, origin);
+        run_pass(look_at(source), source.view(), pass, ex, origin);
         return std::move(source);
     } else {
         image<to> out(source.width(), source.height(), uninitialized{}, memory_of(ex));
-        sweep(look_at(source), out.view(), pass, ex, origin);
+        run_pass(look_at(source), out.view(), pass, ex, origin);
         return out;
     }
 }
@@ -4591,14 +4634,7 @@ concept library_filter = requires {
     typename std::remove_cvref_t<F>::is_filter;
 };
 
-/// A filter of the library behind a pass of few values: each is asked for once, not pixel by pixel.
-template <class Pass, class F>
-concept by_value_of_level = library_filter<F> && requires(const Pass& pass, const F& f) {
-    f(pass(std::uint8_t{}));
-    pass.then(f);
-};
-
-/// Runs the stages on `source`, of which `pass` is still to be done.
+/// Runs the stages on `source` after `pass`, which has not run yet.
 template <class Source, class Pass, class E>
 auto run_stages(Source&& source, const Pass& pass, const run_context<E, into_image>& run) {
     return materialize(std::forward<Source>(source), pass, run.ex, run.origin);
@@ -4608,7 +4644,7 @@ void run_stages(const Source& source, const Pass& pass, const run_context<E, int
     const image_view<To> target = run.sink.target;
     require(source.width() == target.width(), "to.width()", target.width(), "that of the result");
     require(source.height() == target.height(), "to.height()", target.height(), "that of the result");
-    sweep(look_at(source), target, pass, run.ex, run.origin);
+    run_pass(look_at(source), target, pass, run.ex, run.origin);
 }
 template <class Source, class Pass, class E, class Sink, class F, class... Rest>
 auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& run, const F& stage,
@@ -4625,17 +4661,9 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
     } else if constexpr (clean) {
         return run_stages(std::forward<Source>(source), make_pass(stage, look_at(source), run.ex), run, rest...);
     } else if constexpr (measured_filter<F, pixel>) {
-        if constexpr (std::same_as<pixel, float> && level_filter<F>) {
-            // Levels are a quarter of what the pixels are.
-            image<std::uint8_t> levels(source.width(), source.height(), uninitialized{}, memory_of(run.ex));
-            if (const auto counted = sweep_levels(look_at(source), levels.view(), pass, run.ex, run.origin))
-                return run_stages(std::move(levels), stage.pass(*counted), run, rest...);
-        }
         image<pixel> seen = materialize(std::forward<Source>(source), pass, run.ex, run.origin);
         const auto next = make_pass(stage, look_at(seen), run.ex);
         return run_stages(std::move(seen), next, run, rest...);
-    } else if constexpr (by_value_of_level<Pass, F>) {
-        return run_stages(std::forward<Source>(source), pass.then(stage), run, rest...);
     } else {
         auto next = make_pass(stage, image_view<const pixel>{}, run.ex);
         return run_stages(std::forward<Source>(source), fused<Pass, decltype(next)>{pass, std::move(next)}, run,
@@ -4645,7 +4673,8 @@ auto run_stages(Source&& source, const Pass& pass, const run_context<E, Sink>& r
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// Filters in a row, made by `f | g`. Stages are kept by value; the same chain serves any number of images.
+/// A sequence of filters, composed by `f | g`. Stages are stored by value; a chain may be applied to any number of
+/// images.
 template <class... Stages>
 struct filter_chain {
     using is_filter = std::true_type;
@@ -4707,12 +4736,12 @@ auto apply_to(Source&& source, const F& f, E& ex, pixel_origin origin, Sink sink
 
 inline namespace INSONIFY_FLAGS {
 
-/// The filtered image, its rows shared out by the executor; the same bytes for any executor. An image that is moved in
-/// lends its memory to the result where the pixel type stays.
+/// Applies a filter; the result is the same bytes for any executor. An image that is moved in is filtered in place
+/// where the pixel type stays.
 ///
-/// @param origin  where the image's first pixel lies in a larger one: parts that are filtered one by one get the noise
-///                of the whole. What measures an image measures the part.
-/// @throws whatever a stage says of its parameters, before the first pixel of its sweep
+/// @param origin  position of the image's first pixel in a larger one: parts that are filtered one by one get the noise
+///                of the whole. Measured filters measure the part.
+/// @throws what a stage throws for its parameters, before the first pixel of its pass
 template <class Pixel, filter_for<Pixel> F, executor_argument Executor = serial_executor>
 auto apply(const image<Pixel>& in, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
     return detail::apply_to(in, f, ex, origin, detail::into_image{});
@@ -4728,8 +4757,8 @@ auto apply(image_view<Pixel> in, const F& f, Executor&& ex = serial_executor{}, 
     return detail::apply_to(in, f, ex, origin, detail::into_image{});
 }
 
-/// Filters into memory that is there already. `to` is all of `in` (no other part of it) or apart from it.
-/// @throws invalid_input if `to` isn't as large as the result; and as `apply`
+/// Filters into the caller's memory. `to` is exactly `in`, or does not overlap it.
+/// @throws invalid_input if `to` does not have the size of the result; and as `apply`
 template <class Pixel, class To, filter_for<std::remove_const_t<Pixel>> F, executor_argument Executor = serial_executor>
     requires(std::same_as<typename detail::filter_result<F, std::remove_const_t<Pixel>>::type, To>)
 void apply_into(image_view<Pixel> in, image_view<To> to, const F& f, Executor&& ex = serial_executor{},
@@ -4737,7 +4766,7 @@ void apply_into(image_view<Pixel> in, image_view<To> to, const F& f, Executor&& 
     detail::apply_to(in, f, ex, origin, detail::into_view<To>{to});
 }
 
-/// Filters where the pixels are.
+/// Filters in place.
 template <class Pixel, filter_for<Pixel> F, executor_argument Executor = serial_executor>
     requires(std::same_as<typename detail::filter_result<F, Pixel>::type, Pixel>)
 void apply_in_place(image_view<Pixel> pixels, const F& f, Executor&& ex = serial_executor{}, pixel_origin origin = {}) {
@@ -4760,7 +4789,7 @@ auto operator|(image_view<Pixel> in, const F& f) {
     return apply(in, f);
 }
 
-// A filter of the library on pixels that it, or a stage of it, doesn't take: compilers show these lines.
+// Deleted overloads, so that compilers name the filter that does not accept these pixels.
 // clang-format off
 template <class Pixel, detail::library_filter F>
 void operator|(const image<Pixel>&, const F&) requires(!filter_for<F, Pixel>) = delete;
@@ -4768,7 +4797,7 @@ template <class Pixel, detail::library_filter F>
 void operator|(image_view<Pixel>, const F&) requires(!filter_for<F, std::remove_const_t<Pixel>>) = delete;
 // clang-format on
 
-/// `filter | filter`: both in a row, for later. One of them must be a filter of the library or a chain.
+/// `filter | filter`: a chain of both. One of them must be a filter of the library or a chain.
 template <detail::stage F, detail::stage G>
     requires(detail::library_filter<F> || detail::library_filter<G>)
 auto operator|(F&& f, G&& g) {
@@ -4783,209 +4812,14 @@ auto operator|(F&& f, G&& g) {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/filter/detail/poisson_tables.hpp -------------------------------------------------
-// Poisson counts of means below 256, with neither logarithm nor second trial: the whole part of a mean has a table, its
-// rest so small a count that a few sums find it, and two Poisson counts added are one.
-//
-// Based on: Alastair J. Walker. An Efficient Method for Generating Discrete Random Variables with General
-// Distributions. ACM Transactions on Mathematical Software 3, 1977. Michael D. Vose. A Linear Algorithm for Generating
-// Random Numbers with a Given Distribution. IEEE Transactions on Software Engineering 17, 1991 (how to fill the table).
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// For each whole mean below 256 the laws of 256 counts in a row, eight standard deviations and more to either side.
-///
-/// A word draws from them exactly: its upper byte names a slot, and its other bits tell whether the slot's own count is
-/// meant or its alias. Probabilities are rounded to multiples of 2^-32.
-class poisson_tables {
-  public:
-    static constexpr int means = 256, slots = 256, slot_bits = 8, share_bits = 24;
-
-    poisson_tables() : entries_(std::make_unique<std::uint32_t[]>(means * slots)) {
-        for (int mean = 0; mean < means; ++mean) fill(mean, entries_.get() + mean * slots);
-    }
-
-    /// The count of a mean's first slot.
-    static constexpr int first(int mean) { return mean > slots / 2 ? mean - slots / 2 : 0; }
-
-    /// Of slot s of mean m, at slots m + s: how many words in 2^24 mean itself, then the slot of the others.
-    const std::uint32_t* entries() const { return entries_.get(); }
-
-    /// Those that everyone shares: made by who needs them first, in a millisecond.
-    static const poisson_tables& shared() {
-        static const poisson_tables tables;
-        return tables;
-    }
-
-  private:
-    using weights = std::array<std::int64_t, slots>;
-
-    /// How many words of 2^32 mean each slot's count.
-    static weights words_of(int mean) {
-        const int begin = first(mean), mode = mean - begin;
-        // Each probability is the one before it times mean / count; the largest is 1 until the sum is known.
-        std::array<double, slots> p{};
-        p[static_cast<std::size_t>(mode)] = 1;
-        for (int i = mode; i > 0; --i)
-            p[static_cast<std::size_t>(i - 1)] = p[static_cast<std::size_t>(i)] * (begin + i) / mean;
-        for (int i = mode + 1; i < slots; ++i)
-            p[static_cast<std::size_t>(i)] = p[static_cast<std::size_t>(i - 1)] * mean / (begin + i);
-        double sum = 0;
-        for (const double value : p) sum += value;
-        weights words{};
-        std::int64_t left = std::int64_t{1} << 32;
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            words[i] = static_cast<std::int64_t>(p[i] / sum * 0x1p32 + 0.5);
-            left -= words[i];
-        }
-        words[static_cast<std::size_t>(mode)] += left;
-        return words;
-    }
-
-    static void fill(int mean, std::uint32_t* entries) {
-        constexpr std::int64_t room = std::int64_t{1} << share_bits;
-        weights words = words_of(mean);
-        // Slots with words to spare fill those that lack some, and may come to lack some themselves.
-        std::array<int, slots> lacking, rich;
-        int lacking_count = 0, rich_count = 0;
-        for (int i = 0; i < slots; ++i) {
-            if (words[static_cast<std::size_t>(i)] < room)
-                lacking[static_cast<std::size_t>(lacking_count++)] = i;
-            else
-                rich[static_cast<std::size_t>(rich_count++)] = i;
-        }
-        while (lacking_count > 0) {
-            const int poor = lacking[static_cast<std::size_t>(--lacking_count)];
-            const int giver = rich[static_cast<std::size_t>(rich_count - 1)];
-            const std::int64_t own = words[static_cast<std::size_t>(poor)];
-            std::int64_t& others = words[static_cast<std::size_t>(giver)];
-            entries[poor] = static_cast<std::uint32_t>(own << slot_bits | giver);
-            others -= room - own;
-            if (others < room) {
-                --rich_count;
-                lacking[static_cast<std::size_t>(lacking_count++)] = giver;
-            }
-        }
-        // What is full has no need of others.
-        while (rich_count > 0) {
-            const int full = rich[static_cast<std::size_t>(--rich_count)];
-            entries[full] = static_cast<std::uint32_t>(full);
-        }
-    }
-
-    std::unique_ptr<std::uint32_t[]> entries_;
-};
-
-/// How many of a Poisson law's events a uniform number means, for means in [0, 1): as many as there are k whose
-/// probability of more than k it doesn't exceed. No probability is off by more than 2e-7.
-template <int N>
-INSONIFY_INLINE void rare_count(lanes<std::int32_t, N>& into, const lanes<float, N>& mean,
-                                const lanes<float, N>& uniform) {
-    using floats = lanes<float, N>;
-    using ints = lanes<std::int32_t, N>;
-    const floats m = mean;
-    // 1 - exp(-m), without the difference.
-    floats more = 1.0f - m * (1 / 10.0f);
-    unroll<8>([&](int i) INSONIFY_INLINE_LAMBDA { more = 1.0f - m * (1 / static_cast<float>(9 - i)) * more; });
-    more = m * more;
-    const floats none = 1.0f - more;
-    floats power = m;  // m^k / k!
-    into = ints{};
-    const auto step = [&](float k) INSONIFY_INLINE_LAMBDA {
-        const ints reached = ints(uniform <= more);
-        into = reached != 0 ? into + 1 : into;
-        more = more - none * power;
-        power = power * (m * (1 / (k + 1)));
-        more = more < power ? more : power;  // as it is, so that what rounding leaves is no probability
-    };
-    // More than four are so rare that none is easy to guess.
-    unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { step(static_cast<float>(i + 1)); });
-    for (float k = 5; any(ints(uniform <= more)); ++k) step(k);
-}
-
-/// Draws the counts of a run's pixels whose means are below 256. Of the others it makes a list, and their means.
-struct poisson_table_kernel {
-    static constexpr int widest = 16;
-
-    const std::uint32_t* tables;
-    const float* from;
-    const float* word;  // its bits
-    const float* uniform;
-    float* to;
-    int count;
-    float photons;
-    pixel_list* large;
-
-    template <int N>
-    INSONIFY_INLINE void run() const {
-        const poisson_table_kernel own = *this;  // which nothing that is stored can change
-        int listed = 0, i = 0;
-        for (; i + N <= own.count; i += N) own.at<N>(i, listed);
-        for (; i < own.count; ++i) own.at<1>(i, listed);
-        own.large->count = listed;
-    }
-
-  private:
-    template <int N>
-    INSONIFY_INLINE void at(int i, int& listed) const {
-        using floats = lanes<float, N>;
-        using ints = lanes<std::int32_t, N>;
-        floats pixel, drawn;
-        lanes<std::uint32_t, N> bits;
-        load(pixel, from + i), load(drawn, uniform + i), load(bits, word + i);
-        floats mean = pixel;
-        clip_lanes<N>(mean);
-        mean = mean * photons;
-        const ints is_small = ints(mean < static_cast<float>(poisson_tables::means));
-        const floats table_mean = is_small != 0 ? mean : floats{};
-        ints whole, table_count, rare;
-        floats whole_mean, result;
-        convert(whole, table_mean);
-        convert(whole_mean, whole);
-        drawn_slot<N>(table_count, whole, bits);
-        rare_count<N>(rare, table_mean - whole_mean, drawn);
-        convert(result, ints(table_count + rare));
-        result = result / photons;
-        clip_lanes<N>(result);
-        store(to + i, is_small != 0 ? result : mean);
-        const ints is_large = ints(mean >= static_cast<float>(poisson_tables::means));
-        if (any(is_large)) {
-            for (int k = 0; k < N; ++k) add_if((lane(is_large, k) & 1) != 0, i + k, large->places, listed);
-        }
-    }
-
-    /// The count that a word means in the table of a whole mean.
-    template <int N>
-    INSONIFY_INLINE void drawn_slot(lanes<std::int32_t, N>& into, const lanes<std::int32_t, N>& mean,
-                                    const lanes<std::uint32_t, N>& bits) const {
-        using ints = lanes<std::int32_t, N>;
-        constexpr std::int32_t slot_mask = poisson_tables::slots - 1,
-                               share_mask = (1 << poisson_tables::share_bits) - 1;
-        const ints own = ints(bits >> poisson_tables::share_bits);
-        const ints index = (mean << poisson_tables::slot_bits) | own;
-        lanes<std::uint32_t, N> entry;
-        gather<N>(entry, [&](int k) { return tables[lane(index, k)]; });
-        const ints share = ints(entry >> poisson_tables::slot_bits), place = ints(bits) & share_mask;
-        const ints beyond = mean - poisson_tables::slots / 2;
-        into = (place < share ? own : ints(entry) & slot_mask) + (beyond > 0 ? beyond : ints{});
-    }
-};
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/filter/poisson.hpp ---------------------------------------------------------------
-// Shot noise: each pixel becomes the count of a Poisson draw whose mean it was.
+// Shot noise: each pixel becomes a Poisson count whose mean it was.
+//
+// Counts of means below 10 are found by inversion, larger ones by transformed rejection with squeeze, in 1.1 to 1.2
+// trials. Both follow the Poisson law to the 2^-32 of their uniform numbers.
 //
 // Based on: Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random Variables. Insurance:
-// Mathematics and Economics 12, 1993 (algorithm PTRS, means of 256 and above; below there are tables).
+// Mathematics and Economics 12, 1993 (algorithm PTRS).
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -4994,104 +4828,127 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// ln k! - k ln m + m for whole k >= 10 and m > 0, less half of ln(k + 1): what is left of a Poisson probability,
-/// without the large terms that cancel. Stirling's series to below 1e-11.
+/// ln k! less Stirling's (k + 1/2) ln(k + 1) - (k + 1) + ln(2 pi) / 2, for k from 0 to 9.
+inline constexpr std::array<double, 10> stirling_error = [] {
+    std::array<double, 10> error{};
+    double log_factorial = 0;
+    for (std::size_t k = 0; k < error.size(); ++k) {
+        const double n = static_cast<double>(k + 1);
+        error[k] = log_factorial - ((n - 0.5) * numeric::log(n) - n + 0.91893853320467274);
+        log_factorial += numeric::log(n);
+    }
+    return error;
+}();
+
+/// ln k! - k ln m + m - ln(k + 1) / 2 for whole k >= 0 and m > 0: minus the logarithm of a Poisson probability, without
+/// the large terms that cancel. To 1e-11.
 template <int N>
 INSONIFY_INLINE void poisson_deficit(lanes<double, N>& into, const lanes<double, N>& k, const lanes<double, N>& m) {
     using doubles = lanes<double, N>;
     constexpr double half_log_two_pi = 0.91893853320467274;
     const doubles n = k + 1.0, r = 1.0 / n, s = r * r;
-    const doubles tail = (1.0 / 12 - (1.0 / 360 - (1.0 / 1260 - s * (1.0 / 1680)) * s) * s) * r;
+    doubles error = (1.0 / 12 - (1.0 / 360 - (1.0 / 1260 - s * (1.0 / 1680)) * s) * s) * r;
+    if (any(lanes<std::int64_t, N>(k < 10.0))) {
+        for (int i = 0; i < N; ++i)
+            if (lane(k, i) < 10) set_lane(error, i, stirling_error[static_cast<std::size_t>(lane(k, i))]);
+    }
     doubles log_ratio;
     log_lanes<N>(log_ratio, m * r);
-    into = (m - n) - k * log_ratio + (half_log_two_pi + tail);
+    into = (m - n) - k * log_ratio + (half_log_two_pi + error);
 }
 
-/// For means of 256 and above, where counts below 10 don't occur: transformed rejection with squeeze; 1.1 attempts, two
-/// of them from one block.
-struct poisson_rejection {
+/// Draws Poisson counts for rejection_kernel, two trials a block.
+struct poisson_counts {
+    static constexpr double min_rejection_mean = 10;
+
     static std::uint32_t block(std::uint32_t trial) { return trial / 2; }
 
     template <int N>
     INSONIFY_INLINE void attempt(lanes<double, N>& count, lanes<std::int64_t, N>& settled,
                                  const lanes<std::uint64_t, N> (&word)[4], const lanes<double, N>& mean,
                                  std::uint32_t trial) const {
-        using doubles = lanes<double, N>;
         using flags = lanes<std::int64_t, N>;
-        doubles u, v, b;
+        lanes<double, N> u, v;
         uniform_lanes<N>(u, word[2 * (trial & 1)]);
         uniform_lanes<N>(v, word[2 * (trial & 1) + 1]);
-        u = u - 0.5;
-        square_root<N>(b, mean);
-        b = 0.931 + 2.53 * b;
-        const doubles a = -0.059 + 0.02483 * b;
+        const flags is_small = flags(mean < min_rejection_mean);
+        count = lanes<double, N>{};
+        settled = is_small;
+        if (any(flags(is_small == 0))) reject<N>(count, settled, u, v, mean);
+        if (any(is_small)) invert<N>(count, u, mean);
+    }
+
+  private:
+    /// The smallest count whose cumulative probability reaches u, where the mean is small.
+    template <int N>
+    INSONIFY_INLINE static void invert(lanes<double, N>& count, const lanes<double, N>& u,
+                                       const lanes<double, N>& mean) {
+        for (int i = 0; i < N; ++i) {
+            const double m = lane(mean, i);
+            if (!(m < min_rejection_mean)) continue;
+            double k = 0, p = numeric::exp(-m), sum = p;
+            while (sum < lane(u, i) && k < 100) {
+                k += 1;
+                p *= m / k;
+                sum += p;
+            }
+            set_lane(count, i, k);
+        }
+    }
+
+    template <int N>
+    INSONIFY_INLINE static void reject(lanes<double, N>& count, lanes<std::int64_t, N>& settled,
+                                       const lanes<double, N>& uniform, const lanes<double, N>& v,
+                                       const lanes<double, N>& mean) {
+        using doubles = lanes<double, N>;
+        using flags = lanes<std::int64_t, N>;
+        const doubles u = uniform - 0.5;
+        doubles root;
+        square_root<N>(root, mean);
+        const doubles b = 0.931 + 2.53 * root, a = -0.059 + 0.02483 * b;
         const doubles edge = 0.5 - (u < 0.0 ? 0.0 - u : u);
         floor_lanes<N>(count, (2.0 * a / edge + b) * u + mean + 0.43);
         const flags squeezed = flags(edge >= 0.07) & flags((0.9277 - v) * (b - 2.0) >= 3.6224);
         // Hormann's ln(v / (alpha (a / edge^2 + b))) <= k ln m - m - ln k!, in fewer logarithms and quotients.
         const doubles square = edge * edge;
         const doubles height = v * (1.1239 * b - (1.1239 * 3.4 - 1.1328)) * square / ((b - 3.4) * (a + b * square));
-        const doubles whole = count > 10.0 ? count : doubles{} + 10.0;
+        const doubles k = count > 0.0 ? count : doubles{};
         doubles log_height, deficit;
-        log_lanes<N>(log_height, height * height * (whole + 1.0));
-        poisson_deficit<N>(deficit, whole, mean);
-        settled = squeezed | (flags(count >= 10.0) & (flags(edge >= 0.013) | flags(v <= edge)) &
-                              flags(0.5 * log_height + deficit <= 0.0));
+        log_lanes<N>(log_height, height * height * (k + 1.0));
+        poisson_deficit<N>(deficit, k, mean);
+        settled = settled | squeezed |
+                  (flags(count >= 0.0) & (flags(edge >= 0.013) | flags(v <= edge)) &
+                   flags(0.5 * log_height + deficit <= 0.0));
     }
 };
 
-/// Counts of means of 256 and above, exactly.
-struct rejected_large_counts {
-    noise_key noise;
-
-    /// Pixels of the list become counts over photons; they held their means.
-    void operator()(float* pixels, const pixel_list& large, const noise_run& run, float photons) const {
-        double mean[run_length], count[run_length];
-        pixel_list open = large;
-        for (int k = 0; k < large.count; ++k) mean[large.places[k]] = static_cast<double>(pixels[large.places[k]]);
-        dispatch(rejection_kernel<poisson_rejection>{{}, mean, count, &open, run, noise}, best_isa());
-        for (int k = 0; k < large.count; ++k) {
-            const std::uint16_t i = large.places[k];
-            pixels[i] = clip_to_unit(static_cast<float>(count[i] / static_cast<double>(photons)));
-        }
-    }
-};
-
-/// @tparam LargeCounts  what draws for means of 256 and above
-template <class LargeCounts>
 class poisson_law {
   public:
-    /// @param photons  for a pixel of 1; 0: as many as the pixel has levels, or 1e6 for floats
-    poisson_law(float photons, std::uint64_t seed, std::uint32_t frame, LargeCounts large_counts)
-        : photons_(photons), small_(seed, noise_stream::small_poisson, frame), large_counts_(large_counts) {}
+    poisson_law(float photons, noise_key noise) : photons_(photons), noise_(noise) {}
 
     void row(const float* from, float* to, const noise_run& run) const {
-        const float photons = photons_ > 0 ? photons_ : run.levels > 1 ? static_cast<float>(run.levels) : 1e6f;
-        draw_buffer words, uniforms;
-        const float* const word = white_draws<word_draws>(words, small_, 0, run);
-        const float* const uniform = white_draws<unit_draws>(uniforms, small_, 1, run);
-        pixel_list large;
-        dispatch(poisson_table_kernel{poisson_tables::shared().entries(), from, word, uniform, to, run.count, photons,
-                                      &large},
-                 best_isa());
-        if (large.count > 0) large_counts_(to, large, run, photons);
+        double mean[run_length], count[run_length];
+        pixel_list open;
+        for (int i = 0; i < run.count; ++i) {
+            count[i] = mean[i] = static_cast<double>(clip_to_unit(from[i]) * photons_);
+            add_if(mean[i] == mean[i], i, open.places, open.count);
+        }
+        dispatch(rejection_kernel<poisson_counts>{{}, mean, count, &open, run, noise_}, best_isa());
+        for (int i = 0; i < run.count; ++i)
+            to[i] = clip_to_unit(static_cast<float>(count[i] / static_cast<double>(photons_)));
     }
-    void place(const pixel_area&) {}
+    void prepare(const pixel_area&) {}
 
   private:
     float photons_;
-    noise_key small_;
-    LargeCounts large_counts_;
+    noise_key noise_;
 };
-
-inline auto exact_poisson(float photons, std::uint64_t seed, std::uint32_t frame) {
-    return noise_pass(poisson_law(photons, seed, frame, rejected_large_counts{{seed, noise_stream::poisson, frame}}));
-}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
 /// Poisson counts: J = k / photons, k drawn with the mean I photons. The default is what MATLAB's
-/// imnoise(I, "poisson") does to uint8 images; its rule for doubles, photons = 1e12, is no noise at all to the eye.
+/// imnoise(I, "poisson") does to uint8 images; for its other classes, photons is 65535 (uint16), 1e6 (single) or 1e12
+/// (double), which is no visible noise at all.
 struct poisson {
     float photons = 255;  ///< mean count of a white pixel, in (0, 1e9]
     std::uint64_t seed = 0;
@@ -5100,114 +4957,9 @@ struct poisson {
     using is_filter = std::true_type;
 
     /// @throws invalid_input for photons outside (0, 1e9]
-    INSONIFY_MEMBER auto pass() const {
-        detail::require(photons > 0 && photons <= 1e9f, "poisson.photons", photons, "above 0 and at most 1e9");
-        return detail::exact_poisson(photons, seed, frame);
-    }
-};
-
-/// MATLAB's rule by class: codes of 8 and 16 bits are counts themselves, floats (MATLAB: single) count 1e6 for white.
-/// On 8 bits the same draws as `poisson{}`.
-struct matlab_poisson {
-    std::uint64_t seed = 0;
-    std::uint32_t frame = 0;  ///< which image of a set
-
-    using is_filter = std::true_type;
-
-    INSONIFY_MEMBER auto pass() const { return detail::exact_poisson(0, seed, frame); }
-};
-
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/filter/quick_poisson.hpp ---------------------------------------------------------
-// Shot noise by a formula where counts are large: nearly those of poisson.hpp, and faster.
-//
-// Based on: Edmund A. Cornish, Ronald A. Fisher. Moments and Cumulants in the Specification of Distributions. Review of
-// the International Statistical Institute 5, 1938 (third order). William F. Sheppard. On the Calculation of the most
-// Probable Values of Frequency-Constants. Proceedings of the London Mathematical Society 29, 1898 (what rounding adds
-// to a variance, 1 / 12).
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-
-namespace detail::inline INSONIFY_FLAGS {
-
-/// The count that a normal draw z means, for means of 256 and above.
-template <int N>
-INSONIFY_INLINE void count_of_normal(lanes<float, N>& into, const lanes<float, N>& mean, const lanes<float, N>& z) {
-    using floats = lanes<float, N>;
-    floats root;
-    square_root<N>(root, mean - static_cast<float>(1.0 / 12));
-    const floats square = z * z;
-    const floats skewed =
-        (square - 1.0f) * static_cast<float>(1.0 / 6) + z * (1.0f - square) * static_cast<float>(1.0 / 72) / root;
-    lanes<std::int32_t, N> whole;
-    convert(whole, floats(mean + (0.5f + root * z + skewed)));
-    convert(into, whole);
-}
-
-struct quick_poisson_kernel {
-    const float* normal;
-    float* pixels;
-    const pixel_list* large;
-    float photons;
-
-    template <int N>
-    INSONIFY_INLINE void run() const {
-        const quick_poisson_kernel own = *this;  // which nothing that is stored can change
-        int i = 0;
-        for (; i + N <= own.large->count; i += N) own.at<N>(own.large->places + i);
-        for (; i < own.large->count; ++i) own.at<1>(own.large->places + i);
-    }
-
-  private:
-    template <int N>
-    INSONIFY_INLINE void at(const std::uint16_t* places) const {
-        lanes<float, N> mean, z, count;
-        gather<N>(mean, [&](int k) { return pixels[places[k]]; });
-        gather<N>(z, [&](int k) { return normal[places[k]]; });
-        count_of_normal<N>(count, mean, z);
-        count = count / photons;
-        clip_lanes<N>(count);
-        for (int k = 0; k < N; ++k) pixels[places[k]] = lane(count, k);
-    }
-};
-
-/// Counts of means of 256 and above, nearly.
-struct quick_large_counts {
-    noise_key noise;
-
-    /// Pixels of the list become counts over photons; they held their means.
-    void operator()(float* pixels, const pixel_list& large, const noise_run& run, float photons) const {
-        draw_buffer buffer;
-        const float* const normal = white_draws<normal_draws>(buffer, noise, 0, run);
-        dispatch(quick_poisson_kernel{normal, pixels, &large, photons}, best_isa());
-    }
-};
-
-}  // namespace detail::inline INSONIFY_FLAGS
-
-/// Poisson counts where a normal draw, bent as the distribution is, will do. Means below 256 are drawn exactly, to
-/// `poisson`'s very counts; from there on, no set of counts is more probable or less than it should be by more than
-/// 3e-5, less for larger means.
-struct quick_poisson {
-    float photons = 255;  ///< mean count of a white pixel, in (0, 1e6]
-    std::uint64_t seed = 0;
-    std::uint32_t frame = 0;  ///< which image of a set
-
-    using is_filter = std::true_type;
-
-    /// @throws invalid_input for photons outside (0, 1e6]
     INSONIFY_TAGGED auto pass() const {
-        detail::require(photons > 0 && photons <= 1e6f, "quick_poisson.photons", photons, "above 0 and at most 1e6");
-        using namespace detail;
-        return noise_pass(
-            poisson_law(photons, seed, frame, quick_large_counts{{seed, noise_stream::quick_poisson, frame}}));
+        detail::require(photons > 0 && photons <= 1e9f, "poisson.photons", photons, "above 0 and at most 1e9");
+        return detail::noise_pass(detail::poisson_law(photons, {seed, detail::noise_stream::poisson, frame}));
     }
 };
 
@@ -5217,7 +4969,7 @@ struct quick_poisson {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/filter/where.hpp -----------------------------------------------------------------
-// A filter for some of the pixels: `image | where(labels.shadow, match)` measures and changes these and no others.
+// Masked filters: `image | where(labels.shadow, match)` measures and changes the pixels of the mask alone.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -5226,7 +4978,7 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A pass for the pixels of a mask that are not 0; the others stay.
+/// Applies a pass where the mask is not 0 and copies the other pixels.
 template <class Pass>
 class masked_pass {
   public:
@@ -5243,10 +4995,10 @@ class masked_pass {
         const std::uint8_t* const chosen = mask_.row(y - y_).data() + (x - x_);
         for (int i = 0; i < count; ++i) to[i] = chosen[i] != 0 ? changed[i] : from[i];
     }
-    void place(const pixel_area& area) {
+    void prepare(const pixel_area& area) {
         check_size("where", mask_.width(), mask_.height(), area);
         x_ = area.x, y_ = area.y;
-        place_pass(pass_, area);
+        prepare_pass(pass_, area);
     }
 
   private:
@@ -5259,8 +5011,8 @@ class masked_pass {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The pixels where the mask isn't 0, in one row: what `histogram_of`, `distribution_of` and the filters that match
-/// take for a reference, if only a part of a picture is one.
+/// The pixels where the mask is not 0, as one row: a reference for `histogram_of`, `distribution_of` and the matching
+/// filters where only part of an image is to count.
 /// @throws invalid_input for a mask of another size
 template <class Pixel>
 image<Pixel> pixels_where(image_view<const std::uint8_t> mask, image_view<const Pixel> source) {
@@ -5307,8 +5059,8 @@ struct where_filter {
     }
 };
 
-/// Does to the pixels where `mask` isn't 0 what a filter does, and leaves the others alone. A filter that measures
-/// measures these alone. Nothing changes where the mask chooses nothing.
+/// Applies a filter where `mask` is not 0; the other pixels stay. Measured filters measure the masked pixels alone. An
+/// empty mask leaves the image as it is.
 ///
 ///     image | where(is_seabed, match_histogram(pixels_where(reference_mask, reference)))
 ///
@@ -5318,7 +5070,7 @@ template <class F>
 where_filter<std::decay_t<F>> where(image_view<const std::uint8_t> mask, F&& filter) {
     return {mask, std::forward<F>(filter)};
 }
-/// Does so stage by stage.
+/// The same for each stage of a chain.
 template <class... Stages>
 filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask, const filter_chain<Stages...>& chain) {
     return std::apply(
@@ -5393,7 +5145,7 @@ inline void validate(const mesh& m) {
 }  // namespace insonify
 
 // ------------ insonify/geometry/transform.hpp -----------------------------------------------------------
-// Where a mesh stands in the world: poses for people, affine maps for the machine. Double precision throughout.
+// Placement of meshes in the world: poses for users, affine maps for computation. Double precision throughout.
 //
 // A world position may be 10^7 m from the origin (UTM), where a float steps by 1 m. Compose the maps first, from object
 // to camera, and round to float last.
@@ -5511,7 +5263,7 @@ inline mesh transformed(mesh m, const affine& map) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/camera.hpp --------------------------------------------------------------
-// A camera for `draw`: where it stands, what it looks at, and the perspective of its picture.
+// A camera for `draw`: position, target, and perspective projection.
 //
 // Its clip space is the library's: visible is -w <= x <= w, -w <= y <= w with y up, and 0 <= z <= w. Depth is reversed,
 // z / w = z_near / distance, so that precision does not fall off far away (draw with keep_depth::larger).
@@ -5531,7 +5283,7 @@ struct camera {
     glm::dvec3 up{0, 0, 1};                                     ///< appears upwards; not along the line of sight
     float field_of_view = static_cast<float>(numeric::pi / 3);  ///< from the picture's bottom to its top, radians
     float aspect = 1;                                           ///< width of the picture / its height
-    float z_near = 0.01f;                                       ///< metres; what is nearer is clipped
+    float z_near = 0.01f;                                       ///< metres; nearer surfaces are clipped
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -5987,7 +5739,7 @@ inline bounding_box include(const bounding_box& box, const glm::dvec3& point) {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The least and the largest coordinates of positions, if all of them are finite.
+/// The smallest box around positions, if all of them are finite.
 struct bounds_kernel {
     const glm::vec3* positions;
     std::size_t count;
@@ -6062,7 +5814,7 @@ bounding_box bounds(const mesh_view& m, E&& ex = {}) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/detail/coherent_order.hpp -----------------------------------------------
-// Triangles in an order in which neighbours follow one another, so that what draws them finds its memory warm.
+// Orders triangles along a space-filling curve, so that consecutive triangles share vertices in cache.
 //
 // Based on: Guy M. Morton. A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing. IBM, 1966.
 
@@ -6072,7 +5824,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Whether most triangles share no vertex with the one before, as those of shuffled meshes and of triangle soups don't.
+/// Whether most triangles share no vertex with the one before, as in shuffled meshes and triangle soups.
 inline bool is_incoherent(const mesh& m) {
     std::size_t jumps = 0;
     for (std::size_t i = 1; i < m.triangles.size(); ++i) {
@@ -6145,8 +5897,8 @@ inline void order_along_curve(mesh& m, const bounding_box& box) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/detail/lattice_order.hpp ------------------------------------------------
-// Heightfields over a regular lattice whose vertices or triangles come in another order, as after a mesh optimizer:
-// found by where the vertices lie, and put in the order of the lattice.
+// Restores the lattice order of heightfields whose vertices or triangles were reordered, for example by a mesh
+// optimizer. They are recognized by the positions of their vertices.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -6173,7 +5925,7 @@ class triangle_lattice {
         l.origin_ = corner[right_angle];
         l.right_ = corner[(right_angle + 1) % 3] - l.origin_;
         l.up_ = corner[(right_angle + 2) % 3] - l.origin_;
-        if (numeric::magnitude(l.up_.x) > numeric::magnitude(l.right_.x)) std::swap(l.right_, l.up_);
+        if (numeric::abs(l.up_.x) > numeric::abs(l.right_.x)) std::swap(l.right_, l.up_);
         if (l.right_.x < 0) l.right_ = -l.right_;
         if (l.up_.y < 0) l.up_ = -l.up_;
         const double area = l.right_.x * l.up_.y - l.right_.y * l.up_.x;
@@ -6190,9 +5942,9 @@ class triangle_lattice {
         constexpr double farthest = 1 << 24;
         glm::ivec2 whole;
         for (int axis = 0; axis < 2; ++axis) {
-            if (!(numeric::magnitude(at[axis]) < farthest)) return std::nullopt;
+            if (!(numeric::abs(at[axis]) < farthest)) return std::nullopt;
             whole[axis] = static_cast<int>(numeric::floor_to_int(at[axis] + 0.5));
-            if (numeric::magnitude(at[axis] - whole[axis]) > 0.25) return std::nullopt;
+            if (numeric::abs(at[axis] - whole[axis]) > 0.25) return std::nullopt;
         }
         return whole;
     }
@@ -6285,7 +6037,7 @@ inline bool order_by_lattice(mesh& m) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/normals.hpp -------------------------------------------------------------
-// Shading normals for meshes that come without.
+// Shading normals for meshes without normals.
 //
 // Based on: Grit Thuermer, Charles A. Wuethrich. Computing Vertex Normals from Polygonal Facets. Journal of Graphics
 // Tools 3(1), 1998.
@@ -6645,7 +6397,7 @@ inline namespace INSONIFY_ABI {
 
 /// What a mesh is to a shadow policy.
 enum class surface_kind {
-    open,         ///< nothing is known
+    open,         ///< neither was proven
     closed,       ///< each edge is run along as often one way as the other: a ray that comes from outside and ends
                   ///< outside crosses as many triangles from behind as from the front, whatever the surface intersects
     heightfield,  ///< z over a convex part of the xy plane, all triangles counter-clockwise from above
@@ -6854,7 +6606,7 @@ struct sphere {
     int segments = 64;  ///< around z, 3 to 8192; half as many rings from pole to pole
 };
 
-/// The upper half of a sphere, standing on the plane z = 0 with a flat base: what a half-buried one shows.
+/// The upper half of a sphere on the plane z = 0, with a flat base: the visible part of a half-buried sphere.
 struct hemisphere {
     float radius = 0.5f;  ///< metres
     glm::vec3 aspect{1};
@@ -6925,7 +6677,7 @@ inline int segments_for(const hemisphere& shape, float deviation) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/io/file.hpp ----------------------------------------------------------------------
-// Whole files: read at once, and written so that a reader finds the old file or the new one, never half of one.
+// Whole-file reads and atomic writes: a reader finds the old file or the new one, never a part.
 
 #include <cerrno>
 #include <system_error>
@@ -7100,7 +6852,7 @@ inline void write_file(const std::string& path, std::string_view bytes) {
 }  // namespace insonify
 
 // ------------ insonify/io/netpbm.hpp --------------------------------------------------------------------
-// PGM, PPM and PFM: images as plain files, read whatever they claim to be and written all or nothing.
+// Reading and writing PGM, PPM and PFM images. Malformed files are refused; writes are atomic.
 //
 //     pixel                     written as            read from
 //     std::uint8_t              P5, maxval 255        P2, P5 up to maxval 255: the samples as they are
@@ -7458,29 +7210,29 @@ struct draw_stats {
 // ------------ insonify/seabed/type.hpp ------------------------------------------------------------------
 // Labels of the sea floor and their properties: name, brightness and speckle.
 //
-// A label is one byte. The library's own are the rows of registry.hpp; those from `own_type(0)` on are free for users'
-// seabeds, which bring the properties of their labels along (see model.hpp).
+// A label is one byte. The library's labels are the rows of registry.hpp; `own_type(0)` and above are free for users'
+// seabeds, which state the properties of their labels (see model.hpp).
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// How an intensity fluctuates around its mean. As it is: Rayleigh amplitudes, exponential intensities. The
-/// scintillation index, variance / mean^2 of the intensity, is
+/// Statistics of an intensity. By default Rayleigh amplitudes, exponential intensities. The scintillation index,
+/// variance / mean^2 of the intensity, is
 /// (1 + 1 / texture) (1 + (1 + 2 steady) / (looks (1 + steady)^2)) - 1.
 struct speckle_law {
     int looks = 1;  ///< independent intensities that are averaged: 1 to 64
     float texture =
         0;  ///< shape of the gamma-distributed mean of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: none
-    float steady = 0;  ///< power of a steady echo among the others, over theirs: Rician amplitudes
+    float steady = 0;  ///< power of a steady echo over that of the diffuse ones: Rician amplitudes
     friend bool operator==(const speckle_law&, const speckle_law&) = default;
 };
 
 namespace seabed {
 
-/// What the bottom is made of, as a label: four types of relief, the twelve of `sediment` (see sediment.hpp), and
-/// users' own from 16 on.
+/// Label of the bottom: four types of relief, the twelve of `sediment` (see sediment.hpp), and user-defined ones from
+/// 16 on.
 enum class type : std::uint8_t {
     sand,
     ripples,
@@ -7960,10 +7712,10 @@ struct none {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/any.hpp -------------------------------------------------------------------
-// Any seabed, by value: the library's models and users' own alike.
+// Type-erased seabed: holds any model, the library's or a user's.
 //
-// The model is stored once, immutable and shared by copies; calls go through a virtual function once per row, never per
-// point. No list of types is kept anywhere: what a program does not use, it does not compile.
+// The model is immutable and shared by copies. There is one virtual call per row, none per point, and no list of types:
+// models that a program does not use are not compiled.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8102,7 +7854,7 @@ class any {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/detail/lattice.hpp --------------------------------------------------------
-// The world's lattices: where positions lie on them, and random bits for their cells.
+// World-fixed lattices: cell coordinates of positions, and random bits by cell.
 //
 // Random draws are keyed by lattice cell, so that a place looks the same in any grid, tile or order of evaluation.
 // Cells are found in double; what goes to float is the way across a cell alone, so precision is that of home at 10^7 m
@@ -8218,7 +7970,7 @@ struct lattice_coordinate {
         : cell(numeric::floor_to_int(cells)), fraction(static_cast<float>(cells - static_cast<double>(cell))) {}
 };
 
-/// The part of a row that is worked on at a time: its positions, and the last of them again to fill whole vectors.
+/// The part of a row that is processed at a time: its positions, and the last of them again to fill whole vectors.
 struct stretch {
     static constexpr std::size_t padded = chunk;  // which is a multiple of every lane count
 
@@ -8493,7 +8245,7 @@ class gradient_noise {
         template <int N>
         INSONIFY_INLINE void tabulate(side* sides, std::uint32_t first, int last) const {
             words<N> column;
-            insonify::detail::count_up<std::uint32_t, N>(column);
+            insonify::detail::iota<std::uint32_t, N>(column);
             column = column + first;
             for (int i = 0; i <= last; i += N) {
                 lanes<float, N> height, slope;
@@ -8601,7 +8353,7 @@ inline void power_law_noise::add(const detail::stretch& part, detail::stretch_va
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/flat.hpp ------------------------------------------------------------------
-// Flat sand: nothing but the roughness that the sea left.
+// Flat sand with power-law roughness.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8662,7 +8414,7 @@ inline float flat::operator()(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/heightfield.hpp -----------------------------------------------------------
-// A grid of sampled or measured heights: the form in which a seabed is stored, drawn, and rested upon.
+// Heightfields: regular grids of sampled or measured heights, with labels, and placement of objects on them.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8952,7 +8704,7 @@ class round_marks {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/detail/ripple_train.hpp ---------------------------------------------------
-// One system of sand ripples: crests of one height that meander, end and fork, as waves over sand make them.
+// One system of sand ripples: crests of equal height that meander, end and fork, as wave-made ripples do.
 //
 // A Gaussian random field of ripples fades in and out, which real ones don't. Here the phase of such a field,
 // psi(x) = sum_n exp i(k_n . x + phi_n), drives a profile of constant amplitude: height = (eta / 2) cos arg psi. Crests
@@ -9102,7 +8854,7 @@ class ripple_train {
             wave_x_[n] = k * along.cosine - carrier_x_;
             wave_y_[n] = k * along.sine - carrier_y_;
             phase_[n] = draw.uniform();
-            largest = (std::max)(largest, numeric::magnitude(wave_x_[n]));
+            largest = (std::max)(largest, numeric::abs(wave_x_[n]));
         }
 
         // Space the lattice so that the fastest wave turns by a sixteenth per step: cubic interpolation then errs by
@@ -9262,7 +9014,7 @@ inline void ripple_train::add(const stretch& part, stretch_values& values, isa l
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/detail/trawls.hpp ---------------------------------------------------------
-// Furrows that trawl boards plough: long, nearly straight, in the few directions in which boats work.
+// Furrows of trawl boards: long, nearly straight, in a few directions.
 //
 // Boats of one direction go side by side in lanes that meander a little; a lane holds one furrow, which comes and goes
 // along it. The spoil lies in a low berm on either side.
@@ -9400,7 +9152,7 @@ class trawl_furrows {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/mud.hpp -------------------------------------------------------------------
-// Mud: gentle relief with the mounds and pock marks of what lives and seeps in it, and the tracks of trawls.
+// Mud: gentle relief with mounds by burrowing animals, pock marks of seeps, and trawl tracks.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -9488,7 +9240,7 @@ inline float mud::operator()(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/ripples.hpp ---------------------------------------------------------------
-// Sand ripples: one system of crests, or two that cross, and what lies on them.
+// Sand ripples: one system of crests or two that cross, with fine roughness.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -9511,7 +9263,7 @@ struct ripples {
     float bandwidth = 0.09f;                             ///< in [0, 0.25]: of the wave number, relative
     float sharpness = 0.25f;                             ///< in [0, 0.9]: of the crests, 0 for a sinusoid
     ripple_system second{.steepness = 0};                ///< other waves' ripples, added; none if they have no height
-    roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< what lies on the ripples, beyond their height
+    roughness surface{.rms = 0.0025f, .longest = 0.4f};  ///< fine relief on the ripples, beyond their height
     std::uint64_t seed = 1;
     type kind = type::ripples;
 
@@ -9579,7 +9331,7 @@ inline float ripples::operator()(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/detail/blocks.hpp ---------------------------------------------------------
-// Angular blocks strewn over the plane: what broken rock is made of.
+// Angular blocks scattered over the plane, for broken rock.
 //
 // Each cell of a lattice may hold one flat-topped, tilted, eight-sided block with steep walls; the surface is the
 // highest of the blocks that reach a point. Where blocks are many they meet in Voronoi-like edges, where they are few
@@ -9648,7 +9400,7 @@ class block_layer {
             using ints = lanes<std::int32_t, N>;
             using floats = lanes<float, N>;
             words number, first, second;
-            insonify::detail::count_up<std::uint32_t, N>(number);
+            insonify::detail::iota<std::uint32_t, N>(number);
             hash.mixed(first, words(number + column));
             second = (first ^ (first >> 15)) * 0x2C1B3C6Du;
             second = (second ^ (second >> 12)) * 0x297A2D39u;
@@ -9935,7 +9687,7 @@ inline void rock_sampler::row(const scanline& line, std::span<float> heights) co
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/sample.hpp ----------------------------------------------------------------
-// From model to heightfield: evaluates a seabed at the vertices of a grid, a row per task.
+// Samples a seabed model at the vertices of a grid, a row per task.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -10072,7 +9824,7 @@ inline sediment sediment_of_phi(float phi) {
     detail::require(numeric::is_finite(phi), "phi", phi, "a finite grain size");
     const sediment_facts* best = sediments;
     for (const sediment_facts& s : sediments)
-        if (numeric::magnitude(s.phi - phi) < numeric::magnitude(best->phi - phi)) best = &s;
+        if (numeric::abs(s.phi - phi) < numeric::abs(best->phi - phi)) best = &s;
     return static_cast<sediment>(best->label);
 }
 
@@ -10529,8 +10281,7 @@ struct automatic_display {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/detail/filled.hpp -----------------------------------------------------------
-// Images of one value, made by all threads: filling a large one takes as long as drawing a small picture, most of it
-// to get hold of the memory.
+// Images filled with one value in parallel, since filling a large image takes as long as drawing a small picture.
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
@@ -10544,7 +10295,7 @@ image<T> filled(int width, int height, T value, E& ex) {
     bulk_ranges(ex, static_cast<std::size_t>(height), rows, [&](std::size_t first, std::size_t last) {
         T* const start = result.row(static_cast<int>(first)).data();
         const std::size_t count = (last - first) * static_cast<std::size_t>(width);
-        // Most values are the same byte over and over, which the system writes fastest.
+        // memset is the fastest fill for values of equal bytes.
         const auto bytes = numeric::bit_cast<std::array<unsigned char, sizeof(T)>>(value);
         if (std::count(bytes.begin(), bytes.end(), bytes[0]) == std::ssize(bytes))
             std::memset(start, bytes[0], count * sizeof(T));
@@ -10866,7 +10617,7 @@ inline void validate(const ping& p) {
     detail::require_finite("ping.position.y", p.position.y);
     detail::require_finite("ping.position.z", p.position.z);
     detail::require_finite("ping.yaw", p.yaw);
-    detail::require(numeric::magnitude(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
+    detail::require(numeric::abs(p.pitch) <= numeric::to_radians(80), "ping.pitch", p.pitch,
                     "at most 80 degrees, in radians");
     detail::require_finite("ping.roll", p.roll);
 }
@@ -11395,7 +11146,7 @@ accuracy::pixel_difference compare_pixels(image_view<const T> result, image_view
         const auto a = result.row(y), b = truth.row(y);
         for (std::size_t x = 0; x < b.size(); ++x) {
             if (a[x] == b[x]) continue;  // equal infinities too
-            const double difference = numeric::magnitude(static_cast<double>(a[x]) - static_cast<double>(b[x]));
+            const double difference = numeric::abs(static_cast<double>(a[x]) - static_cast<double>(b[x]));
             row_sum += difference * difference;
             if (!(difference <= out.largest) && out.largest == out.largest) out.largest = difference;  // keeps a NaN
         }
@@ -11455,7 +11206,7 @@ inline pixel_difference compare_images(image_view<const std::uint8_t> result, im
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/detail/indices.hpp ------------------------------------------------------
-// Whether a mesh's triangles refer to positions that are there.
+// Checks that a mesh's triangles index existing positions.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -11583,7 +11334,7 @@ class run_reader {
     template <int N>
     INSONIFY_INLINE int take_small(std::uint32_t (&ids)[static_cast<unsigned>(2 * N)]) {
         lanes<std::uint32_t, N> number;
-        count_up<std::uint32_t, N>(number);
+        iota<std::uint32_t, N>(number);
         int count = 0;
         while (count < N && !runs_.empty() && runs_.front().is_small) {
             const triangle_run& run = runs_.front();
@@ -11704,8 +11455,8 @@ class tile_bins {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/detail/int128.hpp -----------------------------------------------------------
-// Integers of 128 bits, as far as exact geometry far from the picture needs them: products of two 64-bit numbers, their
-// sums, and what can be asked of those. Two's complement in two halves, so that every compiler has them.
+// 128-bit integers for exact geometry: products of two 64-bit numbers, sums, comparisons. Two's complement in two
+// halves, portable to every compiler.
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
@@ -11764,8 +11515,8 @@ struct int128 {
 }  // namespace insonify
 
 // ------------ insonify/core/detail/double_double.hpp ----------------------------------------------------
-// Numbers of twice a double's precision, as the unevaluated sum of two: for the few pixels whose depth a double can't
-// round with certainty. Relative error of each operation below 2^-100.
+// Double-double arithmetic: the unevaluated sum of two doubles, for the few pixels whose depth a double cannot round
+// with certainty. Relative error of each operation below 2^-100.
 //
 // This work is based on:
 // T. J. Dekker. A Floating-Point Technique for Extending the Available Precision. 1971
@@ -11976,8 +11727,8 @@ struct edge_function {
     /// Whether E fits 32 bits everywhere in a rectangle of that size.
     bool is_narrow(int width, int height) const {
         constexpr std::int64_t limit = std::int64_t{1} << 31;
-        return numeric::magnitude(dx) < limit && numeric::magnitude(dy) < limit && -limit < origin && origin < limit &&
-               numeric::magnitude(origin) + numeric::magnitude(dx) * width + numeric::magnitude(dy) * height < limit;
+        return numeric::abs(dx) < limit && numeric::abs(dy) < limit && -limit < origin && origin < limit &&
+               numeric::abs(origin) + numeric::abs(dx) * width + numeric::abs(dy) * height < limit;
     }
 
     /// An equivalent function for a rectangle of that size. Where E has the same sign at all pixels, it is replaced by
@@ -12021,7 +11772,7 @@ struct depth_plane {
         // Each product of a gradient has a relative error of 2^-53, multiplied by the box's width or height.
         const auto span = [](double u, double v) { return (std::max)({u, v, 0.0}) - (std::min)({u, v, 0.0}); };
         const double swing = 4 * (highest - lowest) * span(bx, cx) * span(by, cy);
-        const double largest = (std::max)(numeric::magnitude(lowest), numeric::magnitude(highest)) * area;
+        const double largest = (std::max)(numeric::abs(lowest), numeric::abs(highest)) * area;
         plane.error = 0x1p-49 * (swing + largest) / area;
         return plane;
     }
@@ -13242,7 +12993,7 @@ struct assembly_kernel {
         t.centers(picture, pixels);
         ints disjoint;
         pixels.is_disjoint(picture.pixels, disjoint);
-        const unsigned outside = set_lanes<N>(disjoint);
+        const unsigned outside = movemask<N>(disjoint);
         if (outside == all) return true;
         if (!t.are_small()) return false;
         ints area, empty, culled = ints{};
@@ -13256,8 +13007,8 @@ struct assembly_kernel {
         const int size = tiles.log2_size;  // see tile_range::pack
         const ints first_tile = ints((pixels.x0 >> size) | (pixels.y0 >> size << 16)),
                    last_tile = ints(((pixels.x1 - 1) >> size) | ((pixels.y1 - 1) >> size << 16));
-        const unsigned degenerate = set_lanes<N>(ints(area == 0)) & ~outside, turned = set_lanes<N>(culled) & ~outside,
-                       drawn = all & ~(set_lanes<N>(empty) | degenerate | turned);
+        const unsigned degenerate = movemask<N>(ints(area == 0)) & ~outside, turned = movemask<N>(culled) & ~outside,
+                       drawn = all & ~(movemask<N>(empty) | degenerate | turned);
         out.stats.degenerate += static_cast<unsigned>(std::popcount(degenerate));
         out.stats.culled += static_cast<unsigned>(std::popcount(turned));
         out.stats.drawn += static_cast<unsigned>(std::popcount(drawn));
@@ -13398,8 +13149,8 @@ INSONIFY_INLINE void fill(const triangle_setup& t, tile_buffer<HasIds>& tile, st
     using masks = lanes<std::int32_t, N>;
     ints column;
     doubles column_x;
-    count_up<Int, N>(column);
-    count_up<double, N>(column_x);
+    iota<Int, N>(column);
+    iota<double, N>(column_x);
     const floats lowest = floats{} + t.depth.lowest, highest = floats{} + t.depth.highest;
     const doubles error = doubles{} + t.depth.error;
     const lanes<std::uint32_t, N> drawn = lanes<std::uint32_t, N>{} + id;
@@ -13488,7 +13239,7 @@ struct small_fill {
         load(first, t.y0);
         load(end, t.y1);
         height = end - first;
-        count_up<std::int32_t, N>(number);
+        iota<std::int32_t, N>(number);
         width = number < count ? width : ints{};
     }
 
@@ -13622,7 +13373,7 @@ struct small_fill {
     template <class RoundedDepth>
     INSONIFY_INLINE void fill_columns(int k, int first, const RoundedDepth& rounded_depth) const {
         ints at;
-        count_up<std::int32_t, N>(at);
+        iota<std::int32_t, N>(at);
         at = at + first;
         ints bc = t.bc.origin[k] + at * t.bc.dx[k];
         ints ca = t.ca.origin[k] + at * t.ca.dx[k];
@@ -14011,7 +13762,7 @@ struct row_centers {
     positions down;   ///< y
 
     INSONIFY_INLINE row_centers(const pixel_grid& grid, int row) : y(row), subpixel_bits(grid.subpixel_bits) {
-        count_up<std::uint32_t, N>(first);
+        iota<std::uint32_t, N>(first);
         first = (first << subpixel_bits) + static_cast<std::uint32_t>(grid.half());
         down = positions{} + static_cast<std::uint32_t>(grid.center(row));
     }
@@ -14054,7 +13805,7 @@ struct lane_shading_kernel {
         using ints = lanes<std::int32_t, N>;
         const row_centers<N> row(screen.grid(), y);
         ints column;
-        count_up<std::int32_t, N>(column);
+        iota<std::int32_t, N>(column);
         int count = 0;
         for (int x = x0; x < (std::min)(pixels.x1, x0 + part); x += N) {
             const std::uint32_t* const ids = tile.id_at(x, y);
@@ -14317,8 +14068,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/detail/normals.hpp --------------------------------------------------------
 // Normals of a heightfield, by finite differences of its vertices.
 //
-// Central differences are what a mesh of the field needs: they see the relief that is drawn, and nothing finer,
-// whatever the recipe was. Of a wave of n vertices to the length they give sin(2 pi / n) / (2 pi / n) of the slope:
+// Central differences match the mesh of the field: they see the relief that is drawn and nothing finer, whatever the
+// model. Of a wave of n vertices to the length they give sin(2 pi / n) / (2 pi / n) of the slope:
 // 0.90 at 8, 0.97 at 16.
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -14457,7 +14208,7 @@ image<glm::vec3> normals(const heightfield& field, Executor&& ex = serial_execut
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/tessellate.hpp ------------------------------------------------------------
-// From heightfield to triangles.
+// Tessellates heightfields into triangle meshes.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -14558,7 +14309,7 @@ mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/detail/needed_vertices.hpp ------------------------------------------------
-// Which vertices of a heightfield a mesh needs, given how far off it may be.
+// Selects the vertices of a heightfield that a mesh needs for a given tolerance.
 //
 // The hierarchy halves right triangles at the middle of their longest side. A middle is a vertex of the grid, and the
 // two triangles on its sides are halved together or not at all: so no vertex ever lies on another triangle's side, and
@@ -14574,14 +14325,14 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// How far a mesh may be from its heightfield.
-struct leeway {
+/// Largest deviations of a mesh from its heightfield.
+struct tolerance {
     double height = 0;  ///< metres, anywhere, >= 0
     /// Of the rises per metre along x and y that normals are made of, >= 0.
     double slope = (std::numeric_limits<double>::infinity)();
-    /// Square metres: at a distance r from `nadir`, heights may be off by no more than lean / r. A camera above it
-    /// shows what is off by h as displaced by h r / altitude, so lean = altitude x the displacement on the ground it
-    /// forgives.
+    /// Square metres: at a distance r from `nadir`, heights may be off by at most lean / r. A camera above `nadir`
+    /// shows a height error h as a displacement of h r / altitude, so lean = altitude x the tolerated displacement on
+    /// the ground.
     double lean = (std::numeric_limits<double>::infinity)();
     glm::dvec2 nadir{0.0, 0.0};  ///< below the camera, metres from the heightfield's vertex (0, 0)
 };
@@ -14594,7 +14345,7 @@ namespace detail::inline INSONIFY_FLAGS {
 class needed_vertices {
   public:
     template <executor E>
-    needed_vertices(const heightfield& field, const leeway& allowed, E& ex)
+    needed_vertices(const heightfield& field, const tolerance& allowed, E& ex)
         : field_(field),
           allowed_(allowed),
           columns_(field.heights.width() - 1),
@@ -14801,7 +14552,7 @@ class needed_vertices {
             const float* const row = values_.row(y).data();
             const float start = at_ + dy_ * static_cast<float>(y - from_.y);
             floats across;
-            count_up<float, N>(across);
+            iota<float, N>(across);
             int x = first;
             for (; x + N <= last + 1; x += N) {
                 floats value;
@@ -14851,7 +14602,7 @@ class needed_vertices {
     }
 
     const heightfield& field_;
-    leeway allowed_;
+    tolerance allowed_;
     int columns_, rows_, size_ = 1;
     image<std::uint8_t> needed_;
     image<float> slope_x_, slope_y_;  // rises per cell, or empty where slopes may be anything
@@ -14919,24 +14670,24 @@ void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit)
 
 inline namespace INSONIFY_FLAGS {
 
-/// The surface of a heightfield as a mesh of the triangles that it takes, given what it may be off by: at no point of a
-/// triangle is the drawn surface (`height_at`) farther above or below it than `allowed` at the triangle's corners; nor
-/// are the slopes at any vertex below it, and the vertices below it are all of one type. Where nothing may be left out
-/// the triangles are those of `tessellate`; a plane takes two, and some more beside an edge whose length isn't a power
-/// of two cells. Finding them takes several times as long as `tessellate` does.
+/// Adaptive mesh of a heightfield: at no point of a triangle is the full surface (`height_at`) farther above or below
+/// than `allowed` at the triangle's corners; the slopes at the vertices that a triangle replaces stay within `allowed`,
+/// too, and these vertices are of one type. At a tolerance of 0 on rough ground the triangles are those of
+/// `tessellate`; a plane takes two, and some more beside an edge whose length is not a power of two cells. Takes
+/// several times as long as `tessellate`.
 ///
 /// No two triangles that share a longest side could be replaced by the one that they are halves of.
 /// @param first  as for `tessellate`
-/// @throws invalid_input as `tessellate`, and for a negative or NaN leeway or a nadir that is not finite
+/// @throws invalid_input as `tessellate`, and for a negative or NaN tolerance or a nadir that is not finite
 template <executor_argument Executor = serial_executor>
-adaptive_mesh tessellate(const heightfield& field, const leeway& allowed, Executor&& ex = serial_executor{},
+adaptive_mesh tessellate(const heightfield& field, const tolerance& allowed, Executor&& ex = serial_executor{},
                          glm::ivec2 first = {0, 0}) {
     validate(field);
-    detail::require(allowed.height >= 0, "leeway.height", allowed.height, "metres, at least 0");
-    detail::require(allowed.slope >= 0, "leeway.slope", allowed.slope, "a slope, at least 0");
-    detail::require(allowed.lean >= 0, "leeway.lean", allowed.lean, "square metres, at least 0");
-    insonify::detail::require_finite("leeway.nadir.x", allowed.nadir.x);
-    insonify::detail::require_finite("leeway.nadir.y", allowed.nadir.y);
+    detail::require(allowed.height >= 0, "tolerance.height", allowed.height, "metres, at least 0");
+    detail::require(allowed.slope >= 0, "tolerance.slope", allowed.slope, "a slope, at least 0");
+    detail::require(allowed.lean >= 0, "tolerance.lean", allowed.lean, "square metres, at least 0");
+    insonify::detail::require_finite("tolerance.nadir.x", allowed.nadir.x);
+    insonify::detail::require_finite("tolerance.nadir.y", allowed.nadir.y);
     const image<float>& heights = field.heights;
     detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(), "below 2^32");
     const detail::needed_vertices needed(field, allowed, ex);
@@ -15043,7 +14794,7 @@ class light_rays {
             for (int i = 0; i < 3; ++i) {
                 insonify::detail::require(numeric::is_finite(source_[i]), "point_light.position", source_[i],
                                           "finite coordinates");
-                light_reach_ = (std::max)(light_reach_, numeric::magnitude(source_[i]));
+                light_reach_ = (std::max)(light_reach_, numeric::abs(source_[i]));
             }
         }
     }
@@ -15056,8 +14807,7 @@ class light_rays {
                      const glm::dvec3& from) const {
         const glm::dvec3 to_light = toward(from), a = corner_a - from, b = corner_b - from, c = corner_c - from;
         // The corners as the ray sees them, along the two axes that it follows less: one rounding for each corner.
-        const glm::dvec3 way{numeric::magnitude(to_light.x), numeric::magnitude(to_light.y),
-                             numeric::magnitude(to_light.z)};
+        const glm::dvec3 way{numeric::abs(to_light.x), numeric::abs(to_light.y), numeric::abs(to_light.z)};
         const int axis = way.x >= way.y ? (way.x >= way.z ? 0 : 2) : (way.y >= way.z ? 1 : 2);
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         const double shear_u = to_light[u] / to_light[axis], shear_v = to_light[v] / to_light[axis];
@@ -15073,9 +14823,7 @@ class light_rays {
         if (!is_left && !is_right) return false;
         const glm::dvec3 normal = numeric::cross(b - a, c - a);
         // From the corner that is nearest: another may lie so far off that its distance rounds away the point's.
-        const auto size = [](const glm::dvec3& d) {
-            return numeric::magnitude(d.x) + numeric::magnitude(d.y) + numeric::magnitude(d.z);
-        };
+        const auto size = [](const glm::dvec3& d) { return numeric::abs(d.x) + numeric::abs(d.y) + numeric::abs(d.z); };
         const glm::dvec3& some = size(a) <= size(b) ? a : b;
         const double along = numeric::dot(normal, to_light),
                      behind = numeric::dot(normal, size(some) <= size(c) ? some : c);
@@ -15143,7 +14891,7 @@ struct lit_grid {
         const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
         double travel_x = cross(glm::dvec2(travel), y) / cross(x, y),
                travel_y = cross(x, glm::dvec2(travel)) / cross(x, y);
-        if (numeric::magnitude(travel_y) > numeric::magnitude(travel_x)) {
+        if (numeric::abs(travel_y) > numeric::abs(travel_x)) {
             std::swap(columns, rows);
             std::swap(along, across);
             std::swap(x, y);
@@ -15340,8 +15088,7 @@ class horizon_bounds {
         : grid_(lattice, travel), heights_(m, grid_, ex), off_(off) {
         const auto greatest = static_cast<double>(heights_.greatest), least = static_cast<double>(heights_.least);
         const double relief = grid_.drop * (greatest - least);
-        const double size =
-            grid_.columns + grid_.drop * (std::max)(numeric::magnitude(greatest), numeric::magnitude(least));
+        const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
         margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
@@ -15444,7 +15191,7 @@ class light_plane {
     /// Number of the plane of a point light over which a point lies.
     static int side_of(const point_light& light, const glm::dvec3& p) {
         const glm::dvec3 d = p - light.position;
-        const glm::dvec3 size{numeric::magnitude(d.x), numeric::magnitude(d.y), numeric::magnitude(d.z)};
+        const glm::dvec3 size{numeric::abs(d.x), numeric::abs(d.y), numeric::abs(d.z)};
         const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
         return 2 * axis + (d[axis] < 0 ? 1 : 0);
     }
@@ -15653,10 +15400,10 @@ class horizon_triangles {
             met = met - margin;
             may_meet = may_meet + margin;
             floats row;
-            count_up<float, N>(row);
+            iota<float, N>(row);
             const auto dx = static_cast<float>(whole.eye_.x - x);
             const floats dy = static_cast<float>(whole.eye_.y - y) - row;
-            const floats error = 4 * margin * ((2 + numeric::magnitude(dx)) + (dy < 0.0f ? 0.0f - dy : dy));
+            const floats error = 4 * margin * ((2 + numeric::abs(dx)) + (dy < 0.0f ? 0.0f - dy : dy));
             const floats eye = static_cast<float>(whole.eye_u_) - error;
             const triangle_lanes<N> known_of{
                 met, may_meet, eye, dy, dx, static_cast<float>(grid.slope), static_cast<float>(whole.rise_)};
@@ -16191,7 +15938,7 @@ struct tile_assembly_kernel {
             convert(to[axis], l);
         });
         outside = (outside & ints(t.state == 0.0f)) | ints(t.state == plane_vertex::not_finite) | t.is_behind;
-        const unsigned drawn = ~set_lanes<N>(outside) & ((2u << (count - 1)) - 1);
+        const unsigned drawn = ~movemask<N>(outside) & ((2u << (count - 1)) - 1);
         if (drawn == 0) return;
         const ints first_tile = from[0] | from[1] << 16, last_tile = to[0] | to[1] << 16;
         const auto id = static_cast<std::uint32_t>(start);
@@ -16469,9 +16216,9 @@ struct occlusion_kernel {
         const ints facing = ints((is_turned ? 0.0f - area : area) > area_off) & ints(t.state == 0.0f);
         const bool skips_own = may_skip == skip::facing_its_own;
         if (may_skip == skip::facing || (skips_own && !receivers.has_others(number))) missed |= facing;
-        const unsigned open = ~set_lanes<N>(missed) & ((2u << (count - 1)) - 1);
+        const unsigned open = ~movemask<N>(missed) & ((2u << (count - 1)) - 1);
         if (open == 0) return;
-        const unsigned for_others = skips_own ? set_lanes<N>(facing) : 0;
+        const unsigned for_others = skips_own ? movemask<N>(facing) : 0;
         // Counter-clockwise on the plane.
         const ints turned = ints(area < 0.0f);
         unroll<3>([&](int axis) INSONIFY_INLINE_LAMBDA {
@@ -16524,7 +16271,7 @@ struct occlusion_kernel {
         using floats = lanes<float, N>;
         using ints = lanes<std::int32_t, N>;
         ints column;
-        count_up<std::int32_t, N>(column);
+        iota<std::int32_t, N>(column);
         const float *const us = receivers.u.data(), *const vs = receivers.v.data(),
                            *const heights = receivers.height.data();
         std::int32_t* const casters = receivers.caster.data();
@@ -16555,7 +16302,7 @@ struct occlusion_kernel {
             const ints certain =
                 asked & ints(to_b > t[9]) & ints(to_c > t[9]) & ints(to_a > 3 * t[9]) & ints(above < 0.0f - doubt);
             store(casters + i, ints(certain ? ints{} + static_cast<std::int32_t>(number) : blocked));
-            for (unsigned left = set_lanes<N>(ints(asked & ~certain)); left != 0; left &= left - 1) {
+            for (unsigned left = movemask<N>(ints(asked & ~certain)); left != 0; left &= left - 1) {
                 const std::size_t at = i + static_cast<std::size_t>(std::countr_zero(left));
                 if (decide(id, at)) casters[at] = static_cast<std::int32_t>(number);
             }
@@ -17218,7 +16965,7 @@ class surface_shader {
         if (!is_near_) return;
         floats altitude, step, column, height, square = floats{}, length;
         load(altitude, altitude_), load(step, ray_step_);
-        count_up<float, N>(column);
+        iota<float, N>(column);
         f.interpolate(height, 3);
         const floats down = altitude - height;
         const floats position[3] = {(column + (static_cast<float>(f.x) + left_)) * step * down,
@@ -17244,10 +16991,10 @@ class surface_shader {
     shaded_images into_;
     Law law_;
     bool is_near_;
-    float left_, top_;        ///< from the picture's middle to the first pixel's centre, in pixels
-    spread<float> ray_step_;  ///< see overhead_geometry::ray_step
-    spread<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
-    spread<float> to_light_[3];                           ///< unit vector, or the position of a near light
+    float left_, top_;           ///< from the picture's middle to the first pixel's centre, in pixels
+    broadcast<float> ray_step_;  ///< see overhead_geometry::ray_step
+    broadcast<float> altitude_, intensity_, sky_, ambient_;  ///< the rig's
+    broadcast<float> to_light_[3];                           ///< unit vector, or the position of a near light
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -18530,7 +18277,7 @@ inline settings<> exact(const overhead& rig) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/detail/triangulate.hpp --------------------------------------------------
-// Polygons into triangles: a fan where the polygon is convex, ear clipping where it is not.
+// Triangulates polygons: convex ones as a fan, others by ear clipping.
 //
 // Based on: Joseph O'Rourke. Computational Geometry in C, 2nd edition, 1998, section 1.6 (clipping an ear changes
 // whether its two neighbours are ears, and no other: quadratic in all).
@@ -18834,7 +18581,7 @@ class obj_reader {
             out.triangles.emplace_back(vertex[i], vertex[i + 1], vertex[i + 2]);
         }
 
-        // Compute what the file left out.
+        // Compute missing normals.
         if (!complete) {
             const std::vector<glm::vec3> smooth = smooth_normals(out);
             for (std::size_t i = 0; i < smooth.size(); ++i) {
@@ -19044,7 +18791,7 @@ inline void append(mesh& into, mesh part, const affine& map = {}) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/objects/compound.hpp ----------------------------------------------------
-// Several meshes as one target, each with a reflectivity of its own.
+// Compound targets: several meshes, each with its own reflectivity.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -20226,7 +19973,7 @@ inline void append_coaming(mesh& into, const hull_lines& lines, const deck_plate
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/objects/detail/hull_fittings.hpp ----------------------------------------
-// What stands on a ship's decks and what falls off them: deckhouse, funnel, masts, boilers, debris.
+// Fittings of a ship: deckhouse, funnel, masts, boilers, and the debris they leave.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -21057,7 +20804,7 @@ inline mesh to_mesh(const wedge& w) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/io/manifest.hpp ------------------------------------------------------------------
-// Tables of what is in which image: comma-separated values as of RFC 4180, written all or nothing.
+// CSV tables by RFC 4180, such as the contents of a data set's images, written atomically.
 //
 // Based on: Yakov Shafranovich. Common Format and MIME Type for Comma-Separated Values (CSV) Files. RFC 4180, 2005.
 
@@ -21141,7 +20888,7 @@ class csv_table {
 }  // namespace insonify
 
 // ------------ insonify/seabed/area.hpp ------------------------------------------------------------------
-// Where a type of bottom lies: random patches, shapes, pictures; each as a signed distance to its border.
+// Areas of the seabed as signed distances to their border: random patches, shapes, and images.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -21610,7 +21357,7 @@ inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/cover.hpp -----------------------------------------------------------------
-// One bottom laid over another, with a natural border: what stands high is buried last.
+// Composites one seabed over another with a natural border: high ground is buried last.
 //
 // Across a border the layer rises from beneath: its crests come out first, as narrow tips, while its troughs are still
 // filled; further in, the highest of what lies below looks out of it last. Types follow the surface that is on top.
@@ -21642,7 +21389,7 @@ class border {
         const float rise = layer - below;
         if (t <= 0) return {below, false};
         if (t >= 1) return {layer, true};
-        // Relief beyond what was foreseen fades.
+        // Relief beyond the expected range fades.
         if (t < 0.5f) {
             const float over = rise - relief_ * (1 - 2 * t);
             return {over > 0 ? below + over * clamp01(4 * t) : below, over > 0};
@@ -21718,7 +21465,7 @@ void by_parts(const scanline& line, std::span<float> heights, std::span<type> ty
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/blend.hpp -----------------------------------------------------------------
-// Two seabeds side by side: patches of one in the other, with natural borders, and the type at every point.
+// Blends of two seabeds: patches of one in the other, with natural borders and a label at every point.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -21806,8 +21553,8 @@ inline type blend::type_at(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/detailed.hpp --------------------------------------------------------------
-// A coarse survey with relief finer than its grid, as multibeam maps of a metre's spacing need under a sonar that
-// resolves centimetres.
+// Adds relief finer than the grid to a coarse survey: multibeam maps of a metre's spacing lack what a sonar of
+// centimetres resolves.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -21908,7 +21655,7 @@ inline float detailed::operator()(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/moat.hpp ------------------------------------------------------------------
-// Scour around what has lain long: a moat along its outline, and down-current a mound of what was dug.
+// Scour around an object that has lain for long: a moat along its outline and a mound of sediment down-current.
 //
 // Sources: Richard J. S. Whitehouse. Scour at Marine Structures: A Manual for Practical Applications, 1998 (scour is
 // deepest up-current, and half of that in the lee). G. F. Caston. Wreck marks: indicators of net sand transport. Marine
@@ -22011,7 +21758,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/edit.hpp ------------------------------------------------------------------
-// What hands, plows and currents do to a seabed, an edit at a time: see sculpt.hpp for how they are applied.
+// Edits of a seabed, by hand, plow or current; sculpt.hpp applies them.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -22055,7 +21802,7 @@ struct stamp {
     float every = 0;               ///< metres along the path from mark to mark; 0: without end
 };
 
-/// What a current digs around a target: a moat, deepest on the side it comes from, and two tails of what it dug.
+/// Scour by a current around a target: a moat, deepest upstream, and two tails of deposited sediment.
 struct scour {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 0.5f;  ///< metres, > 0: of the target
@@ -22065,7 +21812,7 @@ struct scour {
     float tail = 2;       ///< metres, >= 0
 };
 
-/// Sediment heaped up to a level: what half buries a target. Ground that is higher stays.
+/// Sediment heaped up to a level, to half bury a target. Higher ground stays.
 struct heap {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 0.5f;  ///< metres, >= 0: of its level top
@@ -22088,8 +21835,8 @@ constexpr float plateau(float r) {
     return fade(clamp01(4 - 4 * r));
 }
 
-/// From one height to another, all the way at a weight of 1.
-constexpr float pulled(float height, float to, float weight) {
+/// Linear interpolation; the target height at a weight of 1.
+constexpr float lerp(float height, float to, float weight) {
     return height * (1 - weight) + to * weight;
 }
 
@@ -22097,7 +21844,7 @@ inline float length(double x, double y) {
     return static_cast<float>(numeric::square_root(x * x + y * y));
 }
 
-/// A box that holds all that an edit changes.
+/// A box around everything that an edit changes.
 struct box {
     glm::dvec2 low, high;
 };
@@ -22183,25 +21930,25 @@ inline box box_of(const moat& e) {
     return box_around(e.outline, moat_reach(e));
 }
 
-/// What an edit makes of a height at a position.
-inline float worked(const raise& e, const glm::dvec2& p, float height) {
+/// The height at a position after an edit.
+inline float height_after(const raise& e, const glm::dvec2& p, float height) {
     return height + e.height * brush(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius);
 }
-inline float worked(const flatten& e, const glm::dvec2& p, float height) {
-    return pulled(height, e.level, plateau(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius));
+inline float height_after(const flatten& e, const glm::dvec2& p, float height) {
+    return lerp(height, e.level, plateau(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius));
 }
-inline float worked(const ramp& e, const glm::dvec2& p, float height) {
+inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
     const glm::dvec2 way = e.to - e.from, off = p - e.from;
     const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
     const double t = (way.x * off.x + way.y * off.y) / square;
     const double side = (way.x * off.y - way.y * off.x) / span;
     // Beyond its ends the ramp is level, and fades as at its sides.
     const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
-    const float weight = plateau(static_cast<float>(2 * numeric::magnitude(side)) / e.width) *
+    const float weight = plateau(static_cast<float>(2 * numeric::abs(side)) / e.width) *
                          fade(clamp01(1 - 4 * static_cast<float>(past) / e.width));
-    return pulled(height, mix(e.from_height, e.to_height, clamp01(static_cast<float>(t))), weight);
+    return lerp(height, mix(e.from_height, e.to_height, clamp01(static_cast<float>(t))), weight);
 }
-inline float worked(const stamp& e, const glm::dvec2& p, float height) {
+inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
     if (e.every <= 0) return height + e.height * brush(static_cast<float>(distance_to_path(p, e.path)) / e.radius);
     // The mark next to the nearest place on each leg of the path, counted along it.
     const double every = static_cast<double>(e.every);
@@ -22221,7 +21968,7 @@ inline float worked(const stamp& e, const glm::dvec2& p, float height) {
     }
     return height + e.height * brush(static_cast<float>(numeric::square_root(nearest)) / e.radius);
 }
-inline float worked(const scour& e, const glm::dvec2& p, float height) {
+inline float height_after(const scour& e, const glm::dvec2& p, float height) {
     const auto flow = numeric::sin_cos(static_cast<double>(e.current));
     const glm::dvec2 off = p - e.centre;
     const auto along = static_cast<float>(off.x * flow.cosine + off.y * flow.sine);
@@ -22231,48 +21978,48 @@ inline float worked(const scour& e, const glm::dvec2& p, float height) {
     const float lee = r > 0 ? 0.75f - 0.25f * along / r : 1.0f;
     const float moat = -e.depth * lee * brush(beyond > 0 ? beyond : 0.0f);
     if (e.tail <= 0 || along <= 0) return height + moat;
-    const float way = clamp01(along / (e.radius + e.width + e.tail)), side = numeric::magnitude(across);
+    const float way = clamp01(along / (e.radius + e.width + e.tail)), side = numeric::abs(across);
     const float tail = 0.4f * e.depth * 4 * way * (1 - way) * brush((side - e.radius) / e.width);
     return height + moat + tail;
 }
-inline float worked(const moat& e, const glm::dvec2& p, float height) {
+inline float height_after(const moat& e, const glm::dvec2& p, float height) {
     return height + static_cast<float>(moat_change(e, p));
 }
-inline float worked(const heap& e, const glm::dvec2& p, float height) {
+inline float height_after(const heap& e, const glm::dvec2& p, float height) {
     const float beyond = length(p.x - e.centre.x, p.y - e.centre.y) - e.radius;
     return (std::max)(height, e.level - e.slope * (std::max)(beyond, 0.0f));
 }
 
-/// What an edit makes of heights in a range, wherever it works.
+/// The range of heights after an edit, for heights in a given range before it.
 inline height_range added(const height_range& ground, double least, double most) {
     return {ground.lowest + (std::min)(1.00001 * least, 0.0), ground.highest + (std::max)(1.00001 * most, 0.0)};
 }
-inline height_range pulled(const height_range& ground, double to) {
+inline height_range including(const height_range& ground, double to) {
     return merge(ground, {to, to});
 }
-inline height_range worked_range(const raise& e, const height_range& ground) {
+inline height_range range_after(const raise& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
 }
-inline height_range worked_range(const flatten& e, const height_range& ground) {
-    return pulled(ground, static_cast<double>(e.level));
+inline height_range range_after(const flatten& e, const height_range& ground) {
+    return including(ground, static_cast<double>(e.level));
 }
-/// A mean of what is there.
-inline height_range worked_range(const smooth&, const height_range& ground) {
+/// Means stay within the range.
+inline height_range range_after(const smooth&, const height_range& ground) {
     return ground;
 }
-inline height_range worked_range(const ramp& e, const height_range& ground) {
-    return pulled(pulled(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height));
+inline height_range range_after(const ramp& e, const height_range& ground) {
+    return including(including(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height));
 }
-inline height_range worked_range(const stamp& e, const height_range& ground) {
+inline height_range range_after(const stamp& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
 }
-inline height_range worked_range(const scour& e, const height_range& ground) {
+inline height_range range_after(const scour& e, const height_range& ground) {
     return added(ground, -static_cast<double>(e.depth), 0.4 * static_cast<double>(e.depth));
 }
-inline height_range worked_range(const moat& e, const height_range& ground) {
+inline height_range range_after(const moat& e, const height_range& ground) {
     return added(ground, -static_cast<double>(e.depth), static_cast<double>(e.mound));
 }
-inline height_range worked_range(const heap& e, const height_range& ground) {
+inline height_range range_after(const heap& e, const height_range& ground) {
     return {ground.lowest, (std::max)(ground.highest, static_cast<double>(e.level))};
 }
 
@@ -22281,7 +22028,7 @@ inline height_range worked_range(const heap& e, const height_range& ground) {
 inline std::array<float, 16> smooth_shares(float fraction) {
     std::array<float, 16> shares;
     for (std::size_t n = 0; n < 16; ++n) {
-        const float t = numeric::magnitude(0.25f * (fraction + 7 - static_cast<float>(n)));
+        const float t = numeric::abs(0.25f * (fraction + 7 - static_cast<float>(n)));
         const float s = 2 - t;
         shares[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
     }
@@ -22310,7 +22057,7 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
         const auto across = smooth_shares(u.fraction);
         float even = 0;
         for (std::size_t n = 0; n < 16; ++n) even += across[n] * from[n];
-        heights[i] = pulled(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));
+        heights[i] = lerp(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));
     }
 }
 
@@ -22323,7 +22070,7 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/mixed.hpp -----------------------------------------------------------------
-// A seabed of layers: bottoms laid over a base, each within its own area, with the label at every point.
+// Layered seabeds: models composited over a base, each within its area, with a label at every point.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -22428,7 +22175,7 @@ inline type mixed::type_at(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/sculpt.hpp ----------------------------------------------------------------
-// A seabed edited by hand: raised, lowered, flattened, smoothed, ramped, stamped, scoured, heaped up; in order.
+// Sculpted seabeds: a base and a sequence of edits that raise, lower, flatten, smooth, ramp, stamp, scour or heap.
 //
 // An edit is a function of the position and of the height after the edits before it, so that a sculpted seabed stays
 // unbounded and independent of the grid. Outside an edit's bounds no bit changes.
@@ -22475,7 +22222,7 @@ class sculpt_sampler {
     height_range range() const {
         height_range all = ground_.range();
         for (const bounded_edit& e : edits_)
-            all = std::visit([&](const auto& held) { return detail::worked_range(held, all); }, e.done);
+            all = std::visit([&](const auto& held) { return detail::range_after(held, all); }, e.done);
         return all;
     }
 
@@ -22510,7 +22257,7 @@ class sculpt_sampler {
                     });
                 } else {
                     for (std::size_t i = 0; i < part.size(); ++i)
-                        part[i] = detail::worked(e, {there.x(i), there.y}, part[i]);
+                        part[i] = detail::height_after(e, {there.x(i), there.y}, part[i]);
                 }
             },
             done);
@@ -22543,7 +22290,7 @@ inline type sculpted::type_at(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/models.hpp ----------------------------------------------------------------
-// Every seabed of the library.
+// Includes every seabed model of the library.
 
 
 // ------------ insonify/shadow/detail/height_map.hpp -----------------------------------------------------
@@ -22797,7 +22544,7 @@ class map_receiver {
   public:
     map_receiver(const height_map& map, const receiver_plane& r)
         : map_(map), at_(map.on_map(r.uvz)), slope_u_(map.on_map(r.slope_u)), slope_v_(map.on_map(r.slope_v)) {
-        bias_ = 1e-6f + numeric::magnitude(slope_u_) + numeric::magnitude(slope_v_);  // heights are rounded to 1e-7
+        bias_ = 1e-6f + numeric::abs(slope_u_) + numeric::abs(slope_v_);  // heights are rounded to 1e-7
     }
 
     /// Whether no texel within `radius` of the nearest one is on the map: nothing can be in the way.
@@ -23648,7 +23395,7 @@ class ping_fan {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/geometry/detail/plane_tree.hpp ---------------------------------------------------
-// Finds the triangles of a mesh that a plane may cut, without looking at the others.
+// Bounding-volume tree that finds the triangles of a mesh that a plane may cut.
 //
 // Boxes around runs of eight triangles, boxes around eight of those, and so on: an implicit tree over the triangles in
 // their own order, which shared_mesh keeps coherent. Building it is one pass, and triangles are visited in order.
@@ -23703,12 +23450,12 @@ class plane_tree {
             }
         }
         bool meets(const glm::dvec3& normal, double offset) const {
-            double lowest = offset, highest = offset, size = numeric::magnitude(offset);
+            double lowest = offset, highest = offset, size = numeric::abs(offset);
             for (int i = 0; i < 3; ++i) {
                 const double a = normal[i] * static_cast<double>(low[i]), b = normal[i] * static_cast<double>(high[i]);
                 lowest += (std::min)(a, b);
                 highest += (std::max)(a, b);
-                size += (std::max)(numeric::magnitude(a), numeric::magnitude(b));
+                size += (std::max)(numeric::abs(a), numeric::abs(b));
             }
             const double rounding = 1e-12 * size;
             return lowest <= rounding && highest >= -rounding;  // false for an empty box
@@ -24422,7 +24169,7 @@ class ping_tracer {
         const double outwards = counts_time ? dx * ray.sine + ddown * ray.cosine : dx;
         const double turning = dx * ray.cosine - ddown * ray.sine;
         const double half = 0.5 * range * ray.width * outwards / (turning * bin_);
-        return static_cast<float>(numeric::magnitude(half));
+        return static_cast<float>(numeric::abs(half));
     }
 
     /// Power that a surface of reflectivity 1 returns from a ray: the ray's cross-section over the sine of the grazing
@@ -24959,7 +24706,7 @@ class recorder {
             const auto weight = [&](int j) {
                 return j * spacing() <= beam.reach(slant) ? beam.pattern(j * spacing(), slant) : 0.0;
             };
-            for (int j = -reach; j <= reach; ++j) sum += weight(numeric::magnitude(j));
+            for (int j = -reach; j <= reach; ++j) sum += weight(numeric::abs(j));
             for (int j = 0; j <= reach; ++j) weights(b, j) = static_cast<float>(weight(j) / sum);
         }
         image<float> blurred(bins, rows);
@@ -24968,7 +24715,7 @@ class recorder {
             const auto to = blurred.row(y);
             for (int j = -reach; j <= reach; ++j) {
                 const int other = (std::min)((std::max)(y + j, 0), rows - 1);
-                const float* const weight = weights.row(numeric::magnitude(j)).data();
+                const float* const weight = weights.row(numeric::abs(j)).data();
                 const float* const from = out_.image.row(other).data();
                 for (std::size_t b = 0; b < to.size(); ++b) to[b] += weight[b] * from[b];
             }
@@ -25281,7 +25028,7 @@ class speckle_field {
         for (int i = 0; i < count; ++i) {
             const auto to = field.row(i);
             for (int j = -reach; j <= reach; ++j) {
-                const float tap = along_[static_cast<std::size_t>(numeric::magnitude(j))];
+                const float tap = along_[static_cast<std::size_t>(numeric::abs(j))];
                 const float* const from = blurred.row(i + reach + j).data();
                 for (std::size_t x = 0; x < to.size(); ++x) to[x] += tap * from[x];
             }

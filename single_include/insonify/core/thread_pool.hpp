@@ -1,4 +1,4 @@
-// A small pool that the caller builds, owns and destroys. The only header that includes <thread>; not in the umbrella.
+// Thread pool as an executor, owned by the caller. The only header that includes <thread>; not in the umbrella header.
 #pragma once
 
 #include <insonify/insonify.hpp>
@@ -19,8 +19,8 @@ inline namespace INSONIFY_ABI {
 /// thread instead of waiting: nesting can't deadlock, however pools are mixed.
 class thread_pool {
   public:
-    /// Where the system starts fewer threads than that (a limit on processes or memory), the pool works with those:
-    /// `threads()` says how many.
+    /// If the system refuses to start some threads (a limit on processes or memory), the pool works with fewer;
+    /// `threads()` returns the number.
     /// @param threads  how many threads share the work, the caller included; 0 means one per hardware thread
     /// @throws invalid_input above 4096
     INSONIFY_TAGGED explicit thread_pool(int threads = 0) {
@@ -61,7 +61,7 @@ class thread_pool {
         run(work);
         {
             const std::lock_guard lock(mutex_);
-            job_ = nullptr;  // a worker that wakes up late finds nothing to do
+            job_ = nullptr;  // late workers find no job
         }
         watch([&] { return work.helpers.load(std::memory_order_relaxed) == 0; });
         {
@@ -98,8 +98,8 @@ class thread_pool {
         }
     }
 
-    /// Stays awake for a few tens of microseconds, or until it is worth going to look. A picture is made in some twenty
-    /// steps, and to fall asleep and be woken between two of them takes longer than most of the gaps.
+    /// Spins for a few tens of microseconds or until the condition holds. A picture takes some twenty bulks, and
+    /// sleeping between two of them takes longer than most of the gaps.
     template <class Awaited>
     INSONIFY_TAGGED static void watch(const Awaited& has_come) {
 #if defined(__SSE2__)
