@@ -34,6 +34,15 @@ egl           header:EGL/egl.h                        libegl-dev            mesa
 gles          header:GLES3/gl3.h                      libgles-dev           mesa-libGLES-devel  mesa
 llvmpipe      library:dri/swrast_dri.so               libgl1-mesa-dri       mesa-dri-drivers    mesa
 embree        header:embree3/rtcore.h                 libembree-dev         embree3-devel       embree@3
+libcxx        library:llvm-*/lib/libc++.so            libc++-dev            libcxx-devel        -
+libcxxabi     library:llvm-*/lib/libc++abi.so         libc++abi-dev         libcxxabi-devel     -
+i386          command:i686-linux-gnu-g++              g++-i686-linux-gnu    -                   -
+aarch64       command:aarch64-linux-gnu-g++           g++-aarch64-linux-gnu gcc-c++-aarch64-linux-gnu  -
+s390x         command:s390x-linux-gnu-g++             g++-s390x-linux-gnu   gcc-c++-s390x-linux-gnu  -
+qemu          command:qemu-s390x                      qemu-user             qemu-user           -
+emscripten    command:em++                            emscripten            emscripten          emscripten
+mingw         command:x86_64-w64-mingw32-g++-posix    g++-mingw-w64-x86-64-posix  mingw64-gcc-c++  mingw-w64
+wine          command:wine                            wine                  wine                wine
 valgrind      command:valgrind                        valgrind              valgrind            valgrind
 doxygen       command:doxygen                         doxygen               doxygen             doxygen
 clang-format  command:clang-format                    clang-format          clang-tools-extra   clang-format
