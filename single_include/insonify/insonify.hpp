@@ -57,6 +57,10 @@
 #error "insonify promises the same bytes everywhere and cannot keep that under -ffast-math: compile without it."
 #endif
 
+#if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ == 2 || __FLT_EVAL_METHOD__ < 0)
+#error "insonify promises the same bytes everywhere, which x87 arithmetic breaks: compile with -msse2 -mfpmath=sse."
+#endif
+
 #if !defined(INSONIFY_SIMD)
 #if defined(__GNUC__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
 #define INSONIFY_SIMD 1
