@@ -77,7 +77,7 @@ inline vertex mesh_vertex(const mesh_view& m, std::uint32_t index) {
 /// The varyings of a vertex for shading over lanes, padded to whole vectors of four floats.
 template <class Varyings>
 struct alignas((sizeof(Varyings) + 15) / 16 == 2 ? 32 : 16) varyings_record {
-    static constexpr int blocks = (static_cast<int>(sizeof(Varyings) / sizeof(float)) + 3) / 4;
+    static constexpr int blocks = (static_cast<int>(sizeof(Varyings)) + 15) / 16;
     float values[static_cast<unsigned>(4 * blocks)];
 
     void set(const Varyings& varyings) { std::memcpy(values, &varyings, sizeof varyings); }

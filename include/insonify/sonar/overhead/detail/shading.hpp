@@ -83,10 +83,10 @@ struct shaded_images {
     image<std::uint32_t>* ids = nullptr;   ///< the visibility buffer
     image<std::uint8_t>* types = nullptr;  ///< seabed::type, of bottoms of several types
 
+    /// Where there is a rest, shadow_pass clears what shows nothing.
     void clear(const rect& tile) const {
         for (int y = tile.y0; y < tile.y1; ++y) {
-            std::fill_n(&direct(tile.x0, y), tile.width(), 0.0f);
-            if (rest != nullptr) std::fill_n(&(*rest)(tile.x0, y), tile.width(), 0.0f);
+            if (rest == nullptr) std::fill_n(&direct(tile.x0, y), tile.width(), 0.0f);
             if (ids != nullptr) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
         }
     }
