@@ -12612,7 +12612,7 @@ inline vertex mesh_vertex(const mesh_view& m, std::uint32_t index) {
 /// The varyings of a vertex for shading over lanes, padded to whole vectors of four floats.
 template <class Varyings>
 struct alignas((sizeof(Varyings) + 15) / 16 == 2 ? 32 : 16) varyings_record {
-    static constexpr int blocks = (static_cast<int>(sizeof(Varyings) / sizeof(float)) + 3) / 4;
+    static constexpr int blocks = (static_cast<int>(sizeof(Varyings)) + 15) / 16;
     float values[static_cast<unsigned>(4 * blocks)];
 
     void set(const Varyings& varyings) { std::memcpy(values, &varyings, sizeof varyings); }
@@ -16860,10 +16860,10 @@ struct shaded_images {
     image<std::uint32_t>* ids = nullptr;   ///< the visibility buffer
     image<std::uint8_t>* types = nullptr;  ///< seabed::type, of bottoms of several types
 
+    /// Where there is a rest, shadow_pass clears what shows nothing.
     void clear(const rect& tile) const {
         for (int y = tile.y0; y < tile.y1; ++y) {
-            std::fill_n(&direct(tile.x0, y), tile.width(), 0.0f);
-            if (rest != nullptr) std::fill_n(&(*rest)(tile.x0, y), tile.width(), 0.0f);
+            if (rest == nullptr) std::fill_n(&direct(tile.x0, y), tile.width(), 0.0f);
             if (ids != nullptr) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
         }
     }
@@ -17360,6 +17360,31 @@ inline const surface& surface_of(const std::vector<surface>& surfaces, std::uint
     return *(after - 1);
 }
 
+/// Pixels from what they show without the light, how much of it arrives and what it makes of them.
+struct lit_row_kernel {
+    const float *rest, *share;
+    float* value;  ///< in: what the light alone makes of a pixel; out: all of it
+    std::size_t count;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        std::size_t i = 0;
+        for (; i + N <= count; i += N) light<N>(i);
+        for (; i < count; ++i) light<1>(i);
+    }
+
+  private:
+    template <int N>
+    INSONIFY_INLINE void light(std::size_t i) const {
+        lanes<float, N> dark, lit, direct;
+        load(dark, rest + i);
+        load(lit, share + i);
+        load(direct, value + i);
+        const lanes<float, N> sum = dark + lit * direct;
+        store(value + i, lanes<float, N>(sum < 1.0f ? sum : lanes<float, N>{} + 1.0f));
+    }
+};
+
 /// Shadows of one picture.
 template <class Labels>
 class shadow_pass {
@@ -17369,8 +17394,7 @@ class shadow_pass {
     /// @param picture  what the light alone makes of them; becomes both together
     /// @param targets  casters numbered below this are targets
     shadow_pass(const overhead_geometry& view, const std::vector<surface>& surfaces, const image<std::uint32_t>& ids,
-                const image<float>& rest, image<float>& picture, Labels& marks, std::size_t targets, int tile,
-                isa level)
+                image<float>& rest, image<float>& picture, Labels& marks, std::size_t targets, int tile, isa level)
         : view_(view),
           surfaces_(surfaces),
           ids_(ids),
@@ -17411,7 +17435,6 @@ class shadow_pass {
             for (std::size_t i = first; i < last; ++i) {
                 const rect box = tile_box(i);
                 point_list points(arrays, 0, pixels);
-                std::fill(lit.begin(), lit.end(), 0.0f);
                 find_points(finders, box, lit, points);
                 const shadow::shares shares = light.part(0, points.size());
                 point_batches(points, shares, targets_).for_each([&](const shadow::points& p, const shadow::shares& s) {
@@ -17475,40 +17498,54 @@ class shadow_pass {
     }
 
     /// The points of a tile that matter: where there is light to lose, or all for the sake of labels. Pixels of
-    /// triangles of which all is known get their share of light at once.
+    /// triangles of which all is known get their share of light at once. Neighbours' answers are as good as random, so
+    /// the loop does without branches.
     void find_points(std::span<const point_finder> finders, const rect& box, std::span<float> lit, point_list& into) {
-        std::vector<std::vector<shown_pixel>> pixels(surfaces_.size());
+        const auto width = static_cast<std::size_t>(box.width()), height = static_cast<std::size_t>(box.height());
+        struct pixel_list {
+            uninitialized_vector<shown_pixel> room;
+            std::size_t count = 0;
+        };
+        std::vector<pixel_list> lists(surfaces_.size());
         const surface* last = nullptr;
         const shadow::known* known = nullptr;  // of the triangles of that
-        std::vector<shown_pixel>* to = nullptr;
-        for (int y = box.y0; y < box.y1; ++y) {
+        pixel_list* to = nullptr;
+        std::uint32_t first_id = 0, ids_of_last = 0;
+        for (std::size_t row = 0; row < height; ++row) {
+            const int y = box.y0 + static_cast<int>(row);
             const std::uint32_t* const ids = &ids_(box.x0, y);
-            const float* const direct = &image_(box.x0, y);
-            for (int x = 0; x < box.width(); ++x) {
-                const std::uint32_t id = ids[x];
-                if (id == shadow::invalid_id || !(labelled || direct[x] > 0)) continue;
-                if (last == nullptr || id - last->first_id >= last->mesh.triangles.size()) {
-                    last = &surface_of(surfaces_, id);
+            float *const direct = &image_(box.x0, y), *const rest = &rest_(box.x0, y);
+            float* const share = lit.data() + row * width;
+            for (std::size_t x = 0; x < width; ++x) {
+                if (ids[x] - first_id >= ids_of_last) {
+                    if (ids[x] == shadow::invalid_id) {
+                        share[x] = direct[x] = rest[x] = 0;
+                        continue;
+                    }
+                    last = &surface_of(surfaces_, ids[x]);
+                    first_id = last->first_id;
+                    ids_of_last = static_cast<std::uint32_t>(last->mesh.triangles.size());
                     const auto number = static_cast<std::size_t>(last - surfaces_.data());
                     known = known_[number].empty() ? nullptr : known_[number].data();
-                    to = &pixels[number];
-                    if (to->empty()) to->reserve(static_cast<std::size_t>(box.width() * box.height()));
+                    to = &lists[number];
+                    if (to->room.empty()) to->room.resize(width * height);
                 }
-                const std::uint32_t triangle = id - last->first_id;
+                const std::uint32_t triangle = ids[x] - first_id;
                 const auto answer = known != nullptr ? known[triangle] : shadow::known::nothing;
-                if (answer == shadow::known::nothing) {
-                    to->push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y - box.y0), triangle});
-                } else if (answer == shadow::known::lit) {
-                    lit[static_cast<std::size_t>(y - box.y0) * static_cast<std::size_t>(box.width()) +
-                        static_cast<std::size_t>(x)] = 1;
-                } else if constexpr (labelled) {
-                    labels_.shadow(box.x0 + x, y) = name_of(last->caster);
-                }
+                share[x] = answer == shadow::known::lit ? 1.0f : 0.0f;
+                if constexpr (labelled)
+                    if (answer == shadow::known::dark)
+                        labels_.shadow(box.x0 + static_cast<int>(x), y) = name_of(last->caster);
+                to->room[to->count] = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(row), triangle};
+                const bool matters = labelled || direct[x] > 0;
+                to->count += static_cast<std::size_t>(answer == shadow::known::nothing) & std::size_t{matters};
             }
         }
-        for (std::size_t i = 0; i < pixels.size(); ++i)
-            if (!pixels[i].empty())
-                dispatch(point_kernel{finders[i], pixels[i], view_.has_near_light(), labelled, box, into}, level_);
+        for (std::size_t i = 0; i < lists.size(); ++i)
+            if (lists[i].count > 0)
+                dispatch(point_kernel{finders[i], std::span(lists[i].room).first(lists[i].count),
+                                      view_.has_near_light(), labelled, box, into},
+                         level_);
     }
 
     /// Pixels of a tile from what the light makes of them and how much of it arrives.
@@ -17520,7 +17557,7 @@ class shadow_pass {
             const float* const share = lit.data() + static_cast<std::size_t>(y - box.y0) * width;
             float* const value = &image_(box.x0, y);
             const float* const rest = &rest_(box.x0, y);
-            for (std::size_t i = 0; i < width; ++i) value[i] = (std::min)(1.0f, rest[i] + share[i] * value[i]);
+            dispatch(lit_row_kernel{rest, share, value, width}, level_);
         }
         if constexpr (labelled) label_shadows(points, light, [&](std::size_t pixel) { return pixel_in(box, pixel); });
     }
@@ -17545,7 +17582,7 @@ class shadow_pass {
     const overhead_geometry& view_;
     const std::vector<surface>& surfaces_;
     const image<std::uint32_t>& ids_;
-    const image<float>& rest_;
+    image<float>& rest_;
     image<float>& image_;
     Labels& labels_;
     std::vector<uninitialized_vector<shadow::known>> known_;  ///< of the surfaces' triangles, where anything is
