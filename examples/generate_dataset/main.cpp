@@ -87,7 +87,7 @@ int verify(const generator::options& o, const generator::stock& shared, insonify
 void describe(const generator::options& o, const generator::stock& shared, int threads) {
     const generator::index_range work = generator::range_of(o.first, o.count, o.shard);
     generator::image_cost cost;
-    if (o.dry_run || work.size() >= 64) cost = generator::measured_cost(o, work, shared);
+    if (o.dry_run || work.size() >= 256) cost = generator::measured_cost(o, work, shared);
     std::fputs(generator::summary_of(o, work, cost, threads).c_str(), o.dry_run ? stdout : stderr);
 }
 

@@ -347,6 +347,17 @@ class Generator(unittest.TestCase):
     def read_manifest(self, folder):
         return list(csv.DictReader((folder / "manifest.csv").read_text().splitlines()))
 
+    def test_a_dry_run_says_what_would_be_made_and_makes_nothing(self):
+        out = self.folder / "a"
+        text = run("--out", out, *SMALL, "--dry-run")
+        self.assertIn("8 images of 96 x 96 pixels, recipe published, seed 5", text)
+        self.assertIn("classes: cone 2, cube 2, cylinder 2, sphere 2", text)
+        self.assertRegex(text, r"about \d[\d.]* [kM]B, ")
+        self.assertFalse(out.exists())
+        text = run("--out", out, "--recipe", "sonar", "--per-class", "ship=3,empty=9", "--dry-run", "--shard", "1/3")
+        self.assertIn("4 images of 128 x 128 pixels", text)
+        self.assertIn("classes: empty 4", text)
+
     def test_the_sonar_recipe_makes_empty_images_and_labels_what_is_there(self):
         out = self.folder / "a"
         options = ["--recipe", "sonar", "--pixels", 64, "--count", 24]
