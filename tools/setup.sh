@@ -44,6 +44,8 @@ emscripten    command:em++                            emscripten            emsc
 mingw         command:x86_64-w64-mingw32-g++-posix    g++-mingw-w64-x86-64-posix  mingw64-gcc-c++  mingw-w64
 wine          command:wine                            wine                  wine                wine
 valgrind      command:valgrind                        valgrind              valgrind            valgrind
+debhelper     command:dh                              debhelper             -                   -
+gdb           command:gdb                             gdb                   gdb                 gdb
 doxygen       command:doxygen                         doxygen               doxygen             doxygen
 clang-format  command:clang-format                    clang-format          clang-tools-extra   clang-format
 '
