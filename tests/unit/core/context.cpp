@@ -102,7 +102,7 @@ TEST_CASE("Images move and swap between contexts and the heap") {
     CHECK(a.kept_bytes() == megabyte);
 }
 
-TEST_CASE("release() frees what is kept") {
+TEST_CASE("release() frees the kept blocks") {
     in::context context;
     picture(context);
     REQUIRE(context.kept_bytes() > 0);

@@ -1,4 +1,4 @@
-// Executors: everything is called once, errors come back, nothing hangs.
+// Executors: each index is called once, exceptions reach the caller, nested bulks do not deadlock.
 #include <insonify/core/executor.hpp>
 #include <insonify/core/thread_pool.hpp>
 
@@ -44,7 +44,7 @@ TEST_CASE("A pool makes every call exactly once, with fewer or more threads than
     CHECK(calls(pool, count) == std::vector<int>(count, 1));
 }
 
-TEST_CASE("A pool asks the hardware for its size if none is given, and refuses a size that cannot be right") {
+TEST_CASE("A pool has one thread per hardware thread by default and refuses sizes out of range") {
     CHECK(in::thread_pool().threads() >= 1);
     CHECK_THROWS_WITH(in::thread_pool(-1), ContainsSubstring("threads is -1"));
     CHECK_THROWS_AS(in::thread_pool(4097), in::invalid_input);
@@ -73,7 +73,7 @@ TEST_CASE("A pool uses more than one thread") {
     CHECK(arrived == 2);
 }
 
-TEST_CASE("An exception comes back to the caller after all other calls, and the pool works on") {
+TEST_CASE("An exception reaches the caller after all other calls have returned, and the pool stays usable") {
     in::thread_pool pool(GENERATE(1, 4));
     const bool parallel = pool.threads() > 1;
     std::atomic<int> made{0};
@@ -109,7 +109,7 @@ TEST_CASE("Threads that share a pool all get their work done") {
     CHECK(made == 4 * 100 * 7);
 }
 
-TEST_CASE("Ranges cut the work at multiples of the grain, whoever runs them") {
+TEST_CASE("bulk_ranges() splits at multiples of the grain for any executor") {
     in::thread_pool pool(2);
     std::vector<std::size_t> ends(4, 0);
     in::bulk_ranges(pool, 10, 3, [&](std::size_t first, std::size_t last) { ends[first / 3] = last; });

@@ -8,7 +8,7 @@
 
 namespace in = insonify;
 
-TEST_CASE("An image has the size that was asked for and is filled with the value given") {
+TEST_CASE("An image has the given size and fill value") {
     const in::image<float> filled(3, 2, 0.5f);
     CHECK(filled.width() == 3);
     CHECK(filled.height() == 2);
@@ -41,7 +41,7 @@ TEST_CASE("An image refuses sizes that cannot be right and rows of different len
     CHECK_THROWS_WITH((in::image<int>{{0, 1}, {2}}), ContainsSubstring("row length is 1"));
 }
 
-TEST_CASE("A view shares pixels: what is written through it is in the image") {
+TEST_CASE("A view shares the pixels of its image") {
     in::image<int> table{{0, 1, 2}, {10, 11, 12}};
     const in::image_view<int> view = table;
     view(1, 1) = 99;
@@ -103,7 +103,7 @@ TEST_CASE("An error names the argument, its value in the fewest digits, and what
                       "variance is -0.1, expected at least 0");
 }
 
-TEST_CASE("Both errors are caught as what the standard library calls them") {
+TEST_CASE("Both errors derive from exceptions of the standard library") {
     CHECK_THROWS_AS(in::detail::raise(in::invalid_input("x")), std::invalid_argument);
     CHECK_THROWS_AS(in::detail::raise(in::io_error("x")), std::runtime_error);
 }

@@ -53,7 +53,7 @@ TEST_CASE("The logarithm is right to 1 ulp, over all magnitudes and where it van
     CHECK(worst(-1074, 1023.9, [&](double exponent) { return error(std::exp2(exponent)); }) <= 1);
 }
 
-TEST_CASE("The logarithm of what has none is what the C library says") {
+TEST_CASE("log() of 0, negative numbers, infinity and NaN is the C library's") {
     CHECK(numeric::log(1) == 0);
     CHECK(numeric::log(0) == -infinity);
     CHECK(numeric::log(-0.0) == -infinity);
@@ -170,7 +170,7 @@ TEST_CASE("Floors round towards minus infinity") {
           }) == 0);
 }
 
-TEMPLATE_TEST_CASE("Finite is what is neither infinite nor NaN", "", float, double) {
+TEMPLATE_TEST_CASE("is_finite() is false for infinity and NaN alone", "", float, double) {
     using own = std::numeric_limits<TestType>;
     for (const TestType value : {TestType(0), -TestType(0), own::denorm_min(), (own::max)(), own::lowest()})
         CHECK(numeric::is_finite(value));

@@ -1,4 +1,4 @@
-// Uninitialized vectors hold what is stored in them, whatever their size and wherever their memory comes from.
+// Uninitialized vectors: stored values, copies and moves, for small and pooled sizes.
 #include <insonify/core/context.hpp>
 #include <insonify/core/detail/uninitialized.hpp>
 
@@ -10,7 +10,7 @@
 namespace in = insonify;
 using bytes = in::detail::uninitialized_vector<std::uint8_t>;
 
-TEST_CASE("Uninitialized vectors hold what is stored in them, small or large, moved or copied") {
+TEST_CASE("Uninitialized vectors keep stored values when copied and moved, small or large") {
     constexpr std::size_t megabyte = std::size_t{1} << 20;
     const in::context context;
     const in::detail::shared_pool memory = GENERATE_REF(in::detail::shared_pool(), context.memory());

@@ -210,7 +210,7 @@ TEST_CASE("codes of 8 bits are matched as floats are, and rounded") {
           (source | in::to_float | in::match_binned(reference) | in::to_uint8));
 }
 
-TEST_CASE("what is not a number stays, is not counted, and changes nothing else") {
+TEST_CASE("NaN stays NaN, is not counted, and changes no other pixel") {
     const float inf = std::numeric_limits<float>::infinity();
     const in::image<float> reference{{0.25f, 0.5f, 0.75f}};
     const auto out = in::image<float>{{0, not_a_number, 1, 2, inf, -inf}} | in::match_histogram(reference);
@@ -302,7 +302,7 @@ TEST_CASE("histograms of parts add up, on any executor") {
     CHECK(apply(source, in::equalize{}, pool) == (source | in::equalize{}));
 }
 
-TEST_CASE("behind other filters floats are matched as they are alone, with and without what is not a number") {
+TEST_CASE("matching in a chain gives the result of matching alone, with and without NaN") {
     const auto reference = random_image(30, 30, 18, 2, 255);
     const auto double_it = [](float v) { return 2 * v - 0.3f; };  // beyond both ends, too
     const auto same = [](const in::image<float>& a, const in::image<float>& b) {

@@ -1,4 +1,4 @@
-// Moments after clipping, distributions, and independence of what noise must not depend on.
+// Noise: moments after clipping, distributions, and independence of neighbours, frames and seeds.
 #include <insonify/filter/echo_noise.hpp>
 #include <insonify/filter/noise.hpp>
 #include <insonify/filter/pipe.hpp>

@@ -51,7 +51,7 @@ TEST_CASE("a chain touches no pixel until it is applied, and then each pixel onc
     CHECK(out == ramp(5, 4));
 }
 
-TEST_CASE("a chain gives what its stages give one after the other") {
+TEST_CASE("a chain gives the result of its stages applied one by one") {
     const in::image<float> source = ramp(300, 250);
     const in::image<float> reference = ramp(17, 3);
     const in::match_histogram match(reference);
@@ -133,7 +133,7 @@ TEST_CASE("empty and thin images pass through every filter") {
     CHECK((in::image<float>(1, 70000, 0.5f) | look).height() == 70000);
 }
 
-TEST_CASE("only filters of the library compose with whatever is callable, and only with pixels they know") {
+TEST_CASE("library filters compose with any callable, and reject pixel types they do not accept") {
     const auto lambda = [](float v) { return v; };
     STATIC_REQUIRE(in::detail::library_filter<in::speckle>);
     STATIC_REQUIRE_FALSE(in::detail::library_filter<decltype(lambda)>);
@@ -148,7 +148,7 @@ TEST_CASE("only filters of the library compose with whatever is callable, and on
     STATIC_REQUIRE_FALSE(in::filter_for<in::match_histogram, in::rgb8>);
 }
 
-TEST_CASE("quantization rounds to the nearest, ties up, and comes back") {
+TEST_CASE("quantization rounds to nearest, ties up, and has an exact inverse") {
     CHECK(in::quantize<std::uint8_t>(0.5f) == 128);  // 127.5
     CHECK(in::quantize<std::uint8_t>(std::nextafter(0.5f, 0.0f)) == 127);
     CHECK(in::quantize<std::uint8_t>(-1.0f) == 0);
@@ -174,7 +174,7 @@ TEST_CASE("quantization rounds to the nearest, ties up, and comes back") {
     CHECK((in::image<in::rgb<float>>{{{1, 0, 0.2f}}} | in::to_uint8) == in::image<in::rgb8>{{{255, 0, 51}}});
 }
 
-TEST_CASE("gray has MATLAB's weights unless told otherwise") {
+TEST_CASE("gray has MATLAB's weights by default") {
     // rgb2gray of the pure colours and of white, as documented by MathWorks: 76, 150, 29 and 255.
     const in::image<in::rgb8> colors{{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}, {0, 0, 0}}};
     CHECK((colors | in::to_gray{}) == in::image<std::uint8_t>{{76, 150, 29, 255, 0}});
@@ -205,7 +205,7 @@ TEST_CASE("copper is MATLAB's copper(256)") {
     }
 }
 
-TEST_CASE("a colour map takes floats and codes alike, and users' tables too") {
+TEST_CASE("a colour map takes floats, codes and users' tables") {
     const in::image<float> values{{0, 0.5f, 1, -3, 7, std::nanf("")}};
     CHECK((values | in::colormap::copper) == (values | in::to_uint8 | in::colormap::copper));
     CHECK((values | in::colormap::gray) ==

@@ -50,7 +50,7 @@ struct shifted {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("Noise on codes is noise on what they stand for, rounded", "", in::gaussian, in::speckle,
+TEMPLATE_TEST_CASE("Noise on codes is the rounded noise on their float values", "", in::gaussian, in::speckle,
                    in::gaussian_speckle, in::salt_and_pepper, in::rayleigh, in::gamma_speckle, in::k_speckle,
                    in::rician, in::poisson) {
     const TestType noise{.seed = 5, .frame = 2};
@@ -79,9 +79,9 @@ TEMPLATE_TEST_CASE("Each channel of a colour has noise of its own, and the first
     CHECK((in::image<in::rgb<std::uint16_t>>(5, 5, {1, 2, 3}) | noise).size() == 25);
 }
 
-TEMPLATE_TEST_CASE("Parts that are filtered one by one have the noise of the whole, wherever they begin", "",
-                   in::gaussian, in::speckle, in::gaussian_speckle, in::salt_and_pepper, in::rayleigh,
-                   in::gamma_speckle, in::k_speckle, in::rician, in::poisson) {
+TEMPLATE_TEST_CASE("Parts filtered with their origin have the noise of the whole image", "", in::gaussian, in::speckle,
+                   in::gaussian_speckle, in::salt_and_pepper, in::rayleigh, in::gamma_speckle, in::k_speckle,
+                   in::rician, in::poisson) {
     const TestType noise{.seed = 7};
     const auto source = ramp(1100, 9);
     const auto whole = source | noise;
@@ -209,7 +209,7 @@ TEST_CASE("Codes reach all of their range") {
     CHECK((all | in::speckle{.variance = 0}) == all);
 }
 
-TEST_CASE("Salt and pepper: half each, and no more than asked for") {
+TEST_CASE("Salt and pepper: half of the density each") {
     for (const float density : {0.0f, 1e-6f, 0.05f, 1.0f}) {
         const auto out = in::image<float>(1024, 1024, 0.5f) | in::salt_and_pepper{.density = density, .seed = 8};
         for (const float end : {0.0f, 1.0f}) {

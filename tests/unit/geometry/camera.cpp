@@ -1,4 +1,4 @@
-// The camera: where points appear, what is clipped, and what OpenGL's clip space becomes.
+// The camera: projected positions, clipping, and conversion from OpenGL's clip space.
 #include <insonify/geometry/camera.hpp>
 
 #include <cmath>

@@ -105,7 +105,7 @@ TEST_CASE("a face is read the same in every spelling of its indices and lines") 
     CHECK(m.normals == std::vector<glm::vec3>(3, {0, 0, 1}));
 }
 
-TEST_CASE("numbers are read without the locale, in any length, and what follows the third is ignored") {
+TEST_CASE("numbers are read without the locale, at any length; coordinates past the third are ignored") {
     const in::mesh m = in::read_obj(
         "\xEF\xBB\xBFv +1.5 -2e-3 .25 0.5 0.5 0.5\nv 0.123456789012345678901234567890123 1E2 1. nonsense\n"
         "v 0 0 1e-60\nf 1 2 3");

@@ -402,7 +402,7 @@ TEST_CASE("a hull stays solid while it collapses and breaks, and sinks lower") {
         check_stands(to_mesh(in::hull{.has_funnel = false, .masts = 0, .break_gap = 6, .break_roll = roll}));
 }
 
-TEST_CASE("a hull refuses what it cannot be, by name and value") {
+TEST_CASE("a hull refuses parameters out of range by name and value") {
     const auto check = [](const in::hull& h, const char* text) {
         CHECK_THROWS_WITH(to_mesh(h), ContainsSubstring(text));
     };
@@ -489,7 +489,7 @@ TEST_CASE("an aeroplane stays solid without its wings and tail") {
     check({.segments = 4}, "aeroplane.segments is 4");
 }
 
-TEST_CASE("a compound is one mesh that tells its parts apart") {
+TEST_CASE("a compound is one mesh with the part of each triangle") {
     in::compound c;
     c.add(in::cube{}, {.position = {0, 0, 0.5}}, 0.4f)
         .add(in::sphere{.segments = 16}, {.position = {3, 0, 1}, .scale = 2});
@@ -527,7 +527,7 @@ TEST_CASE("with_creases() is smooth across gentle bends and sharp across edges")
     CHECK_THROWS_AS(in::with_creases({{}, {}, {{0, 1, 2}}}), in::invalid_input);
 }
 
-TEST_CASE("footprint() is the convex outline of what lies low") {
+TEST_CASE("footprint() is the convex outline of the lowest vertices") {
     const in::mesh box = to_mesh(in::cube{.size = {2, 1, 1}});
     const auto corners = in::footprint(box, {.position = {10, 5, 3}}, 0.1f);
     REQUIRE(corners.size() == 4);

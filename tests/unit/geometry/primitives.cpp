@@ -247,7 +247,7 @@ TEST_CASE("a primitive refuses sizes and segments that cannot be") {
                       ContainsSubstring("cylinder.radius") && ContainsSubstring("-2"));
 }
 
-TEST_CASE("topology tells open, tangled and closed surfaces apart") {
+TEST_CASE("topology distinguishes open, tangled and closed surfaces") {
     in::mesh m;
     m.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     m.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};

@@ -1,4 +1,4 @@
-// No more segments than a deviation asks for, and no fewer: measured on the facets, against the sagitta of a circle.
+// The fewest segments within a chord error: measured on the facets, against the sagitta of a circle.
 #include <insonify/geometry/cone.hpp>
 #include <insonify/geometry/cylinder.hpp>
 #include <insonify/geometry/sphere.hpp>
@@ -72,7 +72,7 @@ TEST_CASE("Balls get the fewest segments whose facets are within the deviation")
     }
 }
 
-TEST_CASE("Stretched balls count as large as they are long, and what can't be reached is refused") {
+TEST_CASE("Stretched spheres take the segments of their longest axis, and unreachable errors are refused") {
     const float d = 0.004f;
     CHECK(in::segments_for(in::sphere{.radius = 0.25f, .aspect = {1, 4, 1}}, d) ==
           in::segments_for(in::sphere{.radius = 1}, d));

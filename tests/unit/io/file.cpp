@@ -57,7 +57,7 @@ struct scratch_folder {
 
 }  // namespace
 
-TEST_CASE("a file holds the bytes that were written, whatever they are") {
+TEST_CASE("write_file() writes any bytes unchanged") {
     const scratch_folder folder;
     const std::string path = folder / "bytes";
     for (const std::size_t size : {0u, 1u, 65535u, 65536u, 65537u, 300000u}) {
@@ -143,7 +143,7 @@ TEST_CASE("writers of one path don't mix their bytes") {
     CHECK(folder.names() == std::set<std::string>{"shared"});
 }
 
-TEST_CASE("a temporary name that somebody holds is passed over") {
+TEST_CASE("a temporary name in use is skipped") {
     const scratch_folder folder;
     in::write_file(folder / "image.pgm.tmp0", "left by a crash");
     in::write_file(folder / "image.pgm", "new");
@@ -164,7 +164,7 @@ TEST_CASE("an image goes through a file, whole or in part") {
     CHECK_THROWS_WITH(in::read_netpbm<in::rgb8>(path), ContainsSubstring(path) && ContainsSubstring("a gray image"));
 }
 
-TEST_CASE("a table quotes what RFC 4180 says must be quoted") {
+TEST_CASE("a table quotes fields as RFC 4180 requires") {
     in::csv_table table{"name", "note"};
     table.add("plain", "two words");
     table.add("comma, here", "she said \"ping\"");

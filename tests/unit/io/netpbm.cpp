@@ -24,7 +24,7 @@ std::string complaint(const std::string& bytes) {
 
 }  // namespace
 
-TEST_CASE("what is written reads back as the same pixels") {
+TEST_CASE("written images read back as the same pixels") {
     const in::image<std::uint8_t> gray{{0, 10, 255}, {'#', ' ', '\n'}};
     const in::image<std::uint16_t> instances{{0, 1, 256}, {65535, 4660, 13}};
     const in::image<in::rgb8> color{{{1, 2, 3}, {255, 0, 9}}};

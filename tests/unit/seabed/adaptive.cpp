@@ -1,4 +1,4 @@
-// Meshes of as few triangles as a tolerance allows: within it everywhere, without a crack, and with none to spare.
+// Adaptive meshes: within the tolerance everywhere, without cracks, and without triangles that could be merged.
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/topology.hpp>
@@ -119,7 +119,7 @@ TEST_CASE("A plane takes two triangles where the field is a square of a power of
     }
 }
 
-TEST_CASE("No point of the mesh is farther off than the tolerance, and no crack opens, on any seabed") {
+TEST_CASE("The mesh is within the tolerance everywhere and has no cracks, on any seabed") {
     for (const sb::any& seabed : seabeds)
         for (const auto& [width, height] : {std::pair{65, 65}, {50, 71}})
             for (const double allowed : {0.0, 0.0005, 0.004, 0.03}) {
@@ -144,7 +144,7 @@ TEST_CASE("Where nothing may be left out, the triangles are those of the whole g
     CHECK((same.shape.normals == whole.normals));
 }
 
-TEST_CASE("No triangle is spared: where two halves could be drawn as one, that one would be too far off") {
+TEST_CASE("No two halves could be replaced by their whole triangle within the tolerance") {
     const double allowed = 0.004;
     for (const sb::any& seabed : seabeds) {
         CAPTURE(seabed.legend().front().name);

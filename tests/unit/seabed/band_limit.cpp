@@ -1,4 +1,4 @@
-// Relief finer than a grid fades out on it: nothing turns up as other relief, whatever the spacing.
+// Band limit: relief finer than a grid fades out instead of aliasing, at any spacing.
 #include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 

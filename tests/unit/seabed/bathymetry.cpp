@@ -1,4 +1,4 @@
-// Surveys: what the readers make of good text and of bad, how gaps are closed, and what detail adds.
+// Surveys: parsing of valid and malformed text, filling of gaps, and added detail.
 #include <insonify/io/netpbm.hpp>
 #include <insonify/seabed/bathymetry.hpp>
 #include <insonify/seabed/models.hpp>
@@ -104,7 +104,7 @@ TEST_CASE("What are no soundings is refused") {
     CHECK_THROWS_WITH(sb::parse_xyz("0 0 1", 0), ContainsSubstring("spacing is 0"));
 }
 
-TEST_CASE("A picture of 16 bits keeps its steps and leaves out what is no data") {
+TEST_CASE("A 16-bit image keeps its steps, and its no-data value becomes NaN") {
     in::image<std::uint16_t> picture(2, 2);
     picture(0, 0) = 0, picture(1, 0) = 1, picture(0, 1) = 65535, picture(1, 1) = 300;
     const auto shares = in::parse_netpbm<float>(in::format_netpbm(picture));
@@ -115,7 +115,7 @@ TEST_CASE("A picture of 16 bits keeps its steps and leaves out what is no data")
     CHECK(field.heights(1, 0) == Approx(3.0));
 }
 
-TEST_CASE("Gaps close from their edges, as far as asked") {
+TEST_CASE("Gaps are filled from their edges up to the given reach") {
     sb::heightfield field{.heights = in::image<float>(9, 9, 2.0f)};
     for (int j = 2; j < 7; ++j)
         for (int i = 2; i < 7; ++i) field.heights(i, j) = std::numeric_limits<float>::quiet_NaN();
@@ -131,7 +131,7 @@ TEST_CASE("Gaps close from their edges, as far as asked") {
     CHECK(holes(sb::fill_gaps(nothing)) == 9);
 }
 
-TEST_CASE("Detail goes through the survey's vertices, has no facets, and adds the roughness asked for") {
+TEST_CASE("Detail interpolates the survey's vertices smoothly and adds the given roughness") {
     sb::heightfield field{.heights = in::image<float>(40, 40), .origin = {100, 200}, .spacing = 2};
     for (int j = 0; j < 40; ++j)
         for (int i = 0; i < 40; ++i) field.heights(i, j) = std::sin(0.5f * static_cast<float>(i));

@@ -1,4 +1,4 @@
-// Seabeds of many: which bottom lies where, and what happens where they meet.
+// Layered seabeds: areas of the layers, and their borders.
 #include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 
@@ -47,7 +47,7 @@ TEST_CASE("A stencil puts a bottom where a picture is bright") {
     CHECK(at(bed, -500, 0) == sb::type::sand);
 }
 
-TEST_CASE("Patches cover the share asked for, whatever lies above and below") {
+TEST_CASE("Patches cover their given fraction, for any layers above and below") {
     const float coverage = GENERATE(0.1f, 0.4f, 0.8f);
     const sb::mixed bed{.base = sb::flat{},
                         .layers = {{sb::mud{.density = 0}, sb::patches{coverage, 3}, 0.3f},

@@ -1,4 +1,4 @@
-// How high and how low a seabed can be, as its sampler promises: what may throw a shadow is found by it.
+// Bounds of a seabed's heights, which decide how far shadow casters are looked for.
 #include <insonify/seabed/models.hpp>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ TEST_CASE("No seabed leaves the range that it promises, and none promises ten ti
     check(sb::mixed{.base = sb::mud{}, .layers = {{.bottom = sb::rock{}}, {.bottom = sb::ripples{}}}}, 10);
 }
 
-TEST_CASE("A survey with detail keeps to the range of its vertices, what is between them, and the detail") {
+TEST_CASE("The range of a detailed survey bounds its vertices, the interpolation between them, and the detail") {
     sb::heightfield survey{.heights = in::image<float>(40, 40), .origin = {-90, -5}, .spacing = 2.5};
     for (int i = 0; i < 40; ++i)
         for (int j = 0; j < 40; ++j) survey.heights(i, j) = (i + j) % 3 == 0 ? 1.0f : 0.0f;
@@ -58,7 +58,7 @@ TEST_CASE("Nothing has no range") {
     CHECK(sb::prepare(sb::any(sb::none{})).range().empty());
 }
 
-TEST_CASE("What is sculpted keeps to the range of what was there and of what was done to it") {
+TEST_CASE("The range of a sculpted seabed bounds the base and its edits") {
     const sb::flat sand{.surface = {.rms = 0.01f}};
     for (const sb::edit& e : {sb::edit(sb::raise{.radius = 3, .height = 0.7f}), sb::edit(sb::raise{.height = -0.7f}),
                               sb::edit(sb::flatten{.radius = 4, .level = -0.5f}), sb::edit(sb::smooth{.radius = 3}),

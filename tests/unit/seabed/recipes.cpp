@@ -87,7 +87,7 @@ static_assert(sb::model<sb::blend> && sb::model<sb::heightfield> && sb::model<sb
 
 }  // namespace
 
-TEST_CASE("heights and types are a function of position alone, whatever patch, cut, order or thread asks") {
+TEST_CASE("heights and types depend on the position alone, for any patch, cut, order and thread") {
     const double far_away = GENERATE(0.0, -10000000.0);
     for (const sb::any& kind : kinds()) {
         const double spacing = 1.0 / 32;
@@ -171,7 +171,7 @@ TEST_CASE("the call operator of a recipe agrees with its sampler, and seeds diff
     CHECK(sb::blend{}.type_at(2.0, 1.0) == sb::at(sb::blend{}.prepare(), 2.0, 1.0).kind);
 }
 
-TEST_CASE("relief is as continuous ten thousand kilometres away as at home") {
+TEST_CASE("relief is as continuous 10^7 m from the origin as at it") {
     const double origin = GENERATE(0.0, 10000000.0);
     for (const sb::any& kind : kinds()) {
         const auto field =
@@ -208,7 +208,7 @@ TEST_CASE("gradient noise has mean 0, variance 1 and the slope that its integral
     CHECK(2 * slope == Approx(static_cast<double>(sb::gradient_noise::mean_square_slope)).epsilon(0.02));
 }
 
-TEST_CASE("the spectrum of a roughness falls with its exponent, and its rms is the one asked for") {
+TEST_CASE("the spectrum of a roughness falls with its exponent, and its rms is the parameter's") {
     const float exponent = GENERATE(2.6f, 3.25f, 3.8f);
     const sb::flat sand{.surface{.rms = 0.02f, .longest = 64, .shortest = 0.1f, .exponent = exponent}, .seed = 11};
     // Rows far apart are independent. A cut through an isotropic K^-g spectrum has a spectrum k^-(g - 1).
@@ -329,7 +329,7 @@ TEST_CASE("slopes of ripples stay bounded, at forks as elsewhere") {
     CHECK(steepest < 3 * pi * 0.1);
 }
 
-TEST_CASE("mounds and pock marks of mud have the density, height and volume asked for") {
+TEST_CASE("mounds and pock marks of mud have the density, height and volume of their parameters") {
     const float share = GENERATE(0.0f, 1.0f);
     const sb::mud recipe{.surface = smooth,
                          .density = 0.3f,
@@ -359,7 +359,7 @@ TEST_CASE("under a light at six degrees rock is full of shadows, ripples striped
     CHECK(rock > 0.3);
 }
 
-TEST_CASE("rock stands on the datum, about as high as its relief, with faces as steep as asked") {
+TEST_CASE("rock stands on the datum, about as high as its relief, with faces of the given steepness") {
     const sb::rock recipe{.relief = 0.8f, .steepness = 2.5f, .surface = smooth};
     const double spacing = 0.01;
     const auto field = sb::sample(recipe, {.spacing = spacing, .width = 2000, .height = 200});
@@ -377,7 +377,7 @@ TEST_CASE("rock stands on the datum, about as high as its relief, with faces as 
     CHECK(moments_of(sb::sample(sb::rock{.relief = 0, .surface = smooth}, {}).heights).high == 0);
 }
 
-TEST_CASE("a blend covers the share asked for and is the pure recipe where it covers all or nothing") {
+TEST_CASE("a blend covers its given fraction and is the pure model at fractions of 0 and 1") {
     const float coverage = GENERATE(0.1f, 0.35f, 0.5f, 0.8f);
     const sb::blend recipe{.first = sb::mud{}, .second = sb::flat{}, .coverage = coverage, .patch = 3, .border = 0.5f};
     const auto field = sb::sample(recipe, {.spacing = 0.73, .width = 500, .height = 500});

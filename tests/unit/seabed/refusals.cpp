@@ -118,7 +118,7 @@ TEST_CASE("Each field of an edit is refused by name") {
                     FIELD(tail, size)});
 }
 
-TEST_CASE("Each field of a heightfield and of what samples and draws one is refused by name") {
+TEST_CASE("Each field of heightfields, grids and tolerances is refused by name") {
     const sb::heightfield field{.heights = in::image<float>(3, 3)};
     const auto used = [](const sb::heightfield& h) {
         prepared(h);

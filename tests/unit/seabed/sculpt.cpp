@@ -1,4 +1,4 @@
-// Sculpting: what each edit does to a plane, that they compose in order, and that nothing else changes.
+// Sculpting: each edit on a plane, composition in order, and no change outside of an edit.
 #include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 
@@ -35,7 +35,7 @@ double variance(const in::image<float>& heights) {
 
 }  // namespace
 
-TEST_CASE("Hills and hollows are as high as asked in the middle and end at their radius") {
+TEST_CASE("Hills and hollows have their height in the middle and end at their radius") {
     CHECK(height({sb::raise{{3, 4}, 2, 0.5f}}, 3, 4) == 0.5f);
     CHECK(height({sb::raise{{3, 4}, 2, -0.5f}}, 3, 4) == -0.5f);
     CHECK(height({sb::raise{{3, 4}, 2, 0.5f}}, 4, 4) == Approx(0.5 * 0.75 * 0.75));
@@ -134,7 +134,7 @@ TEST_CASE("A heap is level on top, slopes down its sides, and leaves higher grou
     CHECK(height({sb::raise{{0, 0}, 1, 0.5f}, heap}, 0, 0) == 0.5f);
 }
 
-TEST_CASE("Smoothing takes away what is short, and leaves slopes as they are") {
+TEST_CASE("Smoothing removes short relief and keeps slopes") {
     const sb::grid area{.origin = {-1, -1}, .spacing = 0.03, .width = 60, .height = 60};
     const sb::ripples waves{.wavelength = 0.3f};
     const sb::sculpted bed{.ground = waves, .edits = {sb::smooth{{0, 0}, 4, 0.4f}}};

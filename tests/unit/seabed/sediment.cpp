@@ -1,4 +1,4 @@
-// Sediments by name: their table, the relief that they make, and what the rest of the library makes of their labels.
+// Sediments by name: the table, the relief, and the reflectivity and speckle of their labels.
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/sediment.hpp>
 #include <insonify/sonar/scene.hpp>

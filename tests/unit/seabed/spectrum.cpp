@@ -1,4 +1,4 @@
-// The statistics of relief: spectra that fall as asked, ripples of the wavelength, width and forks that were promised.
+// Statistics of relief: spectral exponents, and the wavelength, spread and forks of ripples.
 #include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/sediment.hpp>
@@ -157,7 +157,7 @@ TEST_CASE("So do those of sand, mud, sediments and rock, as they come and at a s
     CHECK(slope(between_ripples, spacing) == Approx(-3.25).margin(0.15));
 }
 
-TEST_CASE("The waves of ripples have the length, the spread and the bandwidth asked for") {
+TEST_CASE("Ripples have the wavelength, spread and bandwidth of their parameters") {
     const float direction = GENERATE(0.0f, 2.1f);
     const sb::ripples recipe{
         .wavelength = 0.8f, .direction = direction, .spread = 0.12f, .bandwidth = 0.08f, .surface = smooth};

@@ -1,4 +1,4 @@
-// The mesh of a heightfield: where its vertices lie, which way they look, and what is left out where there is no data.
+// Tessellation: vertex positions, normals, and holes where data is missing.
 #include <insonify/geometry/topology.hpp>
 #include <insonify/seabed/tessellate.hpp>
 
