@@ -68,7 +68,7 @@ std::string in_words_of_options(std::string message) {
 }
 
 std::vector<file> files_of_published(const options& o, const plan& p, const stock& shared) {
-    in::serial_executor alone;
+    thread_local in::context alone;  // lends the memory of an image to this thread's next
     const drawn d = draw(o, p, shared, alone);
     const in::target_label& label = d.labels.targets.front();
     const auto target = in::target_mask(d.labels, label.instance);

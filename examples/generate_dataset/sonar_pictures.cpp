@@ -34,7 +34,7 @@ known_columns known_to_sonar(const options& o) {
 
 std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const view_of_target& view,
                                  const plan_row* given) {
-    in::serial_executor alone;
+    thread_local in::context alone;  // lends the memory of an image to this thread's next
     // A line that names the attempt is of an image that was drawn before.
     const bool is_known = given != nullptr && given->find("attempt") != nullptr;
     auto attempt = static_cast<std::uint32_t>(is_known ? given->whole("attempt", 0, 0, 1'000'000) : 0);
