@@ -92,7 +92,7 @@ inline bottom_materials resolved_bottom(const scene& s) {
 
 /// The same pose, lowered or raised so that one vertex touches the seabed and none is below it. `burial` then sinks it.
 /// @param shape  of at least one position
-/// @throws invalid_input for a shape without positions, or a pose that can't be right
+/// @throws invalid_input for a shape without positions, or a pose out of range
 inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose placement) {
     detail::require(!shape.positions.empty(), "shape.positions.size()", shape.positions.size(), "at least 1");
     detail::require_finite("pose.burial", placement.burial);

@@ -1,4 +1,4 @@
-// Budgets: settings whose errors, measured against marched rays, stay below what was asked for.
+// Settings for a budget: their errors, measured against marched rays, stay within it.
 #include <insonify/accuracy/budget.hpp>
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>

@@ -1,4 +1,4 @@
-// Triangles that are cut: what is left is what a ray would meet, and neighbours agree where their common edge is cut.
+// Clipping: the visible part is what rays meet, and neighbours share the vertices on a clipped edge.
 #include <insonify/core/random.hpp>
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Which pixels a triangle covers, against an exact oracle: triangles of every kind, however far away their vertices
-// are.
+// Coverage against an exact oracle: triangles of every kind, at any distance.
 #include <insonify/core/random.hpp>
 
 #include <array>

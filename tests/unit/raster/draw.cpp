@@ -1,4 +1,4 @@
-// What a draw promises beyond coverage: depth, interpolation, clipping, counting, and the same bytes everywhere.
+// draw() beyond coverage: depth, interpolation, clipping, counts, and the same bytes everywhere.
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>
 

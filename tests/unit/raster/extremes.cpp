@@ -1,5 +1,4 @@
-// The ends of what can be asked of a draw: each either draws right, or is counted and skipped and touches nobody else's
-// pixels, or is refused.
+// Extreme input of draw(): drawn correctly, skipped and counted without changing other pixels, or refused.
 #include <insonify/core/random.hpp>
 #include <insonify/geometry/transform.hpp>
 

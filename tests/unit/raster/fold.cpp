@@ -1,4 +1,4 @@
-// Polygons that rounding has folded over themselves, against a sum of triangles that an exact oracle has judged.
+// Clipped polygons that snapping folds over themselves, against a sum of triangles judged by an exact oracle.
 #include <insonify/core/random.hpp>
 #include <insonify/raster/detail/clip.hpp>
 

@@ -1,4 +1,4 @@
-// Cases that others wrote down after they had gone wrong somewhere: geometry and expected pixels, with their sources.
+// Published failures of other rasterizers: geometry and expected pixels, with their sources.
 #include <insonify/core/random.hpp>
 
 #include <array>

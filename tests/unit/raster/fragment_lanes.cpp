@@ -1,4 +1,4 @@
-// Fragment shaders over SIMD lanes, written as a user would: they see what a fragment shader sees, in float.
+// Shaders over SIMD lanes, written as a user would.
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>
 

@@ -1,4 +1,4 @@
-// What may be interpolated between vertices: floats, and what consists of them.
+// Types that may be interpolated between vertices: floats, and aggregates of them.
 #include <insonify/core/image.hpp>
 #include <insonify/raster/draw.hpp>
 

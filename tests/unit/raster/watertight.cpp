@@ -1,5 +1,4 @@
-// Meshes without T-junctions have no holes and no pixel twice, whatever is cut off and wherever vertices are rounded
-// to.
+// Meshes without T-junctions have no holes and no pixel covered twice, under any clipping and snapping.
 #include <insonify/core/random.hpp>
 
 #include <array>

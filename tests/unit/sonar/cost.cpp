@@ -1,4 +1,4 @@
-// What a picture costs depends on what it shows, not on how much seabed there is: counted in points sampled.
+// The cost of a picture depends on the ground in view, not on the extent of the seabed: samples are counted.
 #include <insonify/insonify.hpp>
 
 #include <cmath>

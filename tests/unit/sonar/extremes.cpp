@@ -1,4 +1,4 @@
-// Rigs at the ends of their ranges: the picture is the one of ordinary dimensions, or changes as geometry says.
+// Rigs at the limits of their ranges: the picture is that of ordinary dimensions, or changes as geometry says.
 #include <insonify/insonify.hpp>
 
 #include "../../catch.hpp"

@@ -1,5 +1,5 @@
-// Shadows on foreign-looking meshes, against the oracle: open, closed, non-manifold, self-touching, inside-out, dense
-// and huge ones, in any order.
+// Shadows on imported meshes against the oracle: open, closed, non-manifold, self-touching, inside-out, dense and huge
+// ones, in any order.
 #include "../../catch.hpp"
 #include "../../foreign_scenes.hpp"
 #include "../../shadow_oracle.hpp"

@@ -1,5 +1,5 @@
-// The looks of sonars: displays, gain errors, banding, the water column, the bottom's tone and the instruments, against
-// closed forms and moments, and at the extremes.
+// Looks of sonars (displays, gain errors, banding, the water column, tones of the seabed, instruments) against closed
+// forms and moments, and at extremes.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 

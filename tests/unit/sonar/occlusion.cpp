@@ -1,4 +1,4 @@
-// Which points of a scene are lit, without a picture: closed forms, and what the picture of the same scene says.
+// Shadow tests of points without a picture, against closed forms and the picture of the same scene.
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/cube.hpp>

@@ -1,5 +1,5 @@
-// Range modes: which target a bin is named after, what stands above the sonar, thin parts, normals, scenes without a
-// bottom, the sonar's attitude, and the order of rows. Energies are those of closed forms.
+// Range modes: labels of bins, objects above the sonar, thin parts, normals, scenes without seabed, attitude, and the
+// order of rows. Energies are those of closed forms.
 #include <insonify/insonify.hpp>
 
 #include <cmath>

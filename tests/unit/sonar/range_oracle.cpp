@@ -1,5 +1,5 @@
-// Range modes against an oracle of rays: a fan of very many rays in double precision, each against every triangle's
-// cut, which shares no code with the library. Energies by bin, names and shadows have to agree.
+// Range modes against an oracle that shares no code with the library: a dense fan of rays in double precision, each tested
+// against every triangle's cross-section. Energies, instances and shadows by bin have to agree.
 #include <insonify/insonify.hpp>
 
 #include <cmath>

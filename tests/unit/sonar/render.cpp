@@ -1,4 +1,4 @@
-// Whole pictures against closed forms: where things appear, how long shadows are, what labels say.
+// Overhead pictures against closed forms: positions, lengths of shadows, labels.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/cone.hpp>
 #include <insonify/geometry/cube.hpp>

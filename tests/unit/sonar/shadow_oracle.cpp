@@ -1,5 +1,4 @@
-// The shadow oracle against closed forms and rays tried one by one; and pictures of foreign-looking meshes against the
-// oracle.
+// The shadow oracle against closed forms and brute-force rays, and pictures of imported meshes against the oracle.
 #include "../../shadow_oracle.hpp"
 
 #include <insonify/core/thread_pool.hpp>

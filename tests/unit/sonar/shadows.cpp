@@ -1,5 +1,5 @@
-// Exact shadows in whole pictures, against an oracle that shares nothing with them: for every pixel the nearest
-// triangle along its ray, and then every triangle that its ray towards the light could meet, in doubles, one by one.
+// Exact shadows in whole pictures against an independent oracle: for every pixel the nearest triangle along its ray, then
+// every triangle that its ray to the light could meet, in double precision.
 #include <insonify/core/thread_pool.hpp>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The sonar's own geometry against closed forms: where echoes arrive, how long shadows are, what is loud and what is
-// named, at ordinary dimensions and at the ends of their ranges.
+// Side-scan geometry against closed forms: ranges of echoes, lengths of shadows, intensities and labels, at ordinary
+// dimensions and at the limits of their ranges.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 

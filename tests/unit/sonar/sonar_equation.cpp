@@ -1,4 +1,4 @@
-// The sonar equation part by part: each does what its formula says, and what is left out isn't there.
+// The sonar equation part by part: each follows its formula, and parts that are left out have no effect.
 #include <insonify/insonify.hpp>
 
 #include <cmath>

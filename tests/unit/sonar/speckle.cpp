@@ -1,4 +1,4 @@
-// Speckle against the moments of its distributions, and against what it is locked to.
+// Speckle against the moments of its distributions, and its keying by seed, side, ping and bin.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 

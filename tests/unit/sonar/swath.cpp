@@ -1,4 +1,4 @@
-// Two sides in one picture: pieces put together the right way round.
+// Both sides of a track in one picture.
 #include <insonify/insonify.hpp>
 
 #include "../../catch.hpp"

@@ -38,10 +38,10 @@ render_stats record_into(image_view<float> into, const scene& s, std::span<const
     detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
     detail::require(static_cast<std::size_t>(into.height()) == track.size(), "into.height()", into.height(),
                     "that of the pings");
-    const auto heard = record(s, track, rig, options.without_labels(), ex);
+    const auto recorded = record(s, track, rig, options.without_labels(), ex);
     for (int y = 0; y < into.height(); ++y)
-        std::copy(heard.image.row(y).begin(), heard.image.row(y).end(), into.row(y).begin());
-    return heard.stats;
+        std::copy(recorded.image.row(y).begin(), recorded.image.row(y).end(), into.row(y).begin());
+    return recorded.stats;
 }
 
 /// Records the straight track of a rig, in slant or ground range. Row i is ping i. The other parameters are those of
