@@ -1,5 +1,5 @@
-// Range modes against an oracle that shares no code with the library: a dense fan of rays in double precision, each tested
-// against every triangle's cross-section. Energies, instances and shadows by bin have to agree.
+// Range modes against an oracle that shares no code with the library: a dense fan of rays in double precision, each
+// tested against every triangle's cross-section. Energies, instances and shadows by bin have to agree.
 #include <insonify/insonify.hpp>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Exact shadows in whole pictures against an independent oracle: for every pixel the nearest triangle along its ray, then
-// every triangle that its ray to the light could meet, in double precision.
+// Exact shadows in whole pictures against an independent oracle: for every pixel the nearest triangle along its ray,
+// then every triangle that its ray to the light could meet, in double precision.
 #include <insonify/core/thread_pool.hpp>
 
 #include <algorithm>
