@@ -10435,7 +10435,7 @@ inline bottom_materials resolved_bottom(const scene& s) {
 
 /// The same pose, lowered or raised so that one vertex touches the seabed and none is below it. `burial` then sinks it.
 /// @param shape  of at least one position
-/// @throws invalid_input for a shape without positions, or a pose that can't be right
+/// @throws invalid_input for a shape without positions, or a pose out of range
 inline pose rest_on(const insonify::seabed::any& seabed, const mesh& shape, pose placement) {
     detail::require(!shape.positions.empty(), "shape.positions.size()", shape.positions.size(), "at least 1");
     detail::require_finite("pose.burial", placement.burial);
@@ -24842,10 +24842,10 @@ render_stats record_into(image_view<float> into, const scene& s, std::span<const
     detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
     detail::require(static_cast<std::size_t>(into.height()) == track.size(), "into.height()", into.height(),
                     "that of the pings");
-    const auto heard = record(s, track, rig, options.without_labels(), ex);
+    const auto recorded = record(s, track, rig, options.without_labels(), ex);
     for (int y = 0; y < into.height(); ++y)
-        std::copy(heard.image.row(y).begin(), heard.image.row(y).end(), into.row(y).begin());
-    return heard.stats;
+        std::copy(recorded.image.row(y).begin(), recorded.image.row(y).end(), into.row(y).begin());
+    return recorded.stats;
 }
 
 /// Records the straight track of a rig, in slant or ground range. Row i is ping i. The other parameters are those of
