@@ -2,7 +2,9 @@
 // other.
 #pragma once
 
-#include <insonify/insonify.hpp>
+#include <cmath>
+
+#include "../common/longest_shadow.hpp"
 
 namespace generator {
 
@@ -17,6 +19,7 @@ struct facts {
     double height;                       ///< of its highest point above the datum
     double shadow, shadow_measured;      ///< from the echo of the point that casts the tip to the tip
     bool shadow_is_cut;                  ///< it goes on beyond the picture
+    bool target_is_cut;                  ///< by the picture's edge
 };
 
 inline double turn_of(double radians) {
@@ -47,15 +50,16 @@ facts facts_of(const in::side_scan_rig<Axis>& rig, const in::target& t, const in
     f.grazing = geometry::grazing_angle(f.ground_range, altitude);
     const double line_of_sight = rig.side == in::side::starboard ? 0 : in::numeric::pi;
     f.aspect = turn_of(static_cast<double>(t.placement.yaw) - static_cast<double>(rig.yaw) - line_of_sight);
-    double farthest = 0, echo = 0;
-    for_each_vertex(t, [&](const glm::dvec3& world) {
-        f.height = (std::max)(f.height, world.z);
-        const double x = frame(world).x, tip = geometry::shadow_tip(x, altitude, world.z);
-        if (!(tip > farthest)) return;
-        farthest = tip;
-        echo = slant ? geometry::slant_range(x, altitude, world.z) : x;
+    const double first_row = -0.5 * static_cast<double>(rig.ping_spacing);
+    const double last_row = first_row + rig.pings * static_cast<double>(rig.ping_spacing);
+    const examples::longest_shadow s = examples::shadow_of(t, frame, altitude, [&](const glm::dvec3& v) {
+        const double range = slant ? geometry::slant_range(v.x, altitude, v.z) : v.x;
+        f.target_is_cut = f.target_is_cut || range < f.left_edge || range > static_cast<double>(rig.range) ||
+                          v.y < first_row || v.y > last_row;
     });
-    f.shadow = (slant ? geometry::slant_range(farthest, altitude) : farthest) - echo;
+    f.height = s.height;
+    const double echo = slant ? s.slant_range : s.ground_range;
+    f.shadow = (slant ? geometry::slant_range(s.tip, altitude) : s.tip) - echo;
     const int end = seen.shadow_box.x1;
     f.shadow_measured = f.left_edge + end * f.metres_per_pixel - echo;
     f.shadow_is_cut = end >= rig.bins;
@@ -73,10 +77,14 @@ inline facts facts_of(const in::overhead_geometry& view, const in::target& t, co
     f.slant_range = in::range_geometry::slant_range(f.ground_range, static_cast<double>(rig.altitude));
     f.grazing = static_cast<double>(rig.grazing);
     f.aspect = turn_of(static_cast<double>(t.placement.yaw) - static_cast<double>(rig.yaw));
+    const glm::dvec2 half = view.half_extent(0);
     double farthest = -1e30, foot = 0;
     for (const glm::vec3& v : t.shape->positions) {
         const glm::dvec3 p = in::transform_point(to_rig, v);
         f.height = (std::max)(f.height, p.z);
+        // What stands high is seen farther out.
+        const double out = static_cast<double>(rig.altitude) / (static_cast<double>(rig.altitude) - p.z);
+        f.target_is_cut = f.target_is_cut || !(out > 0) || std::abs(p.x) * out > half.x || std::abs(p.y) * out > half.y;
         const double tip = p.x + p.z * view.light().cot_elevation();
         if (tip > farthest) farthest = tip, foot = p.x;
     }

@@ -41,12 +41,16 @@ inline in::image<std::uint8_t> shadows_of(const in::labels& l) {
     return mask;
 }
 
+/// Of a real picture so much is shadow: what a picture has more of is as dark.
+inline constexpr double darkest_part = 0.05;
+
 /// @param dark  255 where a pixel is in shadow
 inline in::image<float> match_masked(in::image<float> picture, in::image<std::uint8_t> dark,
                                      const in::distribution& reference) {
     std::uint64_t shadows = 0;
     for (const std::uint8_t d : dark.pixels()) shadows += d != 0;
-    const double share = static_cast<double>(shadows) / static_cast<double>(std::max<std::size_t>(dark.size(), 1));
+    const double share = std::min(
+        darkest_part, static_cast<double>(shadows) / static_cast<double>(std::max<std::size_t>(dark.size(), 1)));
     const split_distribution parts =
         split_at(reference, static_cast<std::uint64_t>(share * static_cast<double>(reference.total())));
     // Of few pixels, either part may be empty: then the whole serves both.

@@ -39,6 +39,7 @@ json parameters_of(const options& o, const plan& p, const drawn& d) {
                        {"shadow_m", d.known.shadow},
                        {"shadow_measured_m", d.known.shadow_measured},
                        {"shadow_is_cut", d.known.shadow_is_cut},
+                       {"target_is_cut", d.known.target_is_cut},
                        {"target_area_px", label.area},
                        {"shadow_area_px", label.shadow_area}});
     return parameters;

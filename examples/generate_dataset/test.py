@@ -412,6 +412,34 @@ class Generator(unittest.TestCase):
             dark[match] = self.gray_of_shadows(out)
         self.assertLess(dark["masked"], dark["whole"])
 
+    def test_shadows_stay_dark_where_there_are_many(self):
+        # Gray values of the reference from 0 to 255, each as often as any other: its darkest twentieth ends at 12.
+        (self.folder / "ramp.pgm").write_bytes(b"P5 256 16 255\n" + bytes(range(256)) * 16)
+        for seabed in "rock", "ripples":
+            run("--out", self.folder / seabed, "--size", 96, "--count", 4, "--seabeds", seabed, "--noise", "none", "--chip", 8,
+                "--reference", self.folder / "ramp.pgm")
+            self.assertLess(self.gray_of_shadows(self.folder / seabed), 10, seabed)
+
+    def test_targets_that_the_edge_cuts_are_marked(self):
+        for mode in "overhead", "ground_range", "slant_range":
+            out = self.folder / mode
+            run("--out", out, "--mode", mode, "--place", "anywhere", "--chip", 4, "--size", 64, "--count", 24, "--seabeds", "sand",
+                "--noise", "none", "--targets", "cylinder")
+            boxes, marks = {}, set()
+            for values, target, _ in self.read_labels(out):
+                at_edge = target is None or min(target[:2]) == 0 or target[0] + target[2] == 64 or target[1] + target[3] == 64
+                marks.add(values["target_is_cut"])
+                if values["target_is_cut"] == "false":
+                    self.assertIsNotNone(target)
+                    # A whole target may end in the last pixel, and glints may spread by one.
+                    inner = target[0] > 0 and target[1] > 0 and target[0] + target[2] < 64 and target[1] + target[3] < 64
+                    boxes.setdefault("whole", []).append(inner)
+                else:
+                    boxes.setdefault("cut", []).append(at_edge)
+            self.assertEqual(marks, {"true", "false"}, mode)
+            for kind, right in boxes.items():
+                self.assertGreaterEqual(sum(right), 0.8 * len(right), f"{mode} {kind} {right}")
+
     def gray_of_shadows(self, folder):
         """The mean gray of targets' shadows."""
         inside = []
