@@ -56,9 +56,9 @@ long in_turn(const Use& use) {
             fails_at = 0;
             const bool struck = calls >= at;
             const long left = in_use - before;
-            if (left > 0 || !is_right) {
+            if (left != 0 || !is_right) {
                 INFO("allocation " << at << (all ? " and all that follow" : ""));
-                CHECK(left <= 0);
+                CHECK(left == 0);
                 CHECK(is_right);
             }
             if (!struck) break;

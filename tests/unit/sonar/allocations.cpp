@@ -55,6 +55,17 @@ TEST_CASE("Drawing on several threads survives any failed allocation, and the po
     CHECK(failing_new::in_turn([&] { return in::render(s, sonar, in::record_options<>{}, pool).image; }) > 20);
 }
 
+TEST_CASE("A context survives any failed allocation, and nothing of it is left") {
+    const in::scene s = mixed_scene();
+    constexpr in::overhead larger{.altitude = 4, .size = {160, 110}, .grazing = 0.4f};  // planes of 70 KB are lent
+    CHECK(failing_new::in_turn([&] {
+              in::context context;
+              in::image<float> last;
+              for (int frame = 0; frame < 2; ++frame) last = in::render(s, larger, {.cells = 20}, context).image;
+              return last;
+          }) > 50);
+}
+
 TEST_CASE("Occlusion survives any failed allocation") {
     const in::scene s = mixed_scene();
     const glm::dvec3 at[] = {{0, 0, 1}, {0.9, 0.1, 0.02}};
