@@ -25018,8 +25018,10 @@ struct seabed_speckle {
     /// By label, seabed::index_of(type). Labels of your own have the law that your seabed states, unless it is set
     /// here.
     speckle_laws bottom = default_speckle();
-    speckle_law elsewhere{};   ///< of pixels without a seabed label: targets, and noise in the water column
-    float along_track = 1;     ///< correlation length (1 / e) of intensities in pings, 0 to 16
+    speckle_law elsewhere{};  ///< of pixels without a seabed label: targets, and noise in the water column
+    /// Correlation length (1 / e) in pings of intensities without steady echo or texture, 0 to 16. All labels share one
+    /// field: beside a steady echo it is up to 1.4 times as long; a texture has its own length.
+    float along_track = 1;
     float across_track = 1;    ///< the same in bins
     float texture_length = 3;  ///< correlation length of textures in pings and bins, 1 to 1024
     std::uint64_t seed = 1;
