@@ -17502,14 +17502,14 @@ class shadow_pass {
     /// the loop does without branches.
     void find_points(std::span<const point_finder> finders, const rect& box, std::span<float> lit, point_list& into) {
         const auto width = static_cast<std::size_t>(box.width()), height = static_cast<std::size_t>(box.height());
-        struct pixel_list {
+        struct pixels_of_surface {
             uninitialized_vector<shown_pixel> room;
             std::size_t count = 0;
         };
-        std::vector<pixel_list> lists(surfaces_.size());
+        std::vector<pixels_of_surface> lists(surfaces_.size());
         const surface* last = nullptr;
         const shadow::known* known = nullptr;  // of the triangles of that
-        pixel_list* to = nullptr;
+        pixels_of_surface* to = nullptr;
         std::uint32_t first_id = 0, ids_of_last = 0;
         for (std::size_t row = 0; row < height; ++row) {
             const int y = box.y0 + static_cast<int>(row);
