@@ -6,7 +6,7 @@
 #include "probe.hpp"
 
 TEST_CASE("Translation units with different flags link into one program, share no symbol and draw the same bytes") {
-    std::vector<probe_result> results{probe_scalar(), probe_simd(), probe_checked(), probe_bare(), probe_new()};
+    std::vector<probe_result> results{probe_scalar(), probe_simd(), probe_checked(), probe_bare()};
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx2")) results.push_back(probe_avx2());
 #endif

@@ -14,7 +14,6 @@ probe_result probe_scalar();
 probe_result probe_simd();
 probe_result probe_checked();
 probe_result probe_bare();
-probe_result probe_new();
 #if defined(__x86_64__)
 probe_result probe_avx2();
 #endif
