@@ -487,7 +487,8 @@ TEST_CASE("With exact depth the nearer of two sheets is visible wherever their d
     const in::overhead rig{.field_of_view = 60_deg, .size = {512, 512}};
     const auto lower_shown = [&](const auto& options) {
         int pixels = 0;
-        for (const std::uint32_t t : in::visible_triangles(s, rig, options).triangle.pixels()) pixels += t < 2u * n * n;
+        const in::visibility shown = in::visible_triangles(s, rig, options);
+        for (const std::uint32_t t : shown.triangle.pixels()) pixels += t < 2u * n * n;
         return pixels;
     };
     const in::render_options<in::shadow::none> options{.subpixel_bits = 16};
