@@ -61,7 +61,7 @@ TEST_CASE("A context survives any failed allocation, and nothing of it is left")
     CHECK(failing_new::in_turn([&] {
               in::context context;
               in::image<float> last;
-              for (int frame = 0; frame < 2; ++frame) last = in::render(s, larger, {.cells = 20}, context).image;
+              for (int frame = 0; frame < 2; ++frame) last = in::render(s, larger, {.cell = 0.7}, context).image;
               return last;
           }) > 50);
 }
