@@ -12179,6 +12179,14 @@ struct drawn_area {
           bits(grid.subpixel_bits) {}
 };
 
+inline constexpr std::int32_t small_limit = (1 << 15) - 1;
+
+/// Whether a triangle of this extent in sub-pixels is drawn as a small one. This is a property of the triangle alone:
+/// quick depths of small triangles are rounded differently, and must not depend on its neighbours.
+inline bool is_small(std::int64_t width, std::int64_t height) {
+    return (width | height) < small_limit;
+}
+
 /// The vertices of N triangles and their bounding boxes.
 template <int N>
 struct triangle_lanes {
@@ -12197,11 +12205,8 @@ struct triangle_lanes {
     }
 
     INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_position::off_grid)); }
-    /// Whether all of them are small; they must be on the grid.
-    INSONIFY_INLINE bool are_small() const {
-        constexpr std::int32_t limit = (1 << 15) - 1;
-        return !any(ints(((east - west) | (south - north)) >= limit));
-    }
+    /// Whether all of them are small, see is_small; they must be on the grid.
+    INSONIFY_INLINE bool are_small() const { return !any(ints(((east - west) | (south - north)) >= small_limit)); }
     /// Twice the areas, positive for clockwise on the screen; only of small triangles.
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }
 
@@ -12907,7 +12912,9 @@ class screen_mesh {
         if (area == 0) return outcome::degenerate;
         if (is_culled(area < 0)) return outcome::culled;
         if (pixels.empty()) return outcome::missed;
-        out.runs.add(id, 1, tiles.touched(pixels), false);
+        const std::int64_t width = (std::max)({a.x, b.x, c.x}) - (std::min)({a.x, b.x, c.x});
+        const std::int64_t height = (std::max)({a.y, b.y, c.y}) - (std::min)({a.y, b.y, c.y});
+        out.runs.add(id, 1, tiles.touched(pixels), is_small(width, height));
         return outcome::drawn;
     }
 

@@ -185,7 +185,9 @@ class screen_mesh {
         if (area == 0) return outcome::degenerate;
         if (is_culled(area < 0)) return outcome::culled;
         if (pixels.empty()) return outcome::missed;
-        out.runs.add(id, 1, tiles.touched(pixels), false);
+        const std::int64_t width = (std::max)({a.x, b.x, c.x}) - (std::min)({a.x, b.x, c.x});
+        const std::int64_t height = (std::max)({a.y, b.y, c.y}) - (std::min)({a.y, b.y, c.y});
+        out.runs.add(id, 1, tiles.touched(pixels), is_small(width, height));
         return outcome::drawn;
     }
 

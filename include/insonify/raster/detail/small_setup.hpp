@@ -53,6 +53,14 @@ struct drawn_area {
           bits(grid.subpixel_bits) {}
 };
 
+inline constexpr std::int32_t small_limit = (1 << 15) - 1;
+
+/// Whether a triangle of this extent in sub-pixels is drawn as a small one. This is a property of the triangle alone:
+/// quick depths of small triangles are rounded differently, and must not depend on its neighbours.
+inline bool is_small(std::int64_t width, std::int64_t height) {
+    return (width | height) < small_limit;
+}
+
 /// The vertices of N triangles and their bounding boxes.
 template <int N>
 struct triangle_lanes {
@@ -71,11 +79,8 @@ struct triangle_lanes {
     }
 
     INSONIFY_INLINE bool are_on_grid() const { return !any(ints(west == grid_position::off_grid)); }
-    /// Whether all of them are small; they must be on the grid.
-    INSONIFY_INLINE bool are_small() const {
-        constexpr std::int32_t limit = (1 << 15) - 1;
-        return !any(ints(((east - west) | (south - north)) >= limit));
-    }
+    /// Whether all of them are small, see is_small; they must be on the grid.
+    INSONIFY_INLINE bool are_small() const { return !any(ints(((east - west) | (south - north)) >= small_limit)); }
     /// Twice the areas, positive for clockwise on the screen; only of small triangles.
     INSONIFY_INLINE void area(ints& into) const { into = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax); }
 
