@@ -70,8 +70,8 @@ glm::dvec2 on_circle(int i, int count, double radius) {
 }
 
 /// How many times as long a text of four times the size takes: about 4 if time is linear, 16 if it is quadratic. The
-/// quickest of three, in time of the processor: no sanitizer and no neighbour changes what comes out. Freed memory stays
-/// in the process, since on virtual machines fresh pages cost more than the reading.
+/// quickest of three, in time of the processor: no sanitizer and no neighbour changes what comes out. Freed memory
+/// stays in the process, since on virtual machines fresh pages cost more than the reading.
 template <class Text>
 double growth_of_time(const Text& text_of_size, int size) {
 #if defined(__GLIBC__)
