@@ -156,10 +156,13 @@ class Faults(unittest.TestCase):
         self.assertGreater(total, 100)
         killed = 0
         for at in range(1, total + 1, STEP):
-            killed += self.run_with("killed", at=at).returncode == -9
+            count = self.folder / "count"
+            if self.run_with("killed", at=at, count=count).returncode == -9:
+                killed += 1
+            else:  # threads vary, and with them the number of calls: this run ended before the N-th
+                self.assertLess(int(count.read_text()), at)
             self.check_rest("killed")
-        # Threads vary, and with them the number of calls, by a few.
-        self.assertGreaterEqual(killed, 0.9 * len(range(1, total + 1, STEP)))
+        self.assertGreater(killed, len(range(1, total + 1, STEP)) // 2)
         print(f"{killed} runs killed at {total} calls")
 
     def test_each_call_fails_that_writes_and_those_after_it(self):
