@@ -2,7 +2,8 @@
 """The names of a program out of units with other flags: symbols.py <program>
 
 No public type's name holds the flags of a unit. Functions of the library that were compiled with assertions, or with
-instructions that not every x86-64 has, hold them.
+instructions that not every x86-64 has, hold them. The standard library's templates are not the library's functions:
+std::vector<float> of a unit is shared by a whole program, whatever the library does.
 """
 
 import re
@@ -30,10 +31,18 @@ def demangled(names):
     return dict(zip(names, text.splitlines()))
 
 
+def belongs_to_library(function):
+    """Whether the name itself is in the namespace insonify, not only an argument or a template argument."""
+    text = re.sub(r"operator(?:<=>|<<|<=|<|->|>>|>=|>)", "operator", function)
+    while re.search(r"<[^<>]*>", text):
+        text = re.sub(r"<[^<>]*>", "", text)
+    return re.search(r"(?:^|[\s*&])insonify::", text.split("(")[0]) is not None
+
+
 def main():
     code = dict(functions(sys.argv[1]))
     names = demangled(list(code))
-    own = {n: d for n, d in names.items() if re.match(r"(?:[\w:<>,&* ]+ )?insonify::", d)}
+    own = {n: d for n, d in names.items() if belongs_to_library(d)}
     faults = [f"flags in a type: {d}" for d in own.values() if re.search(rf"insonify::\w+::{FLAGS}::(?:{PUBLIC})", d)]
     for name, d in own.items():
         if re.search(rf"::{FLAGS}::|\[abi:{FLAGS}\]", d) or "::compiled::" in d or BY_COMPILER.search(d):
