@@ -114,7 +114,8 @@ def main():
     given = parser.parse_args()
     os.environ.setdefault("CXX", "g++")
     guide = Guide(given.project.resolve(), given.folder.resolve(),
-                  {"insonify/tools/generate": given.generate, "insonify/tools/merge": given.merge})
+                  {f"insonify/tools/{name}": program and pathlib.Path(program).resolve()
+                   for name, program in (("generate", given.generate), ("merge", given.merge))})
     pages = pages_of(guide.guide)
     for page in pages:
         if not given.pages or page in given.pages or page == pages[0]:
