@@ -12436,6 +12436,7 @@ concept varying_shader = requires(const S& shader, const vertex& v) {
     { shader(v).clip } -> std::convertible_to<glm::vec4>;
     requires interpolatable<std::remove_cvref_t<decltype(shader(v).varyings)>>;
 };
+/// Either of the two.
 template <class S>
 concept vertex_shader = position_shader<S> || varying_shader<S>;
 
