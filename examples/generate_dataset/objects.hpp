@@ -22,8 +22,40 @@ inline float between(in::random_sequence& draw, double low, double high) {
     return static_cast<float>(draw.uniform(low, high));
 }
 
-/// Boats, trawlers, coasters, steamers and barges: proportions as geometry/objects/detail/hull_form.hpp cites them.
+/// A box of plates, open above, with bulkheads and side decks: barges, pontoons and lighters. Plates go with the
+/// damage.
+inline in::mesh barge_of(const object_form& f, in::random_sequence& draw) {
+    const auto length = static_cast<float>(f.length);
+    const float beam = length / between(draw, 2.2, 5), depth = beam * between(draw, 0.15, 0.4);
+    const float plate = beam / 16, deck = beam * between(draw, 0.08, 0.2);
+    const double loss = 0.7 * (std::max)(f.damage - 0.4, 0.0);
+    in::compound parts;
+    const auto box = [&](const glm::vec3& size, const glm::vec3& at) {
+        if (draw.uniform() >= loss) parts.add(in::cube{.size = size}, {.position = glm::dvec3(at)});
+    };
+    constexpr int plates = 8;
+    const float pitch = length / plates;
+    for (int i = 0; i < plates; ++i)
+        for (const float side : {-0.5f, 0.5f}) {
+            const float x = (static_cast<float>(i) + 0.5f) * pitch - 0.5f * length;
+            box({pitch, plate, depth}, {x, side * (beam - plate), 0.5f * depth});
+            box({pitch, deck, plate}, {x, side * (beam - deck - 2.2f * plate), depth - 0.6f * plate});
+        }
+    const int holds = 1 + static_cast<int>(draw.below(6));
+    for (int i = 0; i <= holds; ++i) {
+        const float x = (length - plate) * (static_cast<float>(i) / static_cast<float>(holds) - 0.5f);
+        box({plate, beam - 2.1f * plate, 0.95f * depth}, {x, 0, 0.475f * depth});
+    }
+    const glm::vec3 bottom(0.99f * length, 0.97f * beam, 0.1f * depth);
+    parts.add(in::cube{.size = bottom}, {.position = glm::dvec3(0, 0, bottom.z / 2)});
+    if (draw.uniform() < 0.3)
+        box({0.14f * length, 0.6f * beam, 0.6f * beam}, {between(draw, -0.4, 0.4) * length, 0, depth + 0.3f * beam});
+    return in::merge(parts).shape;
+}
+
+/// Boats, trawlers, coasters and steamers: proportions as geometry/objects/detail/hull_form.hpp cites them.
 inline in::mesh ship_of(const object_form& f, in::random_sequence& draw) {
+    if (draw.uniform() < 0.2) return barge_of(f, draw);
     const auto length = static_cast<float>(f.length);
     in::hull h{.length = length};
     h.beam = length / between(draw, length > 60 ? 5.0 : 2.6, length > 60 ? 8.5 : 5.5);
@@ -33,7 +65,7 @@ inline in::mesh ship_of(const object_form& f, in::random_sequence& draw) {
     h.stern = draw.uniform() < 0.5 ? in::stern_type::cruiser : in::stern_type::transom;
     h.plating = (std::max)((std::min)(between(draw, 0.006, 0.02) * h.beam, h.beam / 17), length / 1900);
     const double style = draw.uniform();
-    if (style < 0.25) {  // barge or open boat
+    if (style < 0.25) {  // open boat or lighter
         h.house_length = 0, h.has_funnel = false, h.masts = 0, h.hatches = static_cast<int>(draw.below(7));
         h.mast_height = 0.1f * length;
     } else {
@@ -51,7 +83,7 @@ inline in::mesh ship_of(const object_form& f, in::random_sequence& draw) {
         h.break_yaw = between(draw, -0.7, 0.7);
         h.break_roll = between(draw, -0.6, 0.6);
     }
-    if (f.damage > 0.5) h.collapse = static_cast<float>((std::min)(2 * (f.damage - 0.5), 1.0));
+    if (f.damage > 0.4) h.collapse = static_cast<float>((std::min)(2 * (f.damage - 0.4), 1.0));
     h.segments = 48;
     h.seed = f.seed;
     return in::to_mesh(h);
@@ -66,6 +98,12 @@ inline in::mesh plane_of(const object_form& f, in::random_sequence& draw) {
     a.root_chord = length * between(draw, 0.16, 0.3);
     a.tip_chord = a.root_chord * between(draw, 0.25, 0.75);
     a.sweep = draw.uniform() < 0.8 ? between(draw, -0.02, 0.2) : between(draw, 0.3, 0.7);
+    if (draw.uniform() < 0.12) {  // delta wing
+        a.span = length * between(draw, 0.7, 1.1);
+        a.root_chord = length * between(draw, 0.4, 0.5);
+        a.tip_chord = length * between(draw, 0.03, 0.1);
+        a.sweep = between(draw, 0.65, 0.8);
+    }
     a.dihedral = between(draw, 0, 0.12);
     a.wing_position = between(draw, 0.05, 0.3);
     a.tail_span = (std::max)(a.span * between(draw, 0.28, 0.42), 1.3f * a.fuselage_diameter);
@@ -91,7 +129,7 @@ struct object_kind {
     const char* name;
     double shortest, longest;
 };
-inline constexpr object_kind object_kinds[] = {{"ship", 7, 110},    {"plane", 7, 32},   {"truncated_cone", 0.6, 1.4},
+inline constexpr object_kind object_kinds[] = {{"ship", 5, 110},    {"plane", 7, 32},   {"truncated_cone", 0.6, 1.4},
                                                {"wedge", 0.7, 1.3}, {"tyre", 0.5, 1.8}, {"pipe", 3, 30},
                                                {"boulder", 0.5, 5}, {"crate", 0.6, 6},  {"lobster_pot", 0.6, 1.2},
                                                {"cylinder", 1, 3},  {"cube", 0.4, 1.2}, {"cone", 0.5, 1.2},

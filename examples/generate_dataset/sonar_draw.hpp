@@ -1,7 +1,7 @@
 // From a plan of the sonar recipe to a picture with labels.
 #pragma once
 
-#include "sonar_recipe.hpp"
+#include "sonar_screen.hpp"
 
 namespace generator {
 
@@ -14,7 +14,7 @@ struct sonar_picture {
     std::vector<double> footprint;  ///< of each target on the bottom, pixels
     std::vector<bool> is_cut;       ///< by the chip's edge
     glm::dvec2 rig{0, 0};
-    double metres_per_pixel = 0;
+    glm::dvec2 metres_per_pixel{0, 0};  ///< of a row, of a column, as the picture lies
 };
 
 namespace detail {
@@ -73,35 +73,42 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
     return sand;
 }
 
-/// Picture or labels, turned by quarters; 4 and more are mirrored first.
-template <class T>
-in::image<T> turned(const in::image<T>& from, int turn) {
-    const int n = from.width();
-    in::image<T> to(n, n);
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            int u = turn >= 4 ? n - 1 - x : x, v = y;
-            for (int i = 0; i < turn % 4; ++i) {
-                const int w = u;
-                u = v, v = n - 1 - w;
-            }
-            to(u, v) = from(x, y);
-        }
-    return to;
+/// What fell off a wreck: within about its own length, more of it near, as reflective as the wreck.
+inline void scatter_about(const placed_object& wreck, in::random_sequence& dice, placed_object& t) {
+    const double away = 0.35 * dice.uniform() * dice.uniform() + 0.05, along = dice.uniform(-0.35, 0.35);
+    const auto turn = in::numeric::sin_cos(wreck.yaw);
+    const double side = dice.uniform() < 0.5 ? -away : away;
+    t.across = wreck.across + along * turn.cosine - side * turn.sine;
+    t.along = wreck.along + along * turn.sine + side * turn.cosine;
+    t.reflectivity = wreck.reflectivity * dice.uniform(0.5, 1.2);
+    t.pitch = dice.uniform(-0.5, 0.5);
+}
+
+/// Growth, holes and loose plates: targets are no more of one brightness than the bottom is.
+inline void grow(in::frame<in::labels>& heard, const sonar_plan& p, double pixel) {
+    const in::bottom_tone growth{.drift = static_cast<float>(p.growth),
+                                 .drift_length = static_cast<float>(p.growth_length),
+                                 .octaves = 2,
+                                 .seed = p.growth_seed};
+    for (int y = 0; y < heard.image.height(); ++y)
+        for (int x = 0; x < heard.image.width(); ++x)
+            if (heard.labels.instance(x, y) != 0)
+                heard.image(x, y) *=
+                    static_cast<float>(in::from_decibels(in::level_of(growth, {x * pixel, y * pixel})));
 }
 
 template <in::across_track Axis>
 sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vector<in::mesh>& shapes, auto& ex) {
-    const double pixel = p.chip / o.size;
+    const double pixel = p.chip / o.size, ping = p.track / o.size;
     sonar_picture out;
-    out.metres_per_pixel = pixel;
+    out.metres_per_pixel = p.turn % 2 == 0 ? glm::dvec2(pixel, ping) : glm::dvec2(ping, pixel);
     double first = p.first_range;
     if (Axis == in::across_track::ground_range)
         first = in::range_geometry::ground_range((std::max)(first, p.altitude), p.altitude);
     in::side_scan_rig<Axis> rig{.position = {p.place_x, p.place_y},
                                 .altitude = static_cast<float>(p.altitude),
                                 .yaw = static_cast<float>(p.rig_yaw),
-                                .ping_spacing = static_cast<float>(pixel),
+                                .ping_spacing = static_cast<float>(ping),
                                 .pings = o.size,
                                 .first_range = static_cast<float>(first),
                                 .range = static_cast<float>(first + p.chip),
@@ -122,7 +129,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
     std::vector<in::seabed::edit> scours;
     const in::seabed::any level = in::seabed::flat{.surface = {.rms = 0}};
     const auto lay = [&](const in::mesh& shape, const placed_object& t, const std::string& name) {
-        const glm::dvec2 at = frame.world(ground_at(t.across), t.along * p.chip);
+        const glm::dvec2 at = frame.world(ground_at(t.across), t.along * p.track);
         in::pose pose = in::rest_on(level, shape,
                                     {.position = {at.x, at.y, 0},
                                      .yaw = static_cast<float>(t.yaw),
@@ -151,19 +158,19 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
         double area = 0;
         for (std::size_t a = 0, b = outline.size() - 1; a < outline.size(); b = a++)
             area += 0.5 * (outline[b].x * outline[a].y - outline[a].x * outline[b].y);
-        out.footprint.push_back(area / (pixel * pixel));
+        out.footprint.push_back(area / (pixel * ping));
         bool cut = false;
         for_each_vertex(scene.targets.back(), [&](const glm::dvec3& world) {
             const glm::dvec3 q = frame(world);
             const double range = Axis == in::across_track::ground_range
                                      ? q.x
                                      : in::range_geometry::slant_range(q.x, p.altitude, world.z);
-            cut = cut || range < first || range > first + p.chip || q.y < 0 || q.y > p.chip;
+            cut = cut || range < first || range > first + p.chip || q.y < 0 || q.y > p.track;
         });
         out.is_cut.push_back(cut);
     }
     in::random_sequence dice(p.clutter_seed, 0x636C7500);
-    for (int i = 0; i < p.clutter; ++i) {
+    for (int i = 0; i < p.clutter + p.debris; ++i) {
         const double kind = dice.uniform();
         placed_object t{};
         t.form = {kind < 0.75   ? "boulder"
@@ -175,11 +182,13 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
         t.burial = dice.uniform(0, 0.5);
         t.reflectivity = dice.uniform(0.8, 3);
         t.across = dice.uniform(0.02, 0.98), t.along = dice.uniform(0.02, 0.98);
+        if (i >= p.clutter) scatter_about(p.targets.front(), dice, t);
         lay(mesh_of(t.form), t, clutter_class);
     }
     if (!scours.empty()) scene.seabed = in::seabed::sculpted{.ground = bottom, .edits = scours};
 
-    const in::facet_backscatter law{static_cast<float>(p.facets), static_cast<float>(p.facet_slope)};
+    const in::facet_backscatter law{static_cast<float>(p.facets), static_cast<float>(p.facet_slope),
+                                    static_cast<float>(p.volume_scatter)};
     const in::sonar_equation equation{in::pulse{static_cast<float>(p.pulse)},
                                       in::horizontal_beam{static_cast<float>(p.beam)}, in::level_gain{}};
     using all = in::record_options<in::labels, in::facet_backscatter, std::remove_const_t<decltype(equation)>>;
@@ -188,6 +197,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
         out.known = facts_of(rig, scene.targets.front(), heard.labels.targets.front());
 
     heard = in::with_tone(std::move(heard), rig, p.tone, ex);
+    grow(heard, p, pixel);
     in::water_column water = p.water;
     water.first_range = static_cast<float>(first);
     water.bin = static_cast<float>(rig.bin());
@@ -200,17 +210,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
     for (in::speckle_law& l : speckle.bottom) l = {.looks = p.looks, .texture = static_cast<float>(p.texture)};
     heard = in::with_speckle(std::move(heard), speckle, ex);
     heard.image = in::apply(std::move(heard.image), p.banding, ex);
-    const auto show = [&](const auto& display) { out.values = in::apply(std::move(heard.image), display, ex); };
-    const auto white = static_cast<float>(p.white);
-    if (p.display == "decibels")
-        show(in::decibel_display{.white = white, .range = static_cast<float>(p.dynamic_range)});
-    else if (p.display == "automatic")
-        show(in::automatic_display{
-            .scale = p.exponent < 0.4 ? in::display_scale::decibels : in::display_scale::amplitude,
-            .black = static_cast<float>(p.black_share),
-            .white = static_cast<float>(p.white_share)});
-    else
-        show(in::display{.white = white, .exponent = p.display == "power" ? 1.0f : static_cast<float>(p.exponent)});
+    out.values = on_screen(std::move(heard.image), p, ex);
     out.labels = std::move(heard.labels);
     if (p.turn != 0) {
         out.values = turned(out.values, p.turn);

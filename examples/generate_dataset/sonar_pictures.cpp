@@ -67,11 +67,11 @@ std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const vi
         const auto own = in::target_mask(d.labels, label.instance), dark = in::shadow_mask(d.labels, label.instance);
         const auto add = [&](const std::string& category, const char* of, const in::rect& box, std::int64_t area,
                              const auto& mask) {
-            const double m = d.metres_per_pixel;
+            const glm::dvec2 m = d.metres_per_pixel;
             annotations.push_back({{"category", category},
                                    {"mask", labelled && alone_in_picture ? of : ""},
                                    {"bbox", {box.x0, box.y0, box.width(), box.height()}},
-                                   {"bbox_m", {box.x0 * m, box.y0 * m, box.width() * m, box.height() * m}},
+                                   {"bbox_m", {box.x0 * m.x, box.y0 * m.y, box.width() * m.x, box.height() * m.y}},
                                    {"area", area},
                                    {"segmentation", {{"size", {o.size, o.size}}, {"counts", run_lengths(mask, box)}}}});
         };
@@ -98,7 +98,8 @@ std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const vi
     parameters.update(sampled);
     const bool any = !p.targets.empty();
     const auto known = [&](const json& value) { return any ? value : json(); };
-    parameters["metres_per_pixel"] = d.metres_per_pixel;
+    parameters["metres_per_pixel"] = d.metres_per_pixel.x;
+    parameters["metres_per_row"] = d.metres_per_pixel.y;
     parameters["target_x_m"] = known(any ? d.poses[0].position.x : 0.0);
     parameters["target_y_m"] = known(any ? d.poses[0].position.y : 0.0);
     parameters["target_z_m"] = known(any ? d.poses[0].position.z : 0.0);

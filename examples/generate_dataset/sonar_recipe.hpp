@@ -31,18 +31,21 @@ struct sonar_plan {
     std::string class_name;
     in::instrument sonar;
     std::vector<placed_object> targets;
-    double chip, altitude, first_range, rig_yaw, place_x, place_y;  ///< metres, radians
+    double chip, track;                                       ///< across and along the track, metres
+    double altitude, first_range, rig_yaw, place_x, place_y;  ///< metres, radians
     bool port, ground_range;
 
     std::string bottom;
     std::uint32_t bottom_seed;
     double feature, steepness, direction, disorder, roughness, cover, swell,
         trawls;  ///< of the bottom; lengths in metres
-    int clutter;
+    int clutter, debris;
     double clutter_size;
     std::uint32_t clutter_seed;
 
-    double facets, facet_slope, pulse, beam;  ///< -, -, metres, radians
+    double facets, facet_slope, volume_scatter, pulse, beam;  ///< -, -, -, metres, radians
+    double growth, growth_length;                             ///< decibels, metres
+    std::uint32_t growth_seed;
     in::bottom_tone tone;
     in::range_gain_error gain;
     in::ping_banding banding;
@@ -53,14 +56,16 @@ struct sonar_plan {
     std::uint32_t noise_seed;
     std::string display;
     double white, exponent, dynamic_range, black_share, white_share;
-    int turn;  ///< quarter turns, and 4 more for a mirrored picture
+    double enlarged;  ///< pixels per pixel of the screen that it was cut from
+    int turn;         ///< quarter turns, and 4 more for a mirrored picture
 };
 
 namespace detail {
 
 /// Objects are at most so many pixels wide where nothing else decides the size of a chip.
+/// @param track  the direction of the sonar's track, radians
 inline placed_object sample_object(sampler& s, const std::string& prefix, const std::string& kind, bool used,
-                                   const placing& place) {
+                                   const placing& place, double track) {
     const auto name = [&](const char* what) { return prefix + what; };
     const object_kind* const known = kind_named(kind);
     placed_object o{};
@@ -70,19 +75,24 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
     if (prefix == "t1_" && s.given("t1_length_m") == nullptr && s.given("length_m") != nullptr)
         o.form.length = s.derived("t1_length_m", s.number_or("length_m", 0));
     o.form.damage = s.uniform(name("damage"), 0, 1);
-    o.yaw = s.uniform(name("yaw_rad"), 0, 2 * in::numeric::pi);
+    // Lines that inspect a wreck are run along it; of others it lies any way.
+    const double along = s.chance(name("along_line"), kind == "ship" ? 0.35 : 0.15) ? 0.1 : 1.0;
+    o.yaw =
+        s.derived(name("yaw_rad"), track + along * s.uniform(name("heading_rad"), -in::numeric::pi, in::numeric::pi));
     o.pitch = s.uniform(name("pitch_rad"), -0.06, 0.06);
     const bool on_side = s.chance(name("on_side"), kind == "ship" ? 0.15 : 0.0);
     o.roll = s.derived(name("roll_rad"),
                        on_side ? s.uniform(name("list_rad"), 0.9, 1.8) : s.uniform(name("list_rad"), -0.3, 0.3));
-    o.burial = s.uniform_or_0(name("burial"), 0.3, 0.02, 0.55);
-    o.reflectivity = s.logarithmic(name("reflectivity"), 0.4, 7);
+    o.burial = s.uniform_or_0(name("burial"), 0.3, 0.02, kind == "ship" && o.form.damage > 0.5 ? 0.8 : 0.55);
+    o.reflectivity = s.logarithmic(name("reflectivity"), 0.7, 10);
     o.across = s.uniform(name("across"), place.across.low, place.across.high);
     o.along = s.uniform(name("along"), place.along.low, place.along.high);
-    o.scour = s.uniform_or_0(name("scour"), 0.5, 0.03, 0.25);
+    // A moat follows the outline of a hull; what an aeroplane digs is too small to tell from its own wreckage.
+    o.scour = s.uniform_or_0(name("scour"), kind == "plane" ? 0.95 : 0.7, 0.02, 0.15);
     if (!used)
-        for (const char* const what : {"form", "length_m", "damage", "yaw_rad", "pitch_rad", "on_side", "list_rad",
-                                       "roll_rad", "burial", "reflectivity", "across", "along", "scour"})
+        for (const char* const what :
+             {"form", "length_m", "damage", "along_line", "heading_rad", "yaw_rad", "pitch_rad", "on_side", "list_rad",
+              "roll_rad", "burial", "reflectivity", "across", "along", "scour"})
             s.drop(name(what));
     return o;
 }
@@ -100,26 +110,26 @@ inline in::mesh sized(sampler& s, const std::string& prefix, in::mesh shape, boo
     return in::transformed(std::move(shape), {glm::dmat3({1, 0, 0}, {0, y, 0}, {0, 0, z}), {}});
 }
 
-/// The largest horizontal extent of a mesh, metres.
+/// The longer side of a mesh on the bottom, metres.
 inline double extent_of(const in::mesh& m) {
     const in::bounding_box box = in::bounds(m);
-    return in::numeric::square_root(box.size().x * box.size().x + box.size().y * box.size().y);
+    return (std::max)(box.size().x, box.size().y);
 }
 
 inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of_target& view) {
     p.bottom = s.choice("seabed", {{"sand", 0.45}, {"ripples", 0.25}, {"mud", 0.12}, {"rock", 0.04}, {"mixed", 0.12}},
                         view.seabed);
     p.bottom_seed = s.word("seabed_seed");
-    p.feature = s.derived("feature_m", pixel * s.logarithmic("feature_px", 2.2, 20));
-    p.steepness = s.logarithmic("steepness", 0.015, 0.09);
+    p.feature = s.derived("feature_m", pixel * s.logarithmic("feature_px", 2.2, 14));
+    p.steepness = s.logarithmic("steepness", 0.02, 0.12);
     p.direction = s.uniform("ripple_direction_rad", 0, 2 * in::numeric::pi);
-    p.disorder = s.uniform("disorder", 0.05, 0.22);
+    p.disorder = s.uniform("disorder", 0.06, 0.3);
     p.roughness = s.logarithmic("roughness", 2e-4, 0.035);
     p.cover = s.uniform("cover", 0.15, 0.75);
     p.swell = s.uniform_or_0("swell", 0.65, 0.01, 0.06);
     p.trawls = s.uniform_or_0("trawls", 0.75, 0.3, 2);
 
-    p.tone.drift = static_cast<float>(s.logarithmic("tone_drift_db", 0.05, 2.2));
+    p.tone.drift = static_cast<float>(s.logarithmic("tone_drift_db", 0.05, 1.6));
     p.tone.drift_length =
         static_cast<float>(s.derived("tone_drift_length_m", pixel * s.logarithmic("drift_px", 15, 120)));
     p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.7, 0.2, 1.3));
@@ -127,13 +137,16 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
     p.tone.streak_length = static_cast<float>(
         s.derived("streak_length_m", static_cast<double>(p.tone.streak_width) * s.uniform("streak_ratio", 8, 60)));
     p.tone.direction = static_cast<float>(s.uniform("streak_direction_rad", 0, in::numeric::pi));
-    p.tone.patches = static_cast<float>(s.uniform_or_0("tone_patches_db", 0.78, -6, 6));
+    p.tone.patches = static_cast<float>(s.uniform_or_0("tone_patches_db", 0.86, -4, 4));
     p.tone.patch_size = static_cast<float>(s.derived("patch_size_m", pixel * s.logarithmic("patch_px", 15, 70)));
     p.tone.patch_share = static_cast<float>(s.uniform("patch_share", 0.1, 0.6));
     p.tone.seed = s.word("tone_seed");
 
     p.clutter = s.whole("clutter", 1, 9);
     if (!s.chance("has_clutter", p.class_name == empty_class ? 0.1 : 0.3)) p.clutter = 0;
+    // What a wreck has lost lies about it.
+    p.debris = s.whole("debris", 3, 24);
+    if (!s.chance("has_debris", 0.45) || p.targets.empty()) p.debris = 0;
     p.clutter_size = s.derived("clutter_size_m", pixel * s.uniform("clutter_px", 1.2, 4.5));
     p.clutter_seed = s.word("clutter_seed");
 }
@@ -141,19 +154,23 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
 inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.facets = s.uniform("facets", 0, 6);
     p.facet_slope = s.uniform("facet_slope", 0.08, 0.3);
+    p.volume_scatter = s.logarithmic("volume_scatter", 0.05, 0.8);
+    p.growth = s.uniform("growth_db", 0.5, 3.5);
+    p.growth_length = s.derived("growth_length_m", pixel * s.uniform("growth_px", 1.2, 4));
+    p.growth_seed = s.word("growth_seed");
     p.pulse = s.derived(
         "pulse_m", (std::max)(static_cast<double>(p.sonar.range_resolution), pixel * s.uniform("pulse_px", 0.2, 1.2)));
     const double beam = p.sonar.is_synthetic_aperture() ? static_cast<double>(p.sonar.along_track_resolution) / slant
                                                         : static_cast<double>(p.sonar.beam);
     p.beam = s.derived("beam_rad", (std::max)(beam * s.uniform("beam_factor", 0.7, 1.5), 0.3 * pixel / slant));
 
-    p.gain.rms = static_cast<float>(s.logarithmic("gain_error_db", 0.05, 1.5));
+    p.gain.rms = static_cast<float>(s.logarithmic("gain_error_db", 0.05, 1.2));
     p.gain.length = static_cast<float>(s.uniform("gain_error_px", 25, 120));
     p.gain.slope = static_cast<float>(s.uniform("gain_slope_db", -2.2, 2.2));
     p.gain.seed = s.word("gain_seed");
-    p.banding.drift = static_cast<float>(s.uniform_or_0("banding_drift_db", 0.3, 0.1, 1.3));
+    p.banding.drift = static_cast<float>(s.uniform_or_0("banding_drift_db", 0.5, 0.1, 0.9));
     p.banding.length = static_cast<float>(s.uniform("banding_px", 3, 30));
-    p.banding.jitter = static_cast<float>(s.uniform_or_0("banding_jitter_db", 0.4, 0.05, 0.9));
+    p.banding.jitter = static_cast<float>(s.uniform_or_0("banding_jitter_db", 0.5, 0.05, 0.7));
     p.banding.seed = s.word("banding_seed");
 
     p.water.noise = static_cast<float>(s.logarithmic("noise_floor", 3e-4, 0.04));
@@ -168,24 +185,27 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
 
     p.looks = s.derived_whole("looks", static_cast<int>(s.logarithmic("looks_drawn", 1.2, 17)));
     p.grain_across =
-        (std::min)((std::max)(p.sonar.grain_across() / pixel, s.uniform_or_0("grain_across_px", 0.75, 0.3, 1.3)), 16.0);
-    p.grain_along =
-        (std::min)((std::max)(p.sonar.grain_along(slant) / pixel, s.uniform_or_0("grain_along_px", 0.4, 0.3, 2)), 16.0);
+        (std::min)((std::max)(p.sonar.grain_across() / pixel, s.uniform_or_0("grain_across_px", 0.92, 0.3, 1.1)), 16.0);
+    p.grain_along = (std::min)(
+        (std::max)(p.sonar.grain_along(slant) / pixel, s.uniform_or_0("grain_along_px", 0.55, 0.3, 2)), 16.0);
     p.grain_across = s.derived("correlation_across_px", p.grain_across);
     p.grain_along = s.derived("correlation_along_px", p.grain_along);
     p.texture = s.uniform_or_0("texture", 0.75, 4, 15);
     p.noise_seed = s.word("noise_seed");
 
-    p.display = s.choice("display", {{"amplitude", 0.32}, {"decibels", 0.28}, {"power", 0.05}, {"automatic", 0.35}});
-    p.white = s.logarithmic("white", 2, 8);
-    p.exponent = s.uniform("exponent", 0.28, 0.58);
-    p.dynamic_range = s.uniform("display_range_factor", 0.55, 1.1) * static_cast<double>(p.sonar.dynamic_range);
+    p.display = s.choice("display", {{"amplitude", 0.5}, {"decibels", 0.25}, {"power", 0.05}, {"automatic", 0.2}});
+    // Gain is set so that the bottom is a middle gray and what is brighter still shows: white lies 6 to 18 dB above it.
+    p.white = s.logarithmic("white", 2, 32);
+    p.exponent = s.uniform("exponent", 0.33, 0.62);
+    p.dynamic_range = s.uniform("display_range_factor", 0.5, 1.1) * static_cast<double>(p.sonar.dynamic_range);
     p.dynamic_range = s.derived("display_range_db", p.dynamic_range);
     p.black_share = s.uniform("black_share", 0, 0.02);
     p.white_share = s.uniform("white_share", 0, 0.03);
+    // Targets are zoomed in on.
+    p.enlarged = s.uniform_or_0("enlarged", p.targets.empty() ? 0.88 : 0.55, 1.1, 2.2);
     // Waterfalls run up or down the screen, charts any way.
     const int turned = s.whole("quarter_turns", 0, 7);
-    p.turn = s.derived_whole("turn", s.chance("is_chart", 0.6) ? turned : turned / 2 * 2);
+    p.turn = s.derived_whole("turn", s.chance("is_chart", 0.3) ? turned : turned / 2 * 2);
 }
 
 }  // namespace detail
@@ -207,6 +227,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     const std::string target_id = s.name_of("target_id", view.target_id);
     if (target_id.empty()) s.drop("target_id");
     const int more = s.choice("targets", {{"1", 0.9}, {"2", 0.07}, {"3", 0.03}})[0] - '0';
+    p.rig_yaw = s.uniform("rig_yaw_rad", 0, 2 * in::numeric::pi);
     for (int i = 0; i < most_targets; ++i) {
         const std::string prefix = "t" + std::to_string(i + 1) + "_";
         const bool used = !empty && i < more;
@@ -216,7 +237,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
         const bool is_shared = used && i == 0 && !target_id.empty();
         in::random_sequence of_image(0);
         if (is_shared) of_image = s.draw_from(in::random_sequence(o.seed, 0x74617200u, target_key(target_id)));
-        placed_object t = detail::sample_object(s, prefix, kind, used, placing_of(o));
+        placed_object t = detail::sample_object(s, prefix, kind, used, placing_of(o), p.rig_yaw + in::numeric::pi / 2);
         if (is_shared) s.draw_from(of_image);
         if (!used) s.drop(prefix + "kind");
         if (used) p.targets.push_back(t), shapes.push_back(detail::sized(s, prefix, mesh_of(t.form), i == 0));
@@ -224,9 +245,12 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     }
 
     // The chip is cut around the first target, or as large as one of any size would be.
-    const double fill = s.uniform("fill", 0.4, 1.05), bare = s.logarithmic("bare_chip_m", 6, 160);
+    const double share = s.chance("is_small", 0.1) ? 0.4 : 1.0;
+    const double fill = share * s.uniform("fill", 0.55, 1.2), bare = s.logarithmic("bare_chip_m", 6, 160);
     p.chip = s.derived("chip_m", empty ? bare : detail::extent_of(shapes.front()) / fill);
     const double pixel = p.chip / o.size;
+    // Pings are shown as rows whatever the speed: pixels are longer or shorter along the track than across it.
+    p.track = s.derived("track_m", p.chip * s.logarithmic("ping_stretch", 0.67, 1.5));
 
     // Sonars that reach as far as the chip is wide; the finest ones are not used for the largest chips.
     std::vector<weighted> sonars;
@@ -245,12 +269,12 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     const double lead = p.targets.empty() ? 0.5 : p.targets.front().across;
     // As far away as the sonar's range allows, and so high that the target is met at a grazing angle of survey lines,
     // or of the closer ones that inspect a wreck; the water column is in view where it is meant to be.
-    const double sine = in::numeric::sin_cos(in::numeric::to_radians(s.logarithmic("survey_grazing_deg", 8, 40))).sine;
+    const double sine = in::numeric::sin_cos(in::numeric::to_radians(s.logarithmic("survey_grazing_deg", 10, 44))).sine;
     double slant = lead * p.chip + s.uniform("range_share", 0.03, 1) * (reach - p.chip);
-    if (!s.chance("water_in_view", empty ? 0.04 : 0.2)) slant = (std::max)(slant, lead * p.chip / (1 - sine / 0.95));
+    if (!s.chance("water_in_view", empty ? 0.04 : 0.2))
+        slant = (std::max)(slant, lead * p.chip / (1 - sine / (0.75 * sine + 0.25)));
     p.first_range = s.derived("first_range_m", slant - lead * p.chip);
     p.altitude = s.derived("altitude_m", slant * sine);
-    p.rig_yaw = s.uniform("rig_yaw_rad", 0, 2 * in::numeric::pi);
     p.place_x = s.uniform("place_x_m", -500, 500);
     p.place_y = s.uniform("place_y_m", -500, 500);
     p.port = s.chance("port", 0.5);

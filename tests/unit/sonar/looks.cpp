@@ -294,6 +294,10 @@ TEST_CASE("facet_backscatter() is Lambert's law with a peak at normal incidence"
     CHECK(law(static_cast<float>(sine)) == Approx(sine * sine + 5 * std::exp(-0.5)).epsilon(1e-4));
     CHECK(law(0) == 0);
     CHECK(in::facet_backscatter{.facets = 0}(0.7f) == Approx(0.49));
+    // The volume falls off more slowly than the surface.
+    const in::facet_backscatter muddy{.facets = 0, .volume = 0.5f};
+    CHECK(muddy(0.7f) == Approx(0.49 + 0.35));
+    CHECK(muddy(0.1f) == Approx(0.06));
 }
 
 TEST_CASE("Instruments are found by name; speckle lengths follow from pulse, beam or aperture") {

@@ -140,8 +140,9 @@ TEST_CASE("record() refuses each field of a sonar equation by name") {
 }
 
 TEST_CASE("Both sonars refuse each field of a backscatter law by name") {
-    static_assert(members<in::facet_backscatter>() == 2);
-    const std::initializer_list<field<in::facet_backscatter>> fields{FIELD(facets, below_0), FIELD(slope, not_above_0)};
+    static_assert(members<in::facet_backscatter>() == 3);
+    const std::initializer_list<field<in::facet_backscatter>> fields{FIELD(facets, below_0), FIELD(slope, not_above_0),
+                                                                     FIELD(volume, below_0)};
     walk<in::facet_backscatter>(
         "facet_backscatter.", {},
         [](const in::facet_backscatter& law) {

@@ -1,0 +1,71 @@
+// The last steps of a sonar picture: from intensities to the gray values of a screen, enlarged and turned.
+#pragma once
+
+#include "sonar_recipe.hpp"
+
+namespace generator::detail {
+
+/// Picture or labels, turned by quarters; 4 and more are mirrored first.
+template <class T>
+in::image<T> turned(const in::image<T>& from, int turn) {
+    const int n = from.width();
+    in::image<T> to(n, n);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            int u = turn >= 4 ? n - 1 - x : x, v = y;
+            for (int i = 0; i < turn % 4; ++i) {
+                const int w = u;
+                u = v, v = n - 1 - w;
+            }
+            to(u, v) = from(x, y);
+        }
+    return to;
+}
+
+/// What a picture of fewer pixels looks like enlarged to the same size: means of `factor` x `factor` pixels, and
+/// straight lines between them.
+inline in::image<float> enlarged(const in::image<float>& from, double factor) {
+    const int n = from.width(), coarse = (std::max)(static_cast<int>(in::numeric::floor_to_int(n / factor + 0.5)), 2);
+    const double step = static_cast<double>(n) / coarse;
+    // One axis after the other; turning in between makes both the same loop.
+    in::image<float> now = from;
+    for (int pass = 0; pass < 2; ++pass) {
+        in::image<float> to(n, n);
+        std::vector<double> cell(static_cast<std::size_t>(coarse));
+        for (int y = 0; y < n; ++y) {
+            for (int i = 0; i < coarse; ++i) {
+                double sum = 0;
+                const double low = i * step, high = low + step;
+                for (int x = static_cast<int>(low); x < n && x < high; ++x)
+                    sum += static_cast<double>(now(x, y)) * ((std::min)(x + 1.0, high) - (std::max)(double(x), low));
+                cell[static_cast<std::size_t>(i)] = sum / step;
+            }
+            for (int x = 0; x < n; ++x) {
+                const double at = (std::min)((std::max)((x + 0.5) / step - 0.5, 0.0), coarse - 1.0);
+                const auto i = (std::min)(static_cast<std::size_t>(at), static_cast<std::size_t>(coarse - 2));
+                to(y, x) = static_cast<float>(cell[i] + (at - static_cast<double>(i)) * (cell[i + 1] - cell[i]));
+            }
+        }
+        now = std::move(to);
+    }
+    return now;
+}
+
+/// Gray values as the plan's display shows them.
+inline in::image<float> on_screen(in::image<float> heard, const sonar_plan& p, auto& ex) {
+    const auto show = [&](const auto& display) {
+        in::image<float> gray = in::apply(std::move(heard), display, ex);
+        return p.enlarged > 1 ? enlarged(gray, p.enlarged) : gray;
+    };
+    const auto white = static_cast<float>(p.white);
+    if (p.display == "decibels")
+        return show(in::decibel_display{.white = white, .range = static_cast<float>(p.dynamic_range)});
+    if (p.display == "automatic")
+        return show(in::automatic_display{
+            .scale = p.exponent < 0.4 ? in::display_scale::decibels : in::display_scale::amplitude,
+            .black = static_cast<float>(p.black_share),
+            .white = static_cast<float>(p.white_share)});
+    return show(in::display{.white = white, .exponent = p.display == "power" ? 1.0f : static_cast<float>(p.exponent)});
+}
+
+}  // namespace generator::detail
