@@ -28,6 +28,7 @@ constexpr limits limits_of(std::string_view column) {
         {"reference", {-1, 1e9}},
         // Sizes, and where things lie.
         {"chip_m", {0.01, 1e4}},
+        {"track_m", {0.01, 1e4}},
         {"place_x_m", {-1e6, 1e6}},
         {"place_y_m", {-1e6, 1e6}},
         {"first_range_m", {0, 1e5}},
@@ -61,6 +62,7 @@ constexpr limits limits_of(std::string_view column) {
         {"_deg", {-1e4, 1e4}},
         {"_rad", {-1e3, 1e3}},
         // Levels and strengths.
+        {"growth_db", {0, 30}},
         {"_db", {-100, 100}},
         {"reflectivity", {0, 1e6}},
         {"aspect", {1e-2, 1e2}},
@@ -69,6 +71,8 @@ constexpr limits limits_of(std::string_view column) {
         {"roughness", {0, 1}},
         {"disorder", {0, 1}},
         {"facets", {0, 100}},
+        {"volume_scatter", {0, 100}},
+        {"enlarged", {0, 100}},
         {"facet_slope", {0.01, 1}},
         {"white", {1e-3, 1e6}},
         {"exponent", {0.01, 10}},
