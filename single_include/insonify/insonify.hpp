@@ -10131,20 +10131,23 @@ struct lambert_backscatter {
     }
 };
 
-/// Lambert's law plus the mirror-like echo of facets near normal incidence, which makes the bright band below the
-/// sonar: s^2 + facets exp(-tan^2(incidence) / (2 slope^2)) (P. Beckmann, A. Spizzichino. The Scattering of
-/// Electromagnetic Waves from Rough Surfaces, 1963, chapter 5; D. R. Jackson, M. D. Richardson. High-Frequency Seafloor
-/// Acoustics, 2007, chapter 13: Kirchhoff approximation).
+/// Lambert's law plus what it leaves out, s^2 + volume s + facets exp(-tan^2(incidence) / (2 slope^2)):
+/// scatterers in the upper sediment, or in the growth on a wreck, whose echo falls off with s alone (Lommel and
+/// Seeliger's law where sound comes and returns along one line: D. R. Jackson, M. D. Richardson. High-Frequency
+/// Seafloor Acoustics, 2007, chapter 14), and the mirror-like echo of facets near normal incidence, which makes the
+/// bright band below the sonar (P. Beckmann, A. Spizzichino. The Scattering of Electromagnetic Waves from Rough
+/// Surfaces, 1963, chapter 5; Jackson and Richardson, chapter 13: Kirchhoff approximation).
 struct facet_backscatter {
     float facets = 4;     ///< echo at normal incidence over that of Lambert's law, >= 0
     float slope = 0.15f;  ///< rms slope of the facets, above 0: smooth mud 0.05, sand 0.1 to 0.2, gravel 0.3
+    float volume = 0;     ///< echo of the volume at normal incidence over that of Lambert's law, >= 0
 
     INSONIFY_TAGGED float operator()(float s) const {
         const double square = static_cast<double>(s) * static_cast<double>(s);
         if (!(square > 1e-6)) return 0;
         const double tangent_square = 1 / square - 1, spread = static_cast<double>(slope);
         const double exponent = 0.5 * tangent_square / (spread * spread);
-        return static_cast<float>(square +
+        return static_cast<float>(square + static_cast<double>(volume) * static_cast<double>(s) +
                                   (exponent < 80 ? static_cast<double>(facets) * numeric::exp(-exponent) : 0.0));
     }
 };
@@ -10156,6 +10159,7 @@ inline void validate(const facet_backscatter& f) {
     using detail::require;
     require(f.facets >= 0 && numeric::is_finite(f.facets), "facet_backscatter.facets", f.facets, "0 or more");
     require(f.slope > 0 && numeric::is_finite(f.slope), "facet_backscatter.slope", f.slope, "above 0");
+    require(f.volume >= 0 && numeric::is_finite(f.volume), "facet_backscatter.volume", f.volume, "0 or more");
 }
 
 }  // namespace INSONIFY_FLAGS
