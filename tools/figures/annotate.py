@@ -72,25 +72,39 @@ PICTURES = {
 
 
 # The chips of README.md's picture, of the guide's data set `boats`.
-CHIPS = ["ship/000000/000000000", "plane/000000/000000006", "ship/000000/000000001", "plane/000000/000000007",
-         "ship/000000/000000005", "tyre/000000/000000011", "plane/000000/000000008", "empty/000000/000000023"]
+CHIPS = ["ship/000000/000000002", "plane/000000/000000009", "ship/000000/000000004", "plane/000000/000000008",
+         "ship/000000/000000005", "tyre/000000/000000010", "plane/000000/000000006", "empty/000000/000000014"]
+# A recorded line: both sides of 29.98 m in slant range, forward down. From CIDCO-dev/OpenSidescan, MIT licence.
+REAL_LINE = pathlib.Path("../shared/reference/sidescan_scotsman/waterfall_u8_linear.png")
+
+
+def copper(gray):
+    """The library's colormap::copper."""
+    return Image.merge("RGB", [gray.point(lambda v, k=k: min(255, round(k * v))) for k in (1.25, 0.7812, 0.4975)])
 
 
 def front(source, target):
-    """The survey line of the guide above chips of its data set, the names of their classes below."""
-    line = Image.open(target / "line.png").convert("RGB")
-    side, gap = 106, 4
-    sheet = Image.new("RGB", (line.width, line.height + side + 30), PAPER)
-    sheet.paste(line, (0, 0))
+    """The guide's survey line beside a recorded one, in the same scale across, above chips of the guide's data set."""
+    width, height, side, gap = 455, 234, 110, 5
+    line = Image.open(source / "line.png").convert("RGB").getchannel("G").point(lambda v: round(v / 0.7812))
+    metre = line.height / 50.4
+    line = line.crop((0, round(line.height - 43 * metre), line.width, round(line.height - 10 * metre)))
+    panels = [("generated: slant range 32 m to a side", line)]
+    if REAL_LINE.exists():
+        panels.append(("recorded: 30 m to a side, CIDCO OpenSidescan (MIT)", Image.open(REAL_LINE).convert("L")))
+    sheet = Image.new("RGB", (2 * width + 10, height + side + 46), PAPER)
     draw = ImageDraw.Draw(sheet)
-    left = 30
-    for chip in CHIPS:
+    for k, (words, panel) in enumerate(panels):
+        left = k * (width + 10)
+        sheet.paste(copper(panel.resize((width, height), Image.Resampling.BOX)), (left, 0))
+        text(draw, left + width / 2, height + 4, words)
+    for k, chip in enumerate(CHIPS):
         picture = Image.open(source / "boats/images" / f"{chip}.png").convert("L").resize((side, side))
-        sheet.paste(picture.convert("RGB").point(lambda v: round(v / 36.4) * 36), (left, line.height + 6))
+        left = k * (side + gap)
+        sheet.paste(picture.convert("RGB").point(lambda v: round(v / 36.4) * 36), (left, height + 24))
         name = chip.split("/")[0]
-        text(draw, left + side / 2, line.height + side + 10, "bare bottom" if name == "empty" else name)
-        left += side + gap
-    save(sheet, target.parent / "front.png", 24)
+        text(draw, left + side / 2, height + side + 28, "generated: " + ("bottom" if name == "empty" else name))
+    save(sheet, target.parent / "front.png", 64)
 
 
 def save(sheet, path, colors=16):
