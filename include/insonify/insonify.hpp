@@ -27,6 +27,7 @@
 #include <insonify/filter/pipe.hpp>
 #include <insonify/filter/poisson.hpp>
 #include <insonify/filter/where.hpp>
+#include <insonify/fwd.hpp>
 #include <insonify/geometry/camera.hpp>
 #include <insonify/geometry/cone.hpp>
 #include <insonify/geometry/cube.hpp>

@@ -83,8 +83,8 @@ class image {
     INSONIFY_MEMBER std::span<const T> row(int y) const {
         return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)};
     }
-    std::span<T> pixels() { return pixels_; }
-    std::span<const T> pixels() const { return pixels_; }
+    INSONIFY_MEMBER std::span<T> pixels() { return {pixels_.data(), pixels_.size()}; }
+    INSONIFY_MEMBER std::span<const T> pixels() const { return {pixels_.data(), pixels_.size()}; }
 
     INSONIFY_MEMBER image_view<T> view() & { return {pixels_.data(), width_, height_}; }
     INSONIFY_MEMBER image_view<const T> view() const& { return {pixels_.data(), width_, height_}; }

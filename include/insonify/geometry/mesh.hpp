@@ -30,7 +30,9 @@ struct mesh_view {
     INSONIFY_MEMBER mesh_view(std::span<const glm::vec3> places, std::span<const glm::vec3> ups,
                               std::span<const glm::uvec3> corners)
         : positions(places), normals(ups), triangles(corners) {}
-    INSONIFY_MEMBER mesh_view(const mesh& m) : mesh_view(m.positions, m.normals, m.triangles) {}
+    INSONIFY_MEMBER mesh_view(const mesh& m)
+        : mesh_view({m.positions.data(), m.positions.size()}, {m.normals.data(), m.normals.size()},
+                    {m.triangles.data(), m.triangles.size()}) {}
 };
 
 namespace detail::inline INSONIFY_FLAGS {

@@ -1,6 +1,7 @@
 // The result of every renderer: the image, its labels, statistics, and the order of its rows.
 #pragma once
 
+#include <insonify/fwd.hpp>
 #include <insonify/raster/draw_options.hpp>
 #include <insonify/sonar/labels.hpp>
 #include <insonify/sonar/side_scan/side_scan.hpp>
@@ -30,7 +31,7 @@ struct ping_numbers {
 ///
 /// In overhead pictures up is forward, and pixels are in [0, 1]. In range modes row i is ping i, column j is bin j, and
 /// pixels are intensities, 0 and above; see sonar_equation.hpp for their unit.
-template <class Labels = labels>
+template <class Labels>  // labels, unless stated: see fwd.hpp
 struct frame {
     insonify::image<float> image;  ///< linear
     Labels labels;                 ///< or no_labels
