@@ -894,8 +894,8 @@ class image {
     INSONIFY_MEMBER std::span<const T> row(int y) const {
         return {pixels_.data() + index(0, y), static_cast<std::size_t>(width_)};
     }
-    std::span<T> pixels() { return pixels_; }
-    std::span<const T> pixels() const { return pixels_; }
+    INSONIFY_MEMBER std::span<T> pixels() { return {pixels_.data(), pixels_.size()}; }
+    INSONIFY_MEMBER std::span<const T> pixels() const { return {pixels_.data(), pixels_.size()}; }
 
     INSONIFY_MEMBER image_view<T> view() & { return {pixels_.data(), width_, height_}; }
     INSONIFY_MEMBER image_view<const T> view() const& { return {pixels_.data(), width_, height_}; }
@@ -5091,6 +5091,111 @@ filter_chain<where_filter<Stages>...> where(image_view<const std::uint8_t> mask,
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/fwd.hpp --------------------------------------------------------------------------
+// Declares the public types, for headers that name them: no other header of the library, nor GLM, is included.
+//
+//     #include <insonify/fwd.hpp>
+//     insonify::frame<> draw_pipeline(const insonify::scene& survey, const insonify::overhead& rig);
+//
+// Filters and seabeds are plain values; those that compute carry the flags of their unit and are not listed.
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+// Images and executors
+template <class T>
+struct rgb;
+using rgb8 = rgb<std::uint8_t>;
+template <class T>
+class image;
+template <class T>
+class image_view;
+struct rect;
+class context;
+class executor_ref;
+struct serial_executor;
+class thread_pool;
+enum class isa;
+
+// Errors
+struct invalid_input;
+struct io_error;
+
+// Shapes
+struct affine;
+struct bounding_box;
+struct camera;
+struct capsule;
+struct cone;
+struct cube;
+struct cylinder;
+struct hemisphere;
+struct mesh;
+struct mesh_view;
+struct pose;
+class shared_mesh;
+struct sphere;
+
+namespace seabed {
+
+class any;
+struct flat;
+struct grid;
+struct heightfield;
+struct mud;
+struct none;
+struct ripples;
+struct rock;
+enum class sediment : std::uint8_t;
+enum class type : std::uint8_t;
+struct type_properties;
+
+}  // namespace seabed
+
+namespace shadow {
+
+struct exact;
+struct map;
+struct none;
+struct pcf;
+struct penumbra;
+
+}  // namespace shadow
+
+// Filters
+struct color_table;
+struct distribution;
+struct equalize;
+struct gaussian;
+struct histogram;
+class match_binned;
+class match_histogram;
+struct salt_and_pepper;
+struct speckle;
+
+// Pictures and recordings
+struct labels;
+struct lambert;
+struct lambert_backscatter;
+struct material;
+struct no_labels;
+struct overhead;
+struct ping;
+struct ping_numbers;
+struct render_stats;
+struct scene;
+struct target;
+struct target_label;
+struct visibility;
+enum class across_track;
+template <across_track Axis>
+struct side_scan_rig;
+template <class Labels = labels>
+struct frame;
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
 // ------------ insonify/geometry/mesh.hpp ----------------------------------------------------------------
 // Indexed triangle meshes as plain data, and views of them.
 
@@ -5114,7 +5219,9 @@ struct mesh_view {
     INSONIFY_MEMBER mesh_view(std::span<const glm::vec3> places, std::span<const glm::vec3> ups,
                               std::span<const glm::uvec3> corners)
         : positions(places), normals(ups), triangles(corners) {}
-    INSONIFY_MEMBER mesh_view(const mesh& m) : mesh_view(m.positions, m.normals, m.triangles) {}
+    INSONIFY_MEMBER mesh_view(const mesh& m)
+        : mesh_view({m.positions.data(), m.positions.size()}, {m.normals.data(), m.normals.size()},
+                    {m.triangles.data(), m.triangles.size()}) {}
 };
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -10782,7 +10889,7 @@ struct ping_numbers {
 ///
 /// In overhead pictures up is forward, and pixels are in [0, 1]. In range modes row i is ping i, column j is bin j, and
 /// pixels are intensities, 0 and above; see sonar_equation.hpp for their unit.
-template <class Labels = labels>
+template <class Labels>  // labels, unless stated: see fwd.hpp
 struct frame {
     insonify::image<float> image;  ///< linear
     Labels labels;                 ///< or no_labels
