@@ -44,7 +44,7 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
     const screen_mesh<real> screen(m, shader, grid, tiles, options, HasIds, records, ex);
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
-    constexpr std::size_t run = 4;  // tiles that share a buffer
+    const std::size_t run = tiles.run();
     std::vector<std::uint64_t> shaded((tiles.count() + run - 1) / run, 0);
     bulk_ranges(ex, tiles.count(), run, [&](std::size_t first, std::size_t last) {
         tile_buffer<HasIds> buffer(options.tile);

@@ -40,7 +40,7 @@ class exact_occlusion {
         std::size_t triangles = 0;
         for (const caster& c : casters_) triangles += c.mesh.triangles.size();
         if (triangles == 0 || bounds.empty()) return;
-        int side = 4;
+        int side = 16;  // narrow tiles, so that a small caster leaves others' tiles alone
         while (side < 64 && static_cast<std::size_t>(side * side) * 1024 < triangles) side *= 2;
         const double reach = reach_of(bounds);
         if (const auto* parallel = std::get_if<directional_light>(&light)) {

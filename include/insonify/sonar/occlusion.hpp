@@ -6,8 +6,7 @@
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/tessellate.hpp>
 #include <insonify/shadow/exact.hpp>
-#include <insonify/sonar/labels.hpp>
-#include <insonify/sonar/overhead/rig.hpp>
+#include <insonify/sonar/detail/shadow_terms.hpp>
 #include <insonify/sonar/scene.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -27,11 +26,14 @@ inline namespace INSONIFY_FLAGS {
 /// The light of a rig, in the world.
 inline shadow::any_light light_of(const overhead& rig) {
     const overhead_geometry view(rig);
-    if (!view.has_near_light())
-        return shadow::directional_light{static_cast<double>(rig.light_azimuth) + static_cast<double>(rig.yaw),
-                                         static_cast<double>(rig.grazing)};
-    const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
-    return shadow::point_light{numeric::product(to_world, view.light_position()) + glm::dvec3(rig.position, 0)};
+    shadow::any_light light = detail::light_in_rig(view);
+    if (auto* parallel = std::get_if<shadow::directional_light>(&light)) {
+        parallel->azimuth += static_cast<double>(rig.yaw);
+    } else {
+        glm::dvec3& position = std::get<shadow::point_light>(light).position;
+        position = numeric::product(glm::transpose(view.rig_from({}).linear), position) + glm::dvec3(rig.position, 0);
+    }
+    return light;
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -76,8 +78,7 @@ class scene_occlusion {
                         shadow::shares{std::span(all.lit).subspan(first, count), caster});
             for (std::size_t i = 0; i < count; ++i)
                 if (caster[i] != shadow::invalid_id)
-                    all.shadow[first + i] =
-                        caster[i] < targets_ ? static_cast<std::uint16_t>(caster[i] + 1) : labels::by_seabed;
+                    all.shadow[first + i] = detail::name_of_caster(caster[i], targets_);
         });
         return all;
     }

@@ -49,17 +49,20 @@ class overhead_painter {
     template <executor E>
     frame<Labels> paint(E& ex) {
         place_objects();
-        draw_all(ex);
         if constexpr (casts) {
             std::vector<shadow::caster> casters;
             for (const placed_mesh& t : targets_) casters.push_back(as_caster(view_, t));
             if (has_bottom()) casters.push_back(as_caster(view_, bottom_in_rig_));
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
             const auto occlusion =
-                options_.shadow.build(std::span<const shadow::caster>(casters), light_of(view_), bounds, ex);
-            shadow_pass<Labels>(view_, surfaces_, ids_, rest_, out_.image, out_.labels, targets_.size(), options_.tile,
-                                options_.level)
+                options_.shadow.build(std::span<const shadow::caster>(casters), light_in_rig(view_), bounds, ex);
+            const auto known = settle_triangles(occlusion, ex);
+            draw_all(ex);
+            shadow_pass<Labels>(view_, surfaces_, {ids_, undecided_, out_.image, out_.labels}, targets_.size(),
+                                options_.tile, options_.level)
                 .cast(occlusion, ex);
+        } else {
+            draw_all(ex);
         }
         if constexpr (labelled) {
             label_surfaces(ex);
@@ -214,6 +217,7 @@ class overhead_painter {
             s.caster = caster;
             s.instance = instance;
             s.seabed = seabed;
+            s.shadow_name = name_of_caster(caster, targets_.size());
             s.whole = m;
             ids += placed.shape.triangles.size();
             require(ids < shadow::invalid_id, "triangles of the scene", ids, "below 2^32 - 1");
@@ -232,15 +236,32 @@ class overhead_painter {
                 scene_.targets[i].surface);
     }
 
-    /// Draws all surfaces: unshadowed light and the visibility buffer.
+    /// Finds what is known of whole triangles before they are drawn. The surfaces point to the answers.
+    template <class Occlusion, executor E>
+    std::vector<uninitialized_vector<shadow::known>> settle_triangles(const Occlusion& occlusion, E& ex) {
+        std::vector<uninitialized_vector<shadow::known>> known;
+        if constexpr (shadow::triangle_occlusion<Occlusion>)
+            for (surface& s : surfaces_) {
+                // Of a mesh much finer than the picture, points are fewer than triangles.
+                if (s.mesh.triangles.size() > 2 * out_.image.size()) continue;
+                known.push_back(occlusion.known_triangles(s.caster, view_.eye(), ex));
+                if (!known.back().empty()) s.known = known.back().data();
+            }
+        return known;
+    }
+
+    /// Draws all surfaces: their light as far as it is known, and the visibility buffer.
     template <executor E>
     void draw_all(E& ex) {
         const overhead& rig = view_.rig();
         image<float> depth(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
         shaded_images into{out_.image};
         if constexpr (casts) {
-            rest_ = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
-            into.rest = &rest_;
+            undecided_ = {pixel_marks(rig.size.x, rig.size.y, memory_of(ex)),
+                          image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex)), labelled};
+            into.undecided = &undecided_;
+            into.has_all_ids = labelled;
+            if constexpr (labelled) into.shadow = &out_.labels.shadow;
         }
         if constexpr (casts || labelled) {
             ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
@@ -285,7 +306,7 @@ class overhead_painter {
     overhead_geometry view_;
     render_options<Shadow, Labels, Law, Depth> options_;
     image<std::uint32_t> ids_;  ///< the visibility buffer; triangles are numbered in the order of surfaces_
-    image<float> rest_;         ///< sky and ambient light
+    undecided_light undecided_;
     frame<Labels> out_;
     seabed::heightfield field_;
     uninitialized_mesh whole_bottom_;         ///< if every vertex is drawn

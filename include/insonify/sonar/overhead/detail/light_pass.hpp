@@ -1,10 +1,10 @@
-// From a shadow policy to the light on a tile: who casts, which points are tested, and what is named as the caster.
+// From a shadow policy to the light on a tile: what casts, which points are tested, and what is named as the caster.
 //
 // Casters are numbered as they are named: a point in several shadows belongs to the target with the lowest number; else
 // to its own surface, if that faces away from the light; else to the seabed.
 #pragma once
 
-#include <insonify/sonar/labels.hpp>
+#include <insonify/sonar/detail/shadow_terms.hpp>
 #include <insonify/sonar/overhead/detail/point_pass.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -12,13 +12,6 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
-
-/// The light as a policy takes it.
-inline shadow::any_light light_of(const overhead_geometry& view) {
-    if (view.has_near_light()) return shadow::point_light{view.light_position()};
-    return shadow::directional_light{static_cast<double>(view.rig().light_azimuth),
-                                     static_cast<double>(view.rig().grazing)};
-}
 
 /// A mesh as a caster, with what the camera's place proves.
 ///
@@ -57,26 +50,24 @@ struct light_arrays {
     }
 };
 
-/// The batches of a list, and where their answers go: points that face the light, which all casters concern, and those
-/// that face away, whose shadows only name targets.
-struct point_batches {
-    shadow::points at[2];
-    shadow::shares into[2];
+/// Points that face the light concern all casters; of those that face away, shadows only name targets.
+/// @param targets  casters numbered below this are targets
+inline shadow::points batch(shadow::points all, bool face_light, std::uint32_t targets) {
+    if (!face_light) all.casters = targets;
+    all.face_light = face_light;
+    return all;
+}
 
-    /// @param targets  casters numbered below this are targets
-    point_batches(const point_list& points, const shadow::shares& all, std::uint32_t targets)
-        : at{points.facing_points(), points.averted_points()},
-          into{{all.lit.first(points.facing), all.caster.first(points.facing)},
-               {all.lit.subspan(points.facing), all.caster.subspan(points.facing)}} {
-        at[1].casters = targets;
-        at[1].face_light = false;
-    }
-    template <class Visit>
-    void for_each(const Visit& visit) const {
-        for (int i = 0; i < 2; ++i)
-            if (at[i].size() > 0) visit(at[i], into[i]);
-    }
-};
+/// Visits the batches of a list, and where their answers go.
+template <class Visit>
+void for_each_batch(const point_list& points, const shadow::shares& all, std::uint32_t targets, const Visit& visit) {
+    if (points.facing > 0)
+        visit(batch(points.facing_points(), true, targets),
+              shadow::shares{all.lit.first(points.facing), all.caster.first(points.facing)});
+    if (points.averted > 0)
+        visit(batch(points.averted_points(), false, targets),
+              shadow::shares{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
+}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI

@@ -19,67 +19,75 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Room for the points of all pixels of a picture.
-struct point_arrays {
+/// Points that pixels show, as arrays of equal length.
+struct point_batch {
     uninitialized_vector<double> x, y, z;
     uninitialized_vector<std::uint32_t> mesh, triangle;
-    uninitialized_vector<std::uint32_t> pixel;  ///< the caller's number of it
+    uninitialized_vector<std::uint32_t> pixel;  ///< of the picture
 
-    explicit point_arrays(std::size_t count, const shared_pool& memory = {})
+    explicit point_batch(const shared_pool& memory = {}) : point_batch(0, memory) {}
+    explicit point_batch(std::size_t count, const shared_pool& memory = {})
         : x(count, memory),
           y(count, memory),
           z(count, memory),
           mesh(count, memory),
           triangle(count, memory),
           pixel(count, memory) {}
+
+    void resize(std::size_t count) {
+        for (auto* reals : {&x, &y, &z}) reals->resize(count);
+        for (auto* numbers : {&mesh, &triangle, &pixel}) numbers->resize(count);
+    }
+    void set(std::size_t i, const point_batch& from, std::size_t k) {
+        x[i] = from.x[k];
+        y[i] = from.y[k];
+        z[i] = from.z[k];
+        mesh[i] = from.mesh[k];
+        triangle[i] = from.triangle[k];
+        pixel[i] = from.pixel[k];
+    }
+    shadow::points all() const { return part(0, x.size()); }
+    shadow::points part(std::size_t first, std::size_t n) const {
+        const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
+        return {some(x), some(y), some(z), some(mesh), some(triangle)};
+    }
 };
 
-/// Points that are tested for shadows: those that face the light from the front of their room, those that face away
-/// from the back.
+/// Points that are tested for shadows: those that face the light from the front of the room, those that face away from
+/// the back.
 class point_list {
   public:
     std::size_t facing = 0, averted = 0;
 
-    point_list() = default;
-    /// @param first  of the arrays, of `room` points
-    point_list(point_arrays& arrays, std::size_t first, std::size_t room)
-        : arrays_(&arrays), first_(first), room_(room) {}
+    /// @param room  of as many points as may come
+    explicit point_list(point_batch& room) : room_(room) {}
 
     std::size_t size() const { return facing + averted; }
-    shadow::points facing_points() const { return part(first_, facing); }
-    shadow::points averted_points() const { return part(first_ + room_ - averted, averted); }
+    shadow::points facing_points() const { return room_.part(0, facing); }
+    shadow::points averted_points() const { return room_.part(room_.x.size() - averted, averted); }
     /// The pixel and the caster of a point; facing ones are counted first.
-    std::size_t pixel(std::size_t point) const { return arrays_->pixel[at(point)]; }
-    std::uint32_t caster(std::size_t point) const { return arrays_->mesh[at(point)]; }
-    /// Adds a point of another list.
-    void add(const point_list& from, std::size_t point, std::uint32_t pixel) {
-        const std::size_t i = from.at(point);
-        const point_arrays& a = *from.arrays_;
-        add(point < from.facing, a.x[i], a.y[i], a.z[i], a.mesh[i], a.triangle[i], pixel);
-    }
+    std::size_t pixel(std::size_t point) const { return room_.pixel[at(point)]; }
+    std::uint32_t caster(std::size_t point) const { return room_.mesh[at(point)]; }
 
     INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
                              std::uint32_t pixel) {
-        const std::size_t to = first_ + (is_facing ? facing++ : room_ - ++averted);
-        arrays_->x[to] = x;
-        arrays_->y[to] = y;
-        arrays_->z[to] = z;
-        arrays_->mesh[to] = mesh;
-        arrays_->triangle[to] = triangle;
-        arrays_->pixel[to] = pixel;
+        const std::size_t to = is_facing ? facing++ : room_.x.size() - ++averted;
+        room_.x[to] = x;
+        room_.y[to] = y;
+        room_.z[to] = z;
+        room_.mesh[to] = mesh;
+        room_.triangle[to] = triangle;
+        room_.pixel[to] = pixel;
     }
+    /// Puts a point into a batch, as number i.
+    void copy(std::size_t point, point_batch& into, std::size_t i) const { into.set(i, room_, at(point)); }
 
   private:
     std::size_t at(std::size_t point) const {
-        return first_ + (point < facing ? point : room_ - averted + (point - facing));
-    }
-    shadow::points part(std::size_t first, std::size_t n) const {
-        const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
-        return {some(arrays_->x), some(arrays_->y), some(arrays_->z), some(arrays_->mesh), some(arrays_->triangle)};
+        return point < facing ? point : room_.x.size() - averted + (point - facing);
     }
 
-    point_arrays* arrays_ = nullptr;
-    std::size_t first_ = 0, room_ = 0;
+    point_batch& room_;
 };
 
 /// An object, the camera and the light from the object's own frame.
@@ -112,7 +120,8 @@ struct point_kernel {
     std::span<const shown_pixel> pixels;
     bool has_near_light;
     bool wants_averted;
-    const rect& box;
+    const rect& box;      ///< the tile's pixels
+    std::uint32_t pitch;  ///< pixels from one row of the picture to the next
     point_list& points;
 
     template <int Width>
@@ -227,7 +236,8 @@ struct point_kernel {
             if (facing[k] == 0 && !wants_averted) continue;
             const shown_pixel& shown = pixels[start + k];
             points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
-                       static_cast<std::uint32_t>(shown.row * box.width() + shown.column));
+                       static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
+                           static_cast<std::uint32_t>(box.x0 + shown.column));
         }
     }
 

@@ -1,6 +1,7 @@
-// Shaders of overhead pictures: unshadowed direct light and ambient light of each visible pixel, over SIMD lanes.
+// Shaders of overhead pictures: light of each visible pixel, over SIMD lanes.
 //
-// Shadows and labels are later passes over the images written here (render.hpp).
+// Shadows of triangles that are not known to be lit or dark, and labels, are later passes over the images written here
+// (render.hpp).
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -11,6 +12,8 @@
 #include <insonify/shadow/policy.hpp>
 #include <insonify/sonar/backscatter.hpp>
 #include <insonify/sonar/overhead/rig.hpp>
+
+#include <bit>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -67,27 +70,68 @@ struct surface_vertex_shader {
 struct surface {
     mesh_view mesh;
     affine to_rig;
-    std::uint32_t first_id = 0;           ///< of its triangles in the visibility buffer
-    std::uint32_t caster = 0;             ///< index into the casters
-    std::uint16_t instance = 0;           ///< as in labels::instance
-    std::uint8_t seabed = 0;              ///< as in labels::seabed, if there are no types
-    material whole;                       ///< if there are no types
-    const seabed::type* types = nullptr;  ///< by vertex, of a bottom of several types
-    const material* materials = nullptr;  ///< by type
+    std::uint32_t first_id = 0;            ///< of its triangles in the visibility buffer
+    std::uint32_t caster = 0;              ///< index into the casters
+    std::uint16_t instance = 0;            ///< as in labels::instance
+    std::uint8_t seabed = 0;               ///< as in labels::seabed, if there are no types
+    material whole;                        ///< if there are no types
+    const seabed::type* types = nullptr;   ///< by vertex, of a bottom of several types
+    const material* materials = nullptr;   ///< by type
+    std::uint16_t shadow_name = 0;         ///< as in labels::shadow, where it lies in its own shadow
+    const shadow::known* known = nullptr;  ///< by triangle, what the light makes of it; null where nothing is known
+};
+
+/// Marks pixels, eight to a byte; rows start a byte.
+class pixel_marks {
+  public:
+    pixel_marks() = default;
+    pixel_marks(int width, int height, const shared_pool& memory)
+        : bytes_((width + 7) / 8, height, uninitialized{}, memory) {}
+
+    /// Clears a rectangle that starts and, unless at the image's edge, ends at a multiple of 8.
+    void clear(const rect& pixels) {
+        for (int y = pixels.y0; y < pixels.y1; ++y)
+            std::fill_n(&bytes_(pixels.x0 / 8, y), (pixels.width() + 7) / 8, std::uint8_t{0});
+    }
+    /// Sets the marks of some of up to eight pixels, bit by bit, that lie in one byte.
+    INSONIFY_INLINE void set(int x, int y, unsigned which, unsigned marks) {
+        std::uint8_t& byte = bytes_(x / 8, y);
+        byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
+    }
+    /// Calls visit(x) for each marked pixel of a row, from x0 to x1, which are multiples of 8 or the row's end.
+    template <class Visit>
+    void for_each(int x0, int x1, int y, const Visit& visit) const {
+        for (int x = x0; x < x1; x += 8)
+            for (unsigned left = bytes_(x / 8, y); left != 0; left &= left - 1) visit(x + std::countr_zero(left));
+    }
+
+  private:
+    image<std::uint8_t> bytes_;
+};
+
+/// What shading leaves to the shadow pass.
+///
+/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light.
+struct undecided_light {
+    pixel_marks marks;      ///< pixels whose light is undecided
+    image<float> direct;    ///< of those, the light of the source
+    bool has_dark = false;  ///< also where there is none, for the sake of labels
 };
 
 /// The images that shading writes; null pointers are optional.
 struct shaded_images {
-    image<float>& direct;                  ///< unshadowed light of the source; all light, if there is no other image
-    image<float>* rest = nullptr;          ///< sky and ambient light
-    image<std::uint32_t>* ids = nullptr;   ///< the visibility buffer
-    image<std::uint8_t>* types = nullptr;  ///< seabed::type, of bottoms of several types
+    image<float>& picture;
+    undecided_light* undecided = nullptr;    ///< if there is a shadow policy
+    image<std::uint32_t>* ids = nullptr;     ///< the visibility buffer
+    bool has_all_ids = true;                 ///< or else those alone where light is undecided
+    image<std::uint8_t>* types = nullptr;    ///< seabed::type, of bottoms of several types
+    image<std::uint16_t>* shadow = nullptr;  ///< names of casters, as far as they are known, as in labels::shadow
 
-    /// Where there is a rest, shadow_pass clears what shows nothing.
     void clear(const rect& tile) const {
+        if (undecided != nullptr) undecided->marks.clear(tile);
         for (int y = tile.y0; y < tile.y1; ++y) {
-            if (rest == nullptr) std::fill_n(&direct(tile.x0, y), tile.width(), 0.0f);
-            if (ids != nullptr) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
+            std::fill_n(&picture(tile.x0, y), tile.width(), 0.0f);
+            if (ids != nullptr && has_all_ids) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
         }
     }
 };
@@ -146,20 +190,52 @@ class surface_shader {
         load(intensity, intensity_), load(sky, sky_), load(ambient, ambient_);
         direct = sine > 0.0f ? reflectivity * intensity * direct : floats{};
         const floats rest = reflectivity * (sky * (0.5f * (1.0f + turned * normal[2])) + ambient);
-        if (into_.rest == nullptr) {
-            const floats one = floats{} + 1.0f, value = rest + direct;
-            f.store(into_.direct, floats(value < one ? value : one));
-        } else {
-            f.store(into_.direct, direct);
-            f.store(*into_.rest, rest);
-        }
-        if (into_.ids == nullptr) return;
+        const floats one = floats{} + 1.0f, sum = rest + direct;
+        const floats all = sum < one ? sum : one;
+        bool has_undecided = false;
+        if (into_.undecided == nullptr)
+            f.store(into_.picture, all);
+        else
+            has_undecided = store_what_is_known<N>(f, all, rest, direct);
+        if (into_.ids == nullptr || !(into_.has_all_ids || has_undecided)) return;
         lanes<std::uint32_t, N> ids;
         load(ids, f.triangles);
         f.store(*into_.ids, lanes<std::uint32_t, N>(ids + object_.first_id));
     }
 
   private:
+    /// Stores the light of pixels as far as it is known, and leaves the rest undecided.
+    /// @param all  light if nothing blocks the source
+    /// @returns whether any is undecided
+    template <int N>
+    INSONIFY_INLINE bool store_what_is_known(const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& all,
+                                             const lanes<float, N>& rest, const lanes<float, N>& direct) const {
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        floats value = rest < 1.0f ? rest : floats{} + 1.0f;
+        ints undecided = into_.undecided->has_dark ? ints{} - 1 : ints(direct > 0.0f), is_dark{};
+        if (object_.known != nullptr) {
+            ints known;
+            gather<N>(known, [&](int k) { return static_cast<std::int32_t>(object_.known[f.triangles[k]]); });
+            const ints is_lit = ints(known == static_cast<std::int32_t>(shadow::known::lit));
+            is_dark = ints(known == static_cast<std::int32_t>(shadow::known::dark));
+            value = is_lit ? all : value;
+            undecided = undecided & ~(is_lit | is_dark);
+        }
+        f.store(into_.picture, value);
+        if (into_.shadow != nullptr) {
+            lanes<std::uint16_t, N> names;
+            convert(names, ints(is_dark & static_cast<std::int32_t>(object_.shadow_name)));
+            f.store(*into_.shadow, names);
+        }
+        static_assert(N <= 8);
+        const unsigned which = movemask<N>(f.visible), marks = movemask<N>(undecided) & which;
+        into_.undecided->marks.set(f.x, f.y, which, marks);
+        if (marks == 0) return false;
+        f.store(into_.undecided->direct, direct);
+        return true;
+    }
+
     /// Replaces normals that are zero or not finite by the facet's.
     template <int N>
     INSONIFY_RARE void use_facets(lanes<float, N> (&normal)[3], const fragment_lanes<N, surface_varyings>& f,

@@ -1,0 +1,30 @@
+// The light of a rig and the names of casters, as shadow policies take and give them.
+#pragma once
+
+#include <insonify/shadow/policy.hpp>
+#include <insonify/sonar/labels.hpp>
+#include <insonify/sonar/overhead/rig.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// The light of a rig, in its frame.
+inline shadow::any_light light_in_rig(const overhead_geometry& view) {
+    if (view.has_near_light()) return shadow::point_light{view.light_position()};
+    return shadow::directional_light{static_cast<double>(view.rig().light_azimuth),
+                                     static_cast<double>(view.rig().grazing)};
+}
+
+/// The name of a caster, as in labels::shadow. Targets are the first casters.
+inline std::uint16_t name_of_caster(std::uint32_t caster, std::size_t targets) {
+    return caster < targets ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END

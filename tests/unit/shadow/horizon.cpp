@@ -1,0 +1,116 @@
+// Heightfields on a grid as casters: whole triangles that are known to be lit or dark, against rays tried one by one,
+// and how few points need a test in doubles.
+#include <insonify/geometry/shared_mesh.hpp>
+#include <insonify/seabed/models.hpp>
+#include <insonify/seabed/sample.hpp>
+#include <insonify/seabed/tessellate.hpp>
+
+#include "../../catch.hpp"
+#include "lit_mesh.hpp"
+
+namespace in = insonify;
+namespace shadow = insonify::shadow;
+using lit::parallel;
+
+namespace {
+
+/// A seabed of 3 m x 3 m as a caster on its grid.
+class swept_seabed {
+  public:
+    swept_seabed(const in::seabed::any& recipe, int side, const shadow::directional_light& light)
+        : surface(in::seabed::tessellate(in::seabed::sample(recipe, {{-1.5, -1.5}, 3.0 / (side - 1), side, side})),
+                  light),
+          grid_(in::regular_grid_of(*surface, serial_, in::shared_mesh::grid_error)) {
+        REQUIRE(grid_);
+        caster_ = lit::caster_of(*surface);
+        caster_.may_skip = shadow::skip::facing_its_own;
+        caster_.grid = &*grid_;
+    }
+    const shadow::caster& caster() const { return caster_; }
+
+    const lit::mesh surface;
+
+  private:
+    in::serial_executor serial_;
+    std::optional<in::regular_grid> grid_;
+    shadow::caster caster_;
+};
+
+const in::seabed::any recipes[] = {in::seabed::ripples{.wavelength = 0.6f, .steepness = 0.1f}, in::seabed::rock{}};
+
+}  // namespace
+
+TEST_CASE("A triangle that is known to be lit or dark is so in all its points, seen from the camera") {
+    in::serial_executor serial;
+    std::size_t known = 0, all = 0;
+    double azimuth = 20;
+    for (const in::seabed::any& recipe : recipes)
+        for (const double elevation : {6.0, 25.0})
+            for (int turn = 0; turn < 4; ++turn) {
+                azimuth += 88;
+                const shadow::directional_light light = parallel(azimuth, elevation);
+                const swept_seabed bottom(recipe, 33, light);
+                const in::bounding_box within{{-1.5, -1.5, -1}, {1.5, 1.5, 1}};
+                const auto built = shadow::exact{}.build(std::span(&bottom.caster(), 1), light, {within}, serial);
+                const auto answers = built.known_triangles(0, {0.3, -0.2, 5}, serial);
+                REQUIRE(answers.size() == bottom.surface->triangles.size());
+                CAPTURE(recipe.legend().front().name, elevation, azimuth);
+                int wrong = 0;
+                for (std::uint32_t i = 0; i < answers.size(); ++i) {
+                    ++all;
+                    if (answers[i] == shadow::known::nothing) continue;
+                    ++known;
+                    const glm::dvec3 a = bottom.surface.corner(i, 0), b = bottom.surface.corner(i, 1),
+                                     c = bottom.surface.corner(i, 2), centre = (a + b + c) / 3.0;
+                    const bool faces = glm::dot(bottom.surface.normal(i), bottom.surface.toward(centre)) > 0;
+                    for (const glm::dvec3& corner : {a, b, c}) {
+                        const glm::dvec3 p = corner + 1e-3 * (centre - corner);
+                        const bool is_dark = !faces || bottom.surface.is_blocked(p, i);
+                        wrong += is_dark != (answers[i] == shadow::known::dark) ? 1 : 0;
+                    }
+                }
+                CHECK(wrong == 0);
+            }
+    CHECK(known > all / 2);
+}
+
+TEST_CASE("Few points of a seabed need a triangle tested, and their answers are those of rays") {
+    in::serial_executor serial;
+    double azimuth = 50;
+    for (const in::seabed::any& recipe : recipes)
+        for (const double elevation : {2.0, 12.0}) {
+            azimuth += 77;
+            const shadow::directional_light light = parallel(azimuth, elevation);
+            const swept_seabed bottom(recipe, 65, light);
+            const shadow::detail::grid_caster caster(bottom.caster(), shadow::light_frame(light), 0x1p-12,
+                                                     in::best_isa(), serial);
+            const lit::point_list own = bottom.surface.facing(400, 3);
+            CAPTURE(recipe.legend().front().name, elevation, azimuth);
+            int wrong = 0;
+            std::size_t tested = 0;
+            for (std::size_t i = 0; i < own.size(); ++i) {
+                const auto decide_among = [&](const glm::dvec3& p, std::uint32_t own_triangle) {
+                    return [&, p, own_triangle](std::uint32_t triangle) {
+                        ++tested;
+                        const glm::dvec3 away = bottom.surface.corner(triangle, 0) - p;
+                        const shadow::detail::light_rays rays(light, 2);
+                        return triangle != own_triangle && glm::dot(away, away) < 100 &&
+                               rays.are_blocked(bottom.surface.corner(triangle, 0), bottom.surface.corner(triangle, 1),
+                                                bottom.surface.corner(triangle, 2), p);
+                    };
+                };
+                wrong += caster.blocks_own(own[i], decide_among(own[i], own.triangle(i))) !=
+                                 bottom.surface.is_blocked(own[i], own.triangle(i))
+                             ? 1
+                             : 0;
+                const glm::dvec3 above = own[i] + glm::dvec3(0, 0, 0.01 + 0.0002 * static_cast<double>(i));
+                wrong +=
+                    caster.blocks(above, decide_among(above, shadow::invalid_id)) != bottom.surface.is_blocked(above)
+                        ? 1
+                        : 0;
+            }
+            CHECK(wrong == 0);
+            INFO(tested);
+            CHECK(tested < own.size() * 3 / 4);  // of twice as many points
+        }
+}
