@@ -11417,6 +11417,9 @@ struct tile_grid {
           rows((height + (1 << log2_tile) - 1) >> log2_tile) {}
 
     std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+    /// Tiles that one call of an executor takes, so that they share memory; in small pictures one, so that there are
+    /// calls for every thread.
+    std::size_t run() const { return count() < 64 ? 1 : 4; }
     /// The pixels of a tile, clipped to the image.
     rect pixels(std::size_t tile, int width, int height) const {
         const int x = static_cast<int>(tile % static_cast<std::size_t>(columns)) << log2_size;
@@ -14087,7 +14090,7 @@ draw_stats draw_tiles(const mesh_view& m, const VertexShader& shader, image_view
     const screen_mesh<real> screen(m, shader, grid, tiles, options, HasIds, records, ex);
     const float sign = options.keep == keep_depth::smaller ? 1.0f : -1.0f;
 
-    constexpr std::size_t run = 4;  // tiles that share a buffer
+    const std::size_t run = tiles.run();
     std::vector<std::uint64_t> shaded((tiles.count() + run - 1) / run, 0);
     bulk_ranges(ex, tiles.count(), run, [&](std::size_t first, std::size_t last) {
         tile_buffer<HasIds> buffer(options.tile);
@@ -16474,7 +16477,7 @@ class exact_occlusion {
         std::size_t triangles = 0;
         for (const caster& c : casters_) triangles += c.mesh.triangles.size();
         if (triangles == 0 || bounds.empty()) return;
-        int side = 4;
+        int side = 16;  // narrow tiles, so that a small caster leaves others' tiles alone
         while (side < 64 && static_cast<std::size_t>(side * side) * 1024 < triangles) side *= 2;
         const double reach = reach_of(bounds);
         if (const auto* parallel = std::get_if<directional_light>(&light)) {
@@ -16903,10 +16906,38 @@ inline ground_area casting_ground(const overhead_geometry& view, const seabed::h
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/sonar/detail/shadow_terms.hpp ----------------------------------------------------
+// The light of a rig and the names of casters, as shadow policies take and give them.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// The light of a rig, in its frame.
+inline shadow::any_light light_in_rig(const overhead_geometry& view) {
+    if (view.has_near_light()) return shadow::point_light{view.light_position()};
+    return shadow::directional_light{static_cast<double>(view.rig().light_azimuth),
+                                     static_cast<double>(view.rig().grazing)};
+}
+
+/// The name of a caster, as in labels::shadow. Targets are the first casters.
+inline std::uint16_t name_of_caster(std::uint32_t caster, std::size_t targets) {
+    return caster < targets ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/overhead/detail/shading.hpp ------------------------------------------------
-// Shaders of overhead pictures: unshadowed direct light and ambient light of each visible pixel, over SIMD lanes.
+// Shaders of overhead pictures: light of each visible pixel, over SIMD lanes.
 //
-// Shadows and labels are later passes over the images written here (render.hpp).
+// Shadows of triangles that are not known to be lit or dark, and labels, are later passes over the images written here
+// (render.hpp).
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -16963,27 +16994,68 @@ struct surface_vertex_shader {
 struct surface {
     mesh_view mesh;
     affine to_rig;
-    std::uint32_t first_id = 0;           ///< of its triangles in the visibility buffer
-    std::uint32_t caster = 0;             ///< index into the casters
-    std::uint16_t instance = 0;           ///< as in labels::instance
-    std::uint8_t seabed = 0;              ///< as in labels::seabed, if there are no types
-    material whole;                       ///< if there are no types
-    const seabed::type* types = nullptr;  ///< by vertex, of a bottom of several types
-    const material* materials = nullptr;  ///< by type
+    std::uint32_t first_id = 0;            ///< of its triangles in the visibility buffer
+    std::uint32_t caster = 0;              ///< index into the casters
+    std::uint16_t instance = 0;            ///< as in labels::instance
+    std::uint8_t seabed = 0;               ///< as in labels::seabed, if there are no types
+    material whole;                        ///< if there are no types
+    const seabed::type* types = nullptr;   ///< by vertex, of a bottom of several types
+    const material* materials = nullptr;   ///< by type
+    std::uint16_t shadow_name = 0;         ///< as in labels::shadow, where it lies in its own shadow
+    const shadow::known* known = nullptr;  ///< by triangle, what the light makes of it; null where nothing is known
+};
+
+/// Marks pixels, eight to a byte; rows start a byte.
+class pixel_marks {
+  public:
+    pixel_marks() = default;
+    pixel_marks(int width, int height, const shared_pool& memory)
+        : bytes_((width + 7) / 8, height, uninitialized{}, memory) {}
+
+    /// Clears a rectangle that starts and, unless at the image's edge, ends at a multiple of 8.
+    void clear(const rect& pixels) {
+        for (int y = pixels.y0; y < pixels.y1; ++y)
+            std::fill_n(&bytes_(pixels.x0 / 8, y), (pixels.width() + 7) / 8, std::uint8_t{0});
+    }
+    /// Sets the marks of some of up to eight pixels, bit by bit, that lie in one byte.
+    INSONIFY_INLINE void set(int x, int y, unsigned which, unsigned marks) {
+        std::uint8_t& byte = bytes_(x / 8, y);
+        byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
+    }
+    /// Calls visit(x) for each marked pixel of a row, from x0 to x1, which are multiples of 8 or the row's end.
+    template <class Visit>
+    void for_each(int x0, int x1, int y, const Visit& visit) const {
+        for (int x = x0; x < x1; x += 8)
+            for (unsigned left = bytes_(x / 8, y); left != 0; left &= left - 1) visit(x + std::countr_zero(left));
+    }
+
+  private:
+    image<std::uint8_t> bytes_;
+};
+
+/// What shading leaves to the shadow pass.
+///
+/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light.
+struct undecided_light {
+    pixel_marks marks;      ///< pixels whose light is undecided
+    image<float> direct;    ///< of those, the light of the source
+    bool has_dark = false;  ///< also where there is none, for the sake of labels
 };
 
 /// The images that shading writes; null pointers are optional.
 struct shaded_images {
-    image<float>& direct;                  ///< unshadowed light of the source; all light, if there is no other image
-    image<float>* rest = nullptr;          ///< sky and ambient light
-    image<std::uint32_t>* ids = nullptr;   ///< the visibility buffer
-    image<std::uint8_t>* types = nullptr;  ///< seabed::type, of bottoms of several types
+    image<float>& picture;
+    undecided_light* undecided = nullptr;    ///< if there is a shadow policy
+    image<std::uint32_t>* ids = nullptr;     ///< the visibility buffer
+    bool has_all_ids = true;                 ///< or else those alone where light is undecided
+    image<std::uint8_t>* types = nullptr;    ///< seabed::type, of bottoms of several types
+    image<std::uint16_t>* shadow = nullptr;  ///< names of casters, as far as they are known, as in labels::shadow
 
-    /// Where there is a rest, shadow_pass clears what shows nothing.
     void clear(const rect& tile) const {
+        if (undecided != nullptr) undecided->marks.clear(tile);
         for (int y = tile.y0; y < tile.y1; ++y) {
-            if (rest == nullptr) std::fill_n(&direct(tile.x0, y), tile.width(), 0.0f);
-            if (ids != nullptr) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
+            std::fill_n(&picture(tile.x0, y), tile.width(), 0.0f);
+            if (ids != nullptr && has_all_ids) std::fill_n(&(*ids)(tile.x0, y), tile.width(), shadow::invalid_id);
         }
     }
 };
@@ -17042,20 +17114,52 @@ class surface_shader {
         load(intensity, intensity_), load(sky, sky_), load(ambient, ambient_);
         direct = sine > 0.0f ? reflectivity * intensity * direct : floats{};
         const floats rest = reflectivity * (sky * (0.5f * (1.0f + turned * normal[2])) + ambient);
-        if (into_.rest == nullptr) {
-            const floats one = floats{} + 1.0f, value = rest + direct;
-            f.store(into_.direct, floats(value < one ? value : one));
-        } else {
-            f.store(into_.direct, direct);
-            f.store(*into_.rest, rest);
-        }
-        if (into_.ids == nullptr) return;
+        const floats one = floats{} + 1.0f, sum = rest + direct;
+        const floats all = sum < one ? sum : one;
+        bool has_undecided = false;
+        if (into_.undecided == nullptr)
+            f.store(into_.picture, all);
+        else
+            has_undecided = store_what_is_known<N>(f, all, rest, direct);
+        if (into_.ids == nullptr || !(into_.has_all_ids || has_undecided)) return;
         lanes<std::uint32_t, N> ids;
         load(ids, f.triangles);
         f.store(*into_.ids, lanes<std::uint32_t, N>(ids + object_.first_id));
     }
 
   private:
+    /// Stores the light of pixels as far as it is known, and leaves the rest undecided.
+    /// @param all  light if nothing blocks the source
+    /// @returns whether any is undecided
+    template <int N>
+    INSONIFY_INLINE bool store_what_is_known(const fragment_lanes<N, surface_varyings>& f, const lanes<float, N>& all,
+                                             const lanes<float, N>& rest, const lanes<float, N>& direct) const {
+        using ints = lanes<std::int32_t, N>;
+        using floats = lanes<float, N>;
+        floats value = rest < 1.0f ? rest : floats{} + 1.0f;
+        ints undecided = into_.undecided->has_dark ? ints{} - 1 : ints(direct > 0.0f), is_dark{};
+        if (object_.known != nullptr) {
+            ints known;
+            gather<N>(known, [&](int k) { return static_cast<std::int32_t>(object_.known[f.triangles[k]]); });
+            const ints is_lit = ints(known == static_cast<std::int32_t>(shadow::known::lit));
+            is_dark = ints(known == static_cast<std::int32_t>(shadow::known::dark));
+            value = is_lit ? all : value;
+            undecided = undecided & ~(is_lit | is_dark);
+        }
+        f.store(into_.picture, value);
+        if (into_.shadow != nullptr) {
+            lanes<std::uint16_t, N> names;
+            convert(names, ints(is_dark & static_cast<std::int32_t>(object_.shadow_name)));
+            f.store(*into_.shadow, names);
+        }
+        static_assert(N <= 8);
+        const unsigned which = movemask<N>(f.visible), marks = movemask<N>(undecided) & which;
+        into_.undecided->marks.set(f.x, f.y, which, marks);
+        if (marks == 0) return false;
+        f.store(into_.undecided->direct, direct);
+        return true;
+    }
+
     /// Replaces normals that are zero or not finite by the facet's.
     template <int N>
     INSONIFY_RARE void use_facets(lanes<float, N> (&normal)[3], const fragment_lanes<N, surface_varyings>& f,
@@ -17142,67 +17246,75 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Room for the points of all pixels of a picture.
-struct point_arrays {
+/// Points that pixels show, as arrays of equal length.
+struct point_batch {
     uninitialized_vector<double> x, y, z;
     uninitialized_vector<std::uint32_t> mesh, triangle;
-    uninitialized_vector<std::uint32_t> pixel;  ///< the caller's number of it
+    uninitialized_vector<std::uint32_t> pixel;  ///< of the picture
 
-    explicit point_arrays(std::size_t count, const shared_pool& memory = {})
+    explicit point_batch(const shared_pool& memory = {}) : point_batch(0, memory) {}
+    explicit point_batch(std::size_t count, const shared_pool& memory = {})
         : x(count, memory),
           y(count, memory),
           z(count, memory),
           mesh(count, memory),
           triangle(count, memory),
           pixel(count, memory) {}
+
+    void resize(std::size_t count) {
+        for (auto* reals : {&x, &y, &z}) reals->resize(count);
+        for (auto* numbers : {&mesh, &triangle, &pixel}) numbers->resize(count);
+    }
+    void set(std::size_t i, const point_batch& from, std::size_t k) {
+        x[i] = from.x[k];
+        y[i] = from.y[k];
+        z[i] = from.z[k];
+        mesh[i] = from.mesh[k];
+        triangle[i] = from.triangle[k];
+        pixel[i] = from.pixel[k];
+    }
+    shadow::points all() const { return part(0, x.size()); }
+    shadow::points part(std::size_t first, std::size_t n) const {
+        const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
+        return {some(x), some(y), some(z), some(mesh), some(triangle)};
+    }
 };
 
-/// Points that are tested for shadows: those that face the light from the front of their room, those that face away
-/// from the back.
+/// Points that are tested for shadows: those that face the light from the front of the room, those that face away from
+/// the back.
 class point_list {
   public:
     std::size_t facing = 0, averted = 0;
 
-    point_list() = default;
-    /// @param first  of the arrays, of `room` points
-    point_list(point_arrays& arrays, std::size_t first, std::size_t room)
-        : arrays_(&arrays), first_(first), room_(room) {}
+    /// @param room  of as many points as may come
+    explicit point_list(point_batch& room) : room_(room) {}
 
     std::size_t size() const { return facing + averted; }
-    shadow::points facing_points() const { return part(first_, facing); }
-    shadow::points averted_points() const { return part(first_ + room_ - averted, averted); }
+    shadow::points facing_points() const { return room_.part(0, facing); }
+    shadow::points averted_points() const { return room_.part(room_.x.size() - averted, averted); }
     /// The pixel and the caster of a point; facing ones are counted first.
-    std::size_t pixel(std::size_t point) const { return arrays_->pixel[at(point)]; }
-    std::uint32_t caster(std::size_t point) const { return arrays_->mesh[at(point)]; }
-    /// Adds a point of another list.
-    void add(const point_list& from, std::size_t point, std::uint32_t pixel) {
-        const std::size_t i = from.at(point);
-        const point_arrays& a = *from.arrays_;
-        add(point < from.facing, a.x[i], a.y[i], a.z[i], a.mesh[i], a.triangle[i], pixel);
-    }
+    std::size_t pixel(std::size_t point) const { return room_.pixel[at(point)]; }
+    std::uint32_t caster(std::size_t point) const { return room_.mesh[at(point)]; }
 
     INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
                              std::uint32_t pixel) {
-        const std::size_t to = first_ + (is_facing ? facing++ : room_ - ++averted);
-        arrays_->x[to] = x;
-        arrays_->y[to] = y;
-        arrays_->z[to] = z;
-        arrays_->mesh[to] = mesh;
-        arrays_->triangle[to] = triangle;
-        arrays_->pixel[to] = pixel;
+        const std::size_t to = is_facing ? facing++ : room_.x.size() - ++averted;
+        room_.x[to] = x;
+        room_.y[to] = y;
+        room_.z[to] = z;
+        room_.mesh[to] = mesh;
+        room_.triangle[to] = triangle;
+        room_.pixel[to] = pixel;
     }
+    /// Puts a point into a batch, as number i.
+    void copy(std::size_t point, point_batch& into, std::size_t i) const { into.set(i, room_, at(point)); }
 
   private:
     std::size_t at(std::size_t point) const {
-        return first_ + (point < facing ? point : room_ - averted + (point - facing));
-    }
-    shadow::points part(std::size_t first, std::size_t n) const {
-        const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
-        return {some(arrays_->x), some(arrays_->y), some(arrays_->z), some(arrays_->mesh), some(arrays_->triangle)};
+        return point < facing ? point : room_.x.size() - averted + (point - facing);
     }
 
-    point_arrays* arrays_ = nullptr;
-    std::size_t first_ = 0, room_ = 0;
+    point_batch& room_;
 };
 
 /// An object, the camera and the light from the object's own frame.
@@ -17235,7 +17347,8 @@ struct point_kernel {
     std::span<const shown_pixel> pixels;
     bool has_near_light;
     bool wants_averted;
-    const rect& box;
+    const rect& box;      ///< the tile's pixels
+    std::uint32_t pitch;  ///< pixels from one row of the picture to the next
     point_list& points;
 
     template <int Width>
@@ -17350,7 +17463,8 @@ struct point_kernel {
             if (facing[k] == 0 && !wants_averted) continue;
             const shown_pixel& shown = pixels[start + k];
             points.add(facing[k] != 0, places[0][k], places[1][k], places[2][k], s.caster, shown.triangle,
-                       static_cast<std::uint32_t>(shown.row * box.width() + shown.column));
+                       static_cast<std::uint32_t>(box.y0 + shown.row) * pitch +
+                           static_cast<std::uint32_t>(box.x0 + shown.column));
         }
     }
 
@@ -17379,7 +17493,7 @@ struct point_kernel {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/overhead/detail/light_pass.hpp ---------------------------------------------
-// From a shadow policy to the light on a tile: who casts, which points are tested, and what is named as the caster.
+// From a shadow policy to the light on a tile: what casts, which points are tested, and what is named as the caster.
 //
 // Casters are numbered as they are named: a point in several shadows belongs to the target with the lowest number; else
 // to its own surface, if that faces away from the light; else to the seabed.
@@ -17389,13 +17503,6 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
-
-/// The light as a policy takes it.
-inline shadow::any_light light_of(const overhead_geometry& view) {
-    if (view.has_near_light()) return shadow::point_light{view.light_position()};
-    return shadow::directional_light{static_cast<double>(view.rig().light_azimuth),
-                                     static_cast<double>(view.rig().grazing)};
-}
 
 /// A mesh as a caster, with what the camera's place proves.
 ///
@@ -17434,26 +17541,24 @@ struct light_arrays {
     }
 };
 
-/// The batches of a list, and where their answers go: points that face the light, which all casters concern, and those
-/// that face away, whose shadows only name targets.
-struct point_batches {
-    shadow::points at[2];
-    shadow::shares into[2];
+/// Points that face the light concern all casters; of those that face away, shadows only name targets.
+/// @param targets  casters numbered below this are targets
+inline shadow::points batch(shadow::points all, bool face_light, std::uint32_t targets) {
+    if (!face_light) all.casters = targets;
+    all.face_light = face_light;
+    return all;
+}
 
-    /// @param targets  casters numbered below this are targets
-    point_batches(const point_list& points, const shadow::shares& all, std::uint32_t targets)
-        : at{points.facing_points(), points.averted_points()},
-          into{{all.lit.first(points.facing), all.caster.first(points.facing)},
-               {all.lit.subspan(points.facing), all.caster.subspan(points.facing)}} {
-        at[1].casters = targets;
-        at[1].face_light = false;
-    }
-    template <class Visit>
-    void for_each(const Visit& visit) const {
-        for (int i = 0; i < 2; ++i)
-            if (at[i].size() > 0) visit(at[i], into[i]);
-    }
-};
+/// Visits the batches of a list, and where their answers go.
+template <class Visit>
+void for_each_batch(const point_list& points, const shadow::shares& all, std::uint32_t targets, const Visit& visit) {
+    if (points.facing > 0)
+        visit(batch(points.facing_points(), true, targets),
+              shadow::shares{all.lit.first(points.facing), all.caster.first(points.facing)});
+    if (points.averted > 0)
+        visit(batch(points.averted_points(), false, targets),
+              shadow::shares{all.lit.subspan(points.facing), all.caster.subspan(points.facing)});
+}
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
@@ -17462,8 +17567,8 @@ struct point_batches {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/sonar/overhead/detail/shadow_pass.hpp --------------------------------------------
-// From a shadow policy to the shadows in a picture: the points of each tile are found and tested, and pixels lose the
-// light that does not arrive. Labels name the caster.
+// From a shadow policy to the shadows in a picture: where light is undecided, the points that pixels show are found and
+// tested, tile by tile, and pixels gain the light that arrives. Labels name the caster.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -17479,234 +17584,158 @@ inline const surface& surface_of(const std::vector<surface>& surfaces, std::uint
     return *(after - 1);
 }
 
-/// Pixels from what they show without the light, how much of it arrives and what it makes of them.
-struct lit_row_kernel {
-    const float *rest, *share;
-    float* value;  ///< in: what the light alone makes of a pixel; out: all of it
-    std::size_t count;
-
-    template <int N>
-    INSONIFY_INLINE void run() const {
-        std::size_t i = 0;
-        for (; i + N <= count; i += N) light<N>(i);
-        for (; i < count; ++i) light<1>(i);
-    }
-
-  private:
-    template <int N>
-    INSONIFY_INLINE void light(std::size_t i) const {
-        lanes<float, N> dark, lit, direct;
-        load(dark, rest + i);
-        load(lit, share + i);
-        load(direct, value + i);
-        const lanes<float, N> sum = dark + lit * direct;
-        store(value + i, lanes<float, N>(sum < 1.0f ? sum : lanes<float, N>{} + 1.0f));
-    }
-};
-
 /// Shadows of one picture.
 template <class Labels>
 class shadow_pass {
   public:
-    /// @param ids      the visibility buffer of the surfaces
-    /// @param rest     what pixels show without the light
-    /// @param picture  what the light alone makes of them; becomes both together
+    struct images {
+        const image<std::uint32_t>& ids;  ///< the visibility buffer of the surfaces, where light is undecided
+        const undecided_light& undecided;
+        image<float>& picture;  ///< gains the light that arrives
+        Labels& marks;
+    };
+
     /// @param targets  casters numbered below this are targets
-    shadow_pass(const overhead_geometry& view, const std::vector<surface>& surfaces, const image<std::uint32_t>& ids,
-                image<float>& rest, image<float>& picture, Labels& marks, std::size_t targets, int tile, isa level)
+    shadow_pass(const overhead_geometry& view, const std::vector<surface>& surfaces, const images& of,
+                std::size_t targets, int tile, isa level)
         : view_(view),
           surfaces_(surfaces),
-          ids_(ids),
-          rest_(rest),
-          image_(picture),
-          labels_(marks),
+          images_(of),
           targets_(static_cast<std::uint32_t>(targets)),
-          tile_(tile),
-          level_(level) {}
+          tiles_(of.picture.width(), of.picture.height(), std::countr_zero(static_cast<unsigned>(tile))),
+          tile_pixels_(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)),
+          level_(level) {
+        for (const surface& s : surfaces) finders_.emplace_back(view, s);
+    }
 
-    /// Tests the points of every tile and puts out the light of those that are in shadow. Occlusion that sees all
-    /// points at once gets those of all tiles before any is finished.
+    /// Tests the points of every tile and adds the light that arrives. Occlusion that sees all points at once gets
+    /// those of all tiles before any is finished.
     template <class Occlusion, executor E>
     void cast(const Occlusion& occlusion, E& ex) {
-        std::vector<point_finder> finders;
-        for (const surface& s : surfaces_) finders.emplace_back(view_, s);
-        known_.resize(surfaces_.size());
-        if constexpr (shadow::triangle_occlusion<Occlusion>)
-            for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-                // Of a mesh much finer than the picture, points are fewer than triangles.
-                const bool is_worth_it = surfaces_[i].mesh.triangles.size() <= 2 * image_.size();
-                if (is_worth_it) known_[i] = occlusion.known_triangles(surfaces_[i].caster, view_.eye(), ex);
-            }
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
-        constexpr std::size_t run = 4;  // tiles share their memory
-        const std::size_t pixels = static_cast<std::size_t>(tile_) * static_cast<std::size_t>(tile_);
-        const std::size_t count = tiles().count(), room = run * pixels;
-        // What screening leaves, run by run.
-        const std::size_t runs = is_collective ? (count + run - 1) / run : 0;
-        point_arrays rest_of_points(runs * room, memory_of(ex));
-        uninitialized_vector<float> direct(runs * room, memory_of(ex));
-        std::vector<point_list> pending(runs);
+        const std::size_t count = tiles_.count(), run = (std::min)(tiles_.run(), most_points / tile_pixels_),
+                          runs = (count + run - 1) / run;
+        std::vector<point_batch> left;  // by screening
+        if constexpr (is_collective)
+            for (std::size_t i = 0; i < 2 * runs; ++i) left.emplace_back(memory_of(ex));
         bulk_ranges(ex, count, run, [&](std::size_t first, std::size_t last) {
-            point_arrays arrays(pixels);
-            light_arrays light(pixels);
-            std::vector<float> lit(pixels);
-            if constexpr (is_collective) pending[first / run] = point_list(rest_of_points, first / run * room, room);
+            scratch room(surfaces_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
-                const rect box = tile_box(i);
-                point_list points(arrays, 0, pixels);
-                find_points(finders, box, lit, points);
-                const shadow::shares shares = light.part(0, points.size());
-                point_batches(points, shares, targets_).for_each([&](const shadow::points& p, const shadow::shares& s) {
+                const rect box = tiles_.pixels(i, images_.picture.width(), images_.picture.height());
+                point_list points(room.points);
+                find_points(box, room, points);
+                const shadow::shares shares = room.light.part(0, points.size());
+                for_each_batch(points, shares, targets_, [&](const shadow::points& p, const shadow::shares& s) {
                     if constexpr (is_collective)
                         occlusion.screen(p, s);
                     else
                         occlusion.test(p, s);
                 });
-                if constexpr (is_collective) {
-                    point_list& later = pending[first / run];
-                    for (std::size_t k = 0; k < points.size(); ++k) {
-                        if (shares.lit[k] != shadow::unknown) continue;
-                        const std::uint32_t pixel = pixel_in(box, points.pixel(k));
-                        later.add(points, k, pixel);
-                        if (k < points.facing) {
-                            direct[first / run * room + later.facing - 1] = image_.pixels()[pixel];
-                            shares.lit[k] = 0;
-                        }
-                    }
-                }
-                finish(box, points, shares, lit);
+                if constexpr (is_collective) keep_unknown(points, shares, &left[first / run * 2]);
+                finish(points, shares);
             }
         });
-        if constexpr (is_collective) {
-            light_arrays light(runs * room, memory_of(ex));
-            std::vector<shadow::points> at;
-            std::vector<shadow::shares> into;
-            for (std::size_t i = 0; i < runs; ++i)
-                point_batches(pending[i], light.part(i * room, pending[i].size()), targets_)
-                    .for_each([&](const shadow::points& p, const shadow::shares& s) {
-                        at.push_back(p);
-                        into.push_back(s);
-                    });
-            occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), ex);
-            ex.bulk(runs, [&](std::size_t i) {
-                const shadow::shares shares = light.part(i * room, pending[i].size());
-                for (std::size_t k = 0; k < pending[i].facing; ++k) {
-                    float& value = image_.pixels()[pending[i].pixel(k)];
-                    value =
-                        (std::min)(1.0f, rest_.pixels()[pending[i].pixel(k)] + shares.lit[k] * direct[i * room + k]);
-                }
-                if constexpr (labelled) label_shadows(pending[i], shares, [&](std::size_t pixel) { return pixel; });
-            });
-        }
+        if constexpr (is_collective) test_together(occlusion, left, ex);
     }
 
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
+    static constexpr std::size_t most_points = 65536;  // of a batch
 
-    tile_grid tiles() const {
-        return {image_.width(), image_.height(), std::countr_zero(static_cast<unsigned>(tile_))};
+    /// Memory that the tiles of a run share.
+    struct scratch {
+        point_batch points;
+        light_arrays light;
+        std::vector<std::vector<shown_pixel>> shown;  ///< by surface
+
+        scratch(std::size_t surfaces, std::size_t pixels) : points(pixels), light(pixels), shown(surfaces) {}
+    };
+
+    /// The points of a tile whose light is undecided.
+    void find_points(const rect& box, scratch& room, point_list& into) {
+        const surface* last = surfaces_.data();
+        for (int y = box.y0; y < box.y1; ++y)
+            images_.undecided.marks.for_each(box.x0, box.x1, y, [&](int x) {
+                const std::uint32_t id = images_.ids(x, y);
+                if (id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, id);
+                room.shown[static_cast<std::size_t>(last - surfaces_.data())].push_back(
+                    {static_cast<std::uint16_t>(x - box.x0), static_cast<std::uint16_t>(y - box.y0),
+                     id - last->first_id});
+            });
+        for (std::size_t i = 0; i < finders_.size(); ++i) {
+            if (room.shown[i].empty()) continue;
+            dispatch(point_kernel{finders_[i], room.shown[i], view_.has_near_light(), labelled, box,
+                                  static_cast<std::uint32_t>(images_.picture.width()), into},
+                     level_);
+            room.shown[i].clear();
+        }
     }
-    rect tile_box(std::size_t i) const { return tiles().pixels(i, image_.width(), image_.height()); }
 
-    /// A tile's pixel, counted from its first, as one of the picture's.
-    std::uint32_t pixel_in(const rect& box, std::size_t pixel) const {
-        const auto width = static_cast<std::size_t>(box.width());
-        return static_cast<std::uint32_t>((static_cast<std::size_t>(box.y0) + pixel / width) *
-                                              static_cast<std::size_t>(image_.width()) +
-                                          static_cast<std::size_t>(box.x0) + pixel % width);
-    }
-
-    /// The points of a tile that matter: where there is light to lose, or all for the sake of labels. Pixels of
-    /// triangles of which all is known get their share of light at once. Neighbours' answers are as good as random, so
-    /// the loop does without branches.
-    void find_points(std::span<const point_finder> finders, const rect& box, std::span<float> lit, point_list& into) {
-        const auto width = static_cast<std::size_t>(box.width()), height = static_cast<std::size_t>(box.height());
-        struct pixels_of_surface {
-            uninitialized_vector<shown_pixel> room;
-            std::size_t count = 0;
+    /// Keeps the points that screening leaves.
+    /// @param into  those that face the light, and the others
+    static void keep_unknown(const point_list& points, const shadow::shares& light, point_batch* into) {
+        const std::span<const float> lit = light.lit;
+        const auto keep = [&](std::size_t first, std::size_t last, point_batch& batch) {
+            std::size_t to = batch.x.size();
+            const auto unknown = std::count(lit.data() + first, lit.data() + last, shadow::unknown);
+            batch.resize(to + static_cast<std::size_t>(unknown));
+            for (std::size_t i = first; i < last; ++i)
+                if (lit[i] == shadow::unknown) points.copy(i, batch, to++);
         };
-        std::vector<pixels_of_surface> lists(surfaces_.size());
-        const surface* last = nullptr;
-        const shadow::known* known = nullptr;  // of the triangles of that
-        pixels_of_surface* to = nullptr;
-        std::uint32_t first_id = 0, ids_of_last = 0;
-        for (std::size_t row = 0; row < height; ++row) {
-            const int y = box.y0 + static_cast<int>(row);
-            const std::uint32_t* const ids = &ids_(box.x0, y);
-            float *const direct = &image_(box.x0, y), *const rest = &rest_(box.x0, y);
-            float* const share = lit.data() + row * width;
-            for (std::size_t x = 0; x < width; ++x) {
-                if (ids[x] - first_id >= ids_of_last) {
-                    if (ids[x] == shadow::invalid_id) {
-                        share[x] = direct[x] = rest[x] = 0;
-                        continue;
-                    }
-                    last = &surface_of(surfaces_, ids[x]);
-                    first_id = last->first_id;
-                    ids_of_last = static_cast<std::uint32_t>(last->mesh.triangles.size());
-                    const auto number = static_cast<std::size_t>(last - surfaces_.data());
-                    known = known_[number].empty() ? nullptr : known_[number].data();
-                    to = &lists[number];
-                    if (to->room.empty()) to->room.resize(width * height);
-                }
-                const std::uint32_t triangle = ids[x] - first_id;
-                const auto answer = known != nullptr ? known[triangle] : shadow::known::nothing;
-                share[x] = answer == shadow::known::lit ? 1.0f : 0.0f;
-                if constexpr (labelled)
-                    if (answer == shadow::known::dark)
-                        labels_.shadow(box.x0 + static_cast<int>(x), y) = name_of(last->caster);
-                to->room[to->count] = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(row), triangle};
-                const bool matters = labelled || direct[x] > 0;
-                to->count += static_cast<std::size_t>(answer == shadow::known::nothing) & std::size_t{matters};
-            }
-        }
-        for (std::size_t i = 0; i < lists.size(); ++i)
-            if (lists[i].count > 0)
-                dispatch(point_kernel{finders[i], std::span(lists[i].room).first(lists[i].count),
-                                      view_.has_near_light(), labelled, box, into},
-                         level_);
+        keep(0, points.facing, into[0]);
+        keep(points.facing, points.size(), into[1]);
     }
 
-    /// Pixels of a tile from what the light makes of them and how much of it arrives.
-    /// @param lit  of the pixels that need no point
-    void finish(const rect& box, const point_list& points, const shadow::shares& light, std::span<float> lit) {
-        const auto width = static_cast<std::size_t>(box.width());
-        for (std::size_t i = 0; i < points.facing; ++i) lit[points.pixel(i)] = light.lit[i];
-        for (int y = box.y0; y < box.y1; ++y) {
-            const float* const share = lit.data() + static_cast<std::size_t>(y - box.y0) * width;
-            float* const value = &image_(box.x0, y);
-            const float* const rest = &rest_(box.x0, y);
-            dispatch(lit_row_kernel{rest, share, value, width}, level_);
+    /// @param left  of each run, those that face the light and the others
+    template <class Occlusion, executor E>
+    void test_together(const Occlusion& occlusion, std::span<const point_batch> left, E& ex) {
+        std::vector<shadow::points> at;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            at.push_back(batch(left[i].all(), i % 2 == 0, targets_));
+            count += at.back().size();
         }
-        if constexpr (labelled) label_shadows(points, light, [&](std::size_t pixel) { return pixel_in(box, pixel); });
+        light_arrays light(count, memory_of(ex));
+        std::vector<shadow::shares> into;
+        count = 0;
+        for (const shadow::points& p : at) {
+            into.push_back(light.part(count, p.size()));
+            count += p.size();
+        }
+        occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), ex);
+        ex.bulk(left.size(), [&](std::size_t i) {
+            for (std::size_t k = 0; k < into[i].size(); ++k)
+                finish(left[i].pixel[k], i % 2 == 0, left[i].mesh[k], into[i].lit[k], into[i].caster[k]);
+        });
     }
 
-    /// Names the caster of each shadow, see light_pass.hpp.
-    /// @param pixel_of  the picture's pixel by the list's number of it
-    template <class PixelOf>
-    void label_shadows(const point_list& points, const shadow::shares& light, const PixelOf& pixel_of) {
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const bool is_averted = i >= points.facing;
-            if (!is_averted && !(light.lit[i] < 0.5f)) continue;
-            const std::uint32_t caster = is_averted && light.caster[i] >= targets_ ? points.caster(i) : light.caster[i];
-            // A lit share of 0 without a caster is one that is yet to be tested.
-            if (caster == shadow::invalid_id) continue;
-            labels_.shadow.pixels()[pixel_of(points.pixel(i))] = name_of(caster);
-        }
+    void finish(const point_list& points, const shadow::shares& light) {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            finish(points.pixel(i), i < points.facing, points.caster(i), light.lit[i], light.caster[i]);
     }
-    std::uint16_t name_of(std::uint32_t caster) const {
-        return caster < targets_ ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
+    /// Adds the light that arrives at a pixel, and names the caster of its shadow, see light_pass.hpp.
+    /// @param own     caster that it lies on
+    /// @param caster  that blocks its light
+    void finish(std::size_t pixel, bool is_facing, std::uint32_t own, float lit, std::uint32_t caster) {
+        if (is_facing && lit > 0.0f) {
+            float& value = images_.picture.pixels()[pixel];
+            value = (std::min)(1.0f, value + lit * images_.undecided.direct.pixels()[pixel]);
+        }
+        if constexpr (labelled) {
+            if (is_facing && !(lit < 0.5f)) return;
+            if (!is_facing && caster >= targets_) caster = own;
+            // Without a caster, it is yet to be tested.
+            if (caster != shadow::invalid_id) images_.marks.shadow.pixels()[pixel] = name_of_caster(caster, targets_);
+        }
     }
 
     const overhead_geometry& view_;
     const std::vector<surface>& surfaces_;
-    const image<std::uint32_t>& ids_;
-    image<float>& rest_;
-    image<float>& image_;
-    Labels& labels_;
-    std::vector<uninitialized_vector<shadow::known>> known_;  ///< of the surfaces' triangles, where anything is
+    std::vector<point_finder> finders_;  ///< of the surfaces
+    images images_;
     std::uint32_t targets_;
-    int tile_;
+    tile_grid tiles_;
+    std::size_t tile_pixels_;
     isa level_;
 };
 
@@ -17755,17 +17784,20 @@ class overhead_painter {
     template <executor E>
     frame<Labels> paint(E& ex) {
         place_objects();
-        draw_all(ex);
         if constexpr (casts) {
             std::vector<shadow::caster> casters;
             for (const placed_mesh& t : targets_) casters.push_back(as_caster(view_, t));
             if (has_bottom()) casters.push_back(as_caster(view_, bottom_in_rig_));
             const shadow::point_bounds bounds{receivers(), view_.ground_sampling(), options_.level};
             const auto occlusion =
-                options_.shadow.build(std::span<const shadow::caster>(casters), light_of(view_), bounds, ex);
-            shadow_pass<Labels>(view_, surfaces_, ids_, rest_, out_.image, out_.labels, targets_.size(), options_.tile,
-                                options_.level)
+                options_.shadow.build(std::span<const shadow::caster>(casters), light_in_rig(view_), bounds, ex);
+            const auto known = settle_triangles(occlusion, ex);
+            draw_all(ex);
+            shadow_pass<Labels>(view_, surfaces_, {ids_, undecided_, out_.image, out_.labels}, targets_.size(),
+                                options_.tile, options_.level)
                 .cast(occlusion, ex);
+        } else {
+            draw_all(ex);
         }
         if constexpr (labelled) {
             label_surfaces(ex);
@@ -17920,6 +17952,7 @@ class overhead_painter {
             s.caster = caster;
             s.instance = instance;
             s.seabed = seabed;
+            s.shadow_name = name_of_caster(caster, targets_.size());
             s.whole = m;
             ids += placed.shape.triangles.size();
             require(ids < shadow::invalid_id, "triangles of the scene", ids, "below 2^32 - 1");
@@ -17938,15 +17971,32 @@ class overhead_painter {
                 scene_.targets[i].surface);
     }
 
-    /// Draws all surfaces: unshadowed light and the visibility buffer.
+    /// Finds what is known of whole triangles before they are drawn. The surfaces point to the answers.
+    template <class Occlusion, executor E>
+    std::vector<uninitialized_vector<shadow::known>> settle_triangles(const Occlusion& occlusion, E& ex) {
+        std::vector<uninitialized_vector<shadow::known>> known;
+        if constexpr (shadow::triangle_occlusion<Occlusion>)
+            for (surface& s : surfaces_) {
+                // Of a mesh much finer than the picture, points are fewer than triangles.
+                if (s.mesh.triangles.size() > 2 * out_.image.size()) continue;
+                known.push_back(occlusion.known_triangles(s.caster, view_.eye(), ex));
+                if (!known.back().empty()) s.known = known.back().data();
+            }
+        return known;
+    }
+
+    /// Draws all surfaces: their light as far as it is known, and the visibility buffer.
     template <executor E>
     void draw_all(E& ex) {
         const overhead& rig = view_.rig();
         image<float> depth(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
         shaded_images into{out_.image};
         if constexpr (casts) {
-            rest_ = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
-            into.rest = &rest_;
+            undecided_ = {pixel_marks(rig.size.x, rig.size.y, memory_of(ex)),
+                          image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex)), labelled};
+            into.undecided = &undecided_;
+            into.has_all_ids = labelled;
+            if constexpr (labelled) into.shadow = &out_.labels.shadow;
         }
         if constexpr (casts || labelled) {
             ids_ = image<std::uint32_t>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
@@ -17991,7 +18041,7 @@ class overhead_painter {
     overhead_geometry view_;
     render_options<Shadow, Labels, Law, Depth> options_;
     image<std::uint32_t> ids_;  ///< the visibility buffer; triangles are numbered in the order of surfaces_
-    image<float> rest_;         ///< sky and ambient light
+    undecided_light undecided_;
     frame<Labels> out_;
     seabed::heightfield field_;
     uninitialized_mesh whole_bottom_;         ///< if every vertex is drawn
@@ -25628,11 +25678,14 @@ inline namespace INSONIFY_FLAGS {
 /// The light of a rig, in the world.
 inline shadow::any_light light_of(const overhead& rig) {
     const overhead_geometry view(rig);
-    if (!view.has_near_light())
-        return shadow::directional_light{static_cast<double>(rig.light_azimuth) + static_cast<double>(rig.yaw),
-                                         static_cast<double>(rig.grazing)};
-    const glm::dmat3 to_world = glm::transpose(view.rig_from({}).linear);
-    return shadow::point_light{numeric::product(to_world, view.light_position()) + glm::dvec3(rig.position, 0)};
+    shadow::any_light light = detail::light_in_rig(view);
+    if (auto* parallel = std::get_if<shadow::directional_light>(&light)) {
+        parallel->azimuth += static_cast<double>(rig.yaw);
+    } else {
+        glm::dvec3& position = std::get<shadow::point_light>(light).position;
+        position = numeric::product(glm::transpose(view.rig_from({}).linear), position) + glm::dvec3(rig.position, 0);
+    }
+    return light;
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -25677,8 +25730,7 @@ class scene_occlusion {
                         shadow::shares{std::span(all.lit).subspan(first, count), caster});
             for (std::size_t i = 0; i < count; ++i)
                 if (caster[i] != shadow::invalid_id)
-                    all.shadow[first + i] =
-                        caster[i] < targets_ ? static_cast<std::uint16_t>(caster[i] + 1) : labels::by_seabed;
+                    all.shadow[first + i] = detail::name_of_caster(caster[i], targets_);
         });
         return all;
     }
