@@ -73,9 +73,9 @@ inline in::seabed::any bottom_of(const sonar_plan& p, double pixel) {
     return sand;
 }
 
-/// What fell off a wreck: within about its own length, more of it near, as reflective as the wreck.
+/// What a wreck has lost: within about its own length, most of it in the hull and close by, as reflective as the wreck.
 inline void scatter_about(const placed_object& wreck, in::random_sequence& dice, placed_object& t) {
-    const double away = 0.35 * dice.uniform() * dice.uniform() + 0.05, along = dice.uniform(-0.35, 0.35);
+    const double away = 0.35 * dice.uniform() * dice.uniform(), along = dice.uniform(-0.35, 0.35);
     const auto turn = in::numeric::sin_cos(wreck.yaw);
     const double side = dice.uniform() < 0.5 ? -away : away;
     t.across = wreck.across + along * turn.cosine - side * turn.sine;

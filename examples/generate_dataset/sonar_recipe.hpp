@@ -116,6 +116,16 @@ inline double extent_of(const in::mesh& m) {
     return (std::max)(box.size().x, box.size().y);
 }
 
+/// Side of a mesh's box along the track over that across it, within half to double.
+/// @param heading  of the mesh, from straight across the track, radians
+inline double slenderness(const in::mesh& m, double heading) {
+    const glm::dvec3 size = in::bounds(m).size();
+    const auto turn = in::numeric::sin_cos(heading);
+    const double c = (std::max)(turn.cosine, -turn.cosine), s = (std::max)(turn.sine, -turn.sine);
+    const double ratio = (size.x * s + size.y * c) / (size.x * c + size.y * s);
+    return (std::min)((std::max)(ratio, 0.5), 2.0);
+}
+
 inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of_target& view) {
     p.bottom = s.choice("seabed", {{"sand", 0.45}, {"ripples", 0.25}, {"mud", 0.12}, {"rock", 0.04}, {"mixed", 0.12}},
                         view.seabed);
@@ -129,10 +139,10 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
     p.swell = s.uniform_or_0("swell", 0.65, 0.01, 0.06);
     p.trawls = s.uniform_or_0("trawls", 0.75, 0.3, 2);
 
-    p.tone.drift = static_cast<float>(s.logarithmic("tone_drift_db", 0.05, 1.6));
+    p.tone.drift = static_cast<float>(s.logarithmic("tone_drift_db", 0.05, 1.2));
     p.tone.drift_length =
         static_cast<float>(s.derived("tone_drift_length_m", pixel * s.logarithmic("drift_px", 15, 120)));
-    p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.7, 0.2, 1.3));
+    p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.8, 0.2, 1.1));
     p.tone.streak_width = static_cast<float>(s.derived("streak_width_m", pixel * s.uniform("streak_px", 1.2, 5)));
     p.tone.streak_length = static_cast<float>(
         s.derived("streak_length_m", static_cast<double>(p.tone.streak_width) * s.uniform("streak_ratio", 8, 60)));
@@ -145,8 +155,8 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
     p.clutter = s.whole("clutter", 1, 9);
     if (!s.chance("has_clutter", p.class_name == empty_class ? 0.1 : 0.3)) p.clutter = 0;
     // What a wreck has lost lies about it.
-    p.debris = s.whole("debris", 3, 24);
-    if (!s.chance("has_debris", 0.45) || p.targets.empty()) p.debris = 0;
+    p.debris = s.whole("debris", 3, 36);
+    if (!s.chance("has_debris", 0.55) || p.targets.empty()) p.debris = 0;
     p.clutter_size = s.derived("clutter_size_m", pixel * s.uniform("clutter_px", 1.2, 4.5));
     p.clutter_seed = s.word("clutter_seed");
 }
@@ -164,9 +174,9 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
                                                         : static_cast<double>(p.sonar.beam);
     p.beam = s.derived("beam_rad", (std::max)(beam * s.uniform("beam_factor", 0.7, 1.5), 0.3 * pixel / slant));
 
-    p.gain.rms = static_cast<float>(s.logarithmic("gain_error_db", 0.05, 1.2));
+    p.gain.rms = static_cast<float>(s.logarithmic("gain_error_db", 0.05, 0.9));
     p.gain.length = static_cast<float>(s.uniform("gain_error_px", 25, 120));
-    p.gain.slope = static_cast<float>(s.uniform("gain_slope_db", -2.2, 2.2));
+    p.gain.slope = static_cast<float>(s.uniform("gain_slope_db", -1.6, 1.6));
     p.gain.seed = s.word("gain_seed");
     p.banding.drift = static_cast<float>(s.uniform_or_0("banding_drift_db", 0.5, 0.1, 0.9));
     p.banding.length = static_cast<float>(s.uniform("banding_px", 3, 30));
@@ -244,13 +254,23 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
         if (!used) s.drop(prefix + "width_m"), s.drop(prefix + "height_m");
     }
 
+    p.port = s.chance("port", 0.5);
+    if (const auto aspect = aspect_of(s, view); aspect && !p.targets.empty()) {
+        const double line_of_sight = p.rig_yaw + (p.port ? in::numeric::pi : 0);
+        p.targets.front().yaw = s.derived("t1_yaw_rad", line_of_sight + in::numeric::to_radians(*aspect));
+    }
+
     // The chip is cut around the first target, or as large as one of any size would be.
     const double share = s.chance("is_small", 0.1) ? 0.4 : 1.0;
     const double fill = share * s.uniform("fill", 0.55, 1.2), bare = s.logarithmic("bare_chip_m", 6, 160);
-    p.chip = s.derived("chip_m", empty ? bare : detail::extent_of(shapes.front()) / fill);
+    // Wrecks are cut out by their outline, so that a chip is longer the way that its target lies.
+    const double closeness = s.uniform("crop_share", 0, 1),
+                 slender = empty ? 1 : detail::slenderness(shapes.front(), p.targets.front().yaw - p.rig_yaw);
+    const double crop = in::numeric::exp(0.5 * closeness * in::numeric::log(slender));
+    p.chip = s.derived("chip_m", empty ? bare : detail::extent_of(shapes.front()) / (fill * crop));
     const double pixel = p.chip / o.size;
     // Pings are shown as rows whatever the speed: pixels are longer or shorter along the track than across it.
-    p.track = s.derived("track_m", p.chip * s.logarithmic("ping_stretch", 0.67, 1.5));
+    p.track = s.derived("track_m", crop * crop * p.chip * s.logarithmic("ping_stretch", 0.67, 1.5));
 
     // Sonars that reach as far as the chip is wide; the finest ones are not used for the largest chips.
     std::vector<weighted> sonars;
@@ -277,12 +297,7 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     p.altitude = s.derived("altitude_m", slant * sine);
     p.place_x = s.uniform("place_x_m", -500, 500);
     p.place_y = s.uniform("place_y_m", -500, 500);
-    p.port = s.chance("port", 0.5);
     p.ground_range = s.chance("ground_range", 0.3);
-    if (const auto aspect = aspect_of(s, view); aspect && !p.targets.empty()) {
-        const double line_of_sight = p.rig_yaw + (p.port ? in::numeric::pi : 0);
-        p.targets.front().yaw = s.derived("t1_yaw_rad", line_of_sight + in::numeric::to_radians(*aspect));
-    }
     detail::sample_bottom(s, p, pixel, view);
     detail::sample_look(s, p, pixel, slant);
     return p;
