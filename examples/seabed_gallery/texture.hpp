@@ -15,6 +15,7 @@ namespace gallery {
 struct texture {
     double deviation;    ///< of the gray values, over their mean
     double skewness;     ///< of the gray values
+    double tails;        ///< their kurtosis
     double correlation;  ///< of neighbours across the track; the next: along it
     double along;
     double contrast;   ///< of the gray-level co-occurrence matrix, 8 levels of equal shares, 2 pixels apart
@@ -92,6 +93,7 @@ inline texture texture_of(insonify::image_view<const float> picture) {
     const double variance = mean_of(0, 0, product);
     t.deviation = std::sqrt(variance) / mean;
     t.skewness = mean_of(0, 0, [&](double a, double) { return std::pow(a - mean, 3); }) / std::pow(variance, 1.5);
+    t.tails = mean_of(0, 0, [&](double a, double) { return std::pow(a - mean, 4); }) / (variance * variance);
     t.correlation = mean_of(1, 0, product) / variance;
     t.along = mean_of(0, 1, product) / variance;
 

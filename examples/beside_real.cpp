@@ -1,0 +1,117 @@
+// A rendered survey line above a real one: beside_real [real waterfall [picture]]
+//
+// The real one, 461 pings of both sides out to 30 m at 600 kHz, shows a wreck below a tow that comes down to it. The
+// rendered one has a wreck of about the size, such a tow, and the look of the recipe `sonar`; no pixel of the real one.
+#include <insonify/insonify.hpp>
+#include <insonify/io/png.hpp>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "common/pictures.hpp"
+
+namespace in = insonify;
+using namespace in::literals;
+
+namespace {
+
+constexpr in::instrument sonar = in::instruments::side_scan_600;
+
+in::scene wreck_on_gravel() {
+    in::scene scene;
+    // Gravel with waves of sand, and the moat that the current has dug about the hull.
+    const in::seabed::any ground = in::seabed::ripples{.wavelength = 1.1f,
+                                                       .steepness = 0.02f,
+                                                       .direction = 40_deg,
+                                                       .spread = 0.3f,
+                                                       .bandwidth = 0.2f,
+                                                       .surface = {.rms = 0.014f, .longest = 2, .shortest = 0.08f},
+                                                       .seed = 4};
+    const in::mesh hull = to_mesh(in::hull{.length = 17,
+                                           .beam = 5.2f,
+                                           .depth = 2.6f,
+                                           .bulwark = 0.5f,
+                                           .house_length = 0.18f,
+                                           .house_tiers = 1,
+                                           .hatches = 2,
+                                           .masts = 1,
+                                           .collapse = 0.35f,
+                                           .seed = 8});
+    in::pose pose{.position = {10.5, 12, 0}, .yaw = 24_deg, .roll = 9_deg};
+    pose = in::rest_on(ground, hull, pose);
+    pose.burial = 1.1f;
+    scene.seabed = in::seabed::sculpted{
+        .ground = ground,
+        .edits = {
+            in::seabed::moat{.outline = in::footprint(hull, pose, 1.5f), .depth = 0.3f, .width = 1.5f, .mound = 0.2f}}};
+    scene.add(hull, pose, "wreck", {2});
+    in::random_sequence dice(5);
+    for (int i = 0; i < 60; ++i) {
+        const in::mesh stone = to_mesh(in::boulder{.size = glm::vec3(static_cast<float>(dice.uniform(0.1, 0.45))),
+                                                   .segments = 6,
+                                                   .seed = static_cast<std::uint32_t>(i)});
+        const bool is_near = i < 35;
+        const glm::dvec3 at(is_near ? dice.uniform(5, 16) : dice.uniform(-27, 27),
+                            is_near ? dice.uniform(4, 20) : dice.uniform(0, 27), 0);
+        scene.add(stone, in::rest_on(ground, stone, {.position = at}), "stone", {1});
+    }
+    return scene;
+}
+
+/// The tow comes down from 14 m to 4, and does not hold its course.
+std::vector<in::ping> tow_of(const in::side_scan& rig) {
+    std::vector<in::ping> track = in::track_of(rig);
+    for (std::size_t i = 0; i < track.size(); ++i) {
+        const double t = static_cast<double>(i) / static_cast<double>(track.size());
+        const auto sway = in::numeric::sin_cos(9 * t);
+        track[i].position.z = 4 + 10.5 * in::numeric::exp(-4.5 * t * t) + 0.35 * in::numeric::sin_cos(17 * t).sine;
+        track[i].yaw += 0.025 * sway.sine;
+        track[i].pitch = 0.02 * sway.cosine;
+    }
+    return track;
+}
+
+in::image<float> line_of(const in::scene& scene, in::side_scan rig, in::side side) {
+    rig.side = side;
+    const in::facet_backscatter law{.facets = 0.3f, .slope = 0.2f, .volume = 0.5f};
+    const in::sonar_equation equation{in::pulse{2 * sonar.range_resolution}, in::horizontal_beam{sonar.beam},
+                                      in::level_gain{}};
+    using all = in::record_options<in::labels, in::facet_backscatter, std::remove_const_t<decltype(equation)>>;
+    auto heard = in::record(scene, tow_of(rig), rig, all{.law = law, .equation = equation});
+    heard = in::with_tone(
+        std::move(heard), rig,
+        {.drift = 2.6f, .drift_length = 9, .streaks = 0.6f, .streak_width = 1.2f, .streak_length = 25, .seed = 2});
+    heard.image =
+        std::move(heard.image) |
+        in::range_gain_error{.rms = 0.6f, .length = 250, .slope = -11, .seed = side == in::side::port ? 3u : 4u} |
+        in::water_column{.bin = static_cast<float>(rig.bin()), .noise = 4e-4f, .noise_range = 30, .volume = 1e-4f};
+    heard = in::with_speckle(std::move(heard),
+                             in::seabed_speckle{.elsewhere = {.looks = 1}, .along_track = 0.6f, .seed = 6});
+    return std::move(heard.image) | in::ping_banding{.drift = 0.2f, .jitter = 0.2f} |
+           in::display{.white = 4, .exponent = 0.5f};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const std::string real = argc > 1 ? argv[1] : EXAMPLES_REFERENCE "/sidescan_scotsman/waterfall_u8_linear.png";
+    const std::string out = argc > 2 ? argv[2] : "beside_real.png";
+    const in::side_scan rig{.altitude = 14, .ping_spacing = 0.06f, .pings = 461, .range = 29.98f, .bins = 1018};
+    const in::scene scene = wreck_on_gravel();
+    const in::image<float> port = line_of(scene, rig, in::side::port),
+                           starboard = line_of(scene, rig, in::side::starboard);
+
+    const bool is_there = std::filesystem::exists(real);
+    const in::image<float> below = is_there ? examples::read_gray(real) : in::image<float>(2 * rig.bins, 1);
+    in::image<float> page((std::max)(2 * rig.bins, below.width()), rig.pings + 12 + below.height(), 1);
+    for (int y = 0; y < rig.pings; ++y)
+        for (int x = 0; x < rig.bins; ++x)
+            page(rig.bins - 1 - x, y) = port(x, y), page(page.width() - rig.bins + x, y) = starboard(x, y);
+    for (int y = 0; y < below.height(); ++y)
+        for (int x = 0; x < below.width(); ++x) page(x, rig.pings + 12 + y) = below(x, y);
+    in::write_png(out, page | in::to_uint8);
+    if (!is_there) std::printf("no real line at %s: the rendered one alone\n", real.c_str());
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "beside_real: %s\n", error.what());
+    return 1;
+}
