@@ -542,6 +542,9 @@ class Generator(unittest.TestCase):
             b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR" + struct.pack(">IIBBBBBI", 1 << 30, 1 << 30, 8, 0, 0, 0, 0, 0))
         self.assertIn("more pixels than can be read",
                       refusal("--out", self.folder / "a", "--reference", self.folder / "bomb.png"))
+        # A chunk that claims 1.2 GB, which nobody should allocate, in a file of 86 bytes.
+        torn = pathlib.Path(__file__).parents[2] / "tests" / "fuzz" / "corpus" / "picture" / "huge_chunk.png"
+        self.assertIn("ends within a chunk", refusal("--out", self.folder / "a", "--reference", torn))
         (self.folder / "not.png").write_text("hello")
         self.assertIn("is not a PNG", refusal("--out", self.folder / "a", "--reference", self.folder / "not.png"))
 
