@@ -33,6 +33,7 @@ TEST_CASE("render() survives any failed allocation, with each shadow policy") {
     CHECK(drawn(in::shadow::exact{}) > 50);
     CHECK(drawn(in::shadow::none{}) > 20);
     CHECK(drawn(in::shadow::map{}) > 50);
+    CHECK(drawn(in::shadow::pcf{}) > 50);
     CHECK(drawn(in::shadow::penumbra{.samples = 2}) > 50);
     CHECK(failing_new::in_turn([&] { return in::visible_triangles(s, rig).triangle; }) > 20);
 }
