@@ -23874,11 +23874,12 @@ class target_hits {
     /// Finds the hits, after all segments have been added.
     void resolve() {
         std::stable_sort(partial_.begin(), partial_.end(), [](const part& a, const part& b) { return a.ray < b.ray; });
-        auto next = partial_.begin();
+        // Pointers: a span of two iterators is beyond older libraries.
+        const part *next = partial_.data(), *const last = next + partial_.size();
         for (std::size_t k = 0; k < fan_->size(); ++k) {
             first_[k] = static_cast<std::uint32_t>(hits_.size());
-            auto end = next;
-            while (end != partial_.end() && end->ray == k) ++end;
+            const part* end = next;
+            while (end != last && end->ray == k) ++end;
             const bool is_met = nearest_[k].range < std::numeric_limits<double>::infinity();
             if (next != end)
                 divide(k, {next, end}, is_met);
