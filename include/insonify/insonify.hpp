@@ -51,7 +51,6 @@
 #include <insonify/seabed/rock.hpp>
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/sediment.hpp>
-#include <insonify/seabed/type.hpp>
 #include <insonify/shadow/light.hpp>
 #include <insonify/shadow/policy.hpp>
 #include <insonify/sonar/backscatter.hpp>
@@ -69,7 +68,7 @@
 #include <insonify/accuracy/budget.hpp>
 #include <insonify/accuracy/metrics.hpp>
 #include <insonify/accuracy/seabed_probe.hpp>
-#include <insonify/core/simd/draw_lanes.hpp>
+#include <insonify/core/simd/elementary.hpp>
 #include <insonify/core/simd/lanes.hpp>
 #include <insonify/core/simd/random_lanes.hpp>
 #include <insonify/geometry/bounds.hpp>

@@ -1,4 +1,4 @@
-// Sediments by name or grain size: one word sets relief, brightness and speckle together (table in registry.hpp).
+// Sediments by name or grain size: one word sets relief, brightness and speckle together (rows in registry.hpp).
 //
 // A sediment is a label too: models of that label get the table's brightness and speckle by default. All values are
 // relative. Levels and roughness are for 10 to 100 kHz; a side-scan sonar's 300 to 900 kHz extrapolates
@@ -19,33 +19,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// The rows of `sediments`; each has the value of its label.
-enum class sediment : std::uint8_t {
-    rough_rock = static_cast<std::uint8_t>(type::rough_rock),
-    rock,
-    cobble,
-    sandy_gravel,
-    coarse_sand,
-    medium_sand,
-    fine_sand,
-    very_fine_sand,
-    coarse_silt,
-    medium_silt,
-    sandy_mud,
-    silty_clay,
-};
-
 inline namespace INSONIFY_FLAGS {
-
-/// The label of a sediment.
-constexpr type type_of(sediment s) {
-    return static_cast<type>(s);
-}
-
-/// The row of a sediment in the table above.
-constexpr const sediment_facts& facts_of(sediment s) {
-    return sediments[static_cast<std::size_t>(s) - std::size(relief_types)];
-}
 
 /// A sediment by its name in the table.
 /// @throws invalid_input for a name that isn't there

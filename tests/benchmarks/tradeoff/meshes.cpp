@@ -104,7 +104,9 @@ void measure_meshes(int pixels, int runs, report::contents& into) {
     in::thread_pool pool(2);
     const std::vector<std::string> chosen{"tilted sheet", "moebius strip",      "cow", "hall", "statue 72k",
                                           "fine grid",    "fine grid, shuffled"};
-    for (const auto& [name, scene] : foreign_scenes::all()) {
+    for (const foreign_scenes::foreign_scene& item : foreign_scenes::all()) {
+        const std::string& name = item.name;  // clang 14 captures no structured bindings
+        const in::scene& scene = item.scene;
         if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) continue;
         std::fprintf(stderr, "%s\n", name.c_str());
         const shadow_oracle::oracle oracle(scene, foreign_scenes::rig(0, 45, 64));

@@ -1,4 +1,4 @@
-// Draws in lanes are the draws of random.hpp, bit for bit.
+// Random doubles over lanes: the draws of random.hpp, bit for bit.
 #include <insonify/core/random.hpp>
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/random_lanes.hpp>
@@ -76,7 +76,7 @@ TEST_CASE("The circle is that of sine and cosine to 4e-16, at the quarters and t
     for (int i = 1; i < 4096; ++i) {
         const double turns = i / 4096.0;
         double cosine, sine;
-        circle_lanes<1>(cosine, sine, turns);
+        cos_sin_turns<1>(cosine, sine, turns);
         const auto [exact_sine, exact_cosine] = in::numeric::sin_cos_turns(turns);
         REQUIRE(std::abs(cosine - exact_cosine) < 4e-16);
         REQUIRE(std::abs(sine - exact_sine) < 4e-16);

@@ -1,9 +1,12 @@
-// SIMD versions of random.hpp to the same bits: Philox blocks, uniform and normal draws.
+// SIMD versions of random.hpp: Philox blocks, uniform and normal draws, as doubles and as floats.
+//
+// Doubles are the draws of random.hpp to the same bits. Floats follow the same law to a float's rounding: a normal draw
+// differs by less than 6e-7 from exact arithmetic on its two words, and no probability by more than 6e-8. Both give the
+// same bits at every N.
 #pragma once
 
-#include <insonify/core/numeric.hpp>
 #include <insonify/core/simd/dispatch.hpp>
-#include <insonify/core/simd/lanes.hpp>
+#include <insonify/core/simd/elementary.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -15,7 +18,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// lanes of 32 bits have W / 2 of these.
 template <int N>
 INSONIFY_INLINE void multiply_words(lanes<std::uint64_t, N>& into, const lanes<std::uint64_t, N>& a, std::uint32_t b) {
-    // One instruction, which clang sees for itself and g++ has to be told. dispatch.hpp has made it known.
+    // One instruction, which clang selects by itself and g++ does not.
 #if INSONIFY_DISPATCH && INSONIFY_WHOLE_KERNELS && !defined(__clang__)
     using halves = lanes<std::int32_t, 2 * N>;
     const lanes<std::uint64_t, N> factor = lanes<std::uint64_t, N>{} + std::uint64_t{b};
@@ -33,7 +36,7 @@ INSONIFY_INLINE void multiply_words(lanes<std::uint64_t, N>& into, const lanes<s
 }
 
 /// Philox4x32-10 of `Count` times N counters under one key, in place; the lower half of each lane holds a word, the
-/// upper half is of no meaning. Several counters run side by side because each waits for its products.
+/// upper half is unspecified. Several counters interleave, to hide the latency of the products.
 template <int N, std::size_t Count>
 INSONIFY_INLINE void philox_rounds(lanes<std::uint64_t, N> (&counter)[Count][4], std::uint32_t key_0,
                                    std::uint32_t key_1) {
@@ -62,87 +65,11 @@ INSONIFY_INLINE void philox_lanes(lanes<std::uint64_t, N> (&counter)[4], std::ui
     for (int i = 0; i < 4; ++i) counter[i] = all[0][i] & std::uint64_t{0xFFFFFFFFu};
 }
 
-/// A number below 2^52 as a double: put where a double of 2^52 has its last bits, it becomes that much more.
-template <int N>
-INSONIFY_INLINE void to_double(lanes<double, N>& into, const lanes<std::uint64_t, N>& number) {
-    const lanes<std::uint64_t, N> bits = number | std::uint64_t{0x4330000000000000u};
-    std::memcpy(&into, &bits, sizeof into);
-    into = into - 0x1p52;
-}
-
 /// See uniform_open.
 template <int N>
 INSONIFY_INLINE void uniform_lanes(lanes<double, N>& into, const lanes<std::uint64_t, N>& word) {
     to_double<N>(into, word);
     into = (into + 0.5) * 0x1p-32;
-}
-
-/// numeric::log for normal numbers above 0, operation by operation.
-template <int N>
-INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
-    using doubles = lanes<double, N>;
-    using words = lanes<std::uint64_t, N>;
-    words bits;
-    std::memcpy(&bits, &x, sizeof bits);
-    const words shifted = bits + (std::uint64_t{0x3FF0000000000000u} - std::uint64_t{0x3FE6A09E667F3BCDu});
-    doubles k;
-    to_double<N>(k, words(shifted >> 52));
-    k = k - 1023.0;
-    const words mantissa = (shifted & std::uint64_t{0x000FFFFFFFFFFFFFu}) + std::uint64_t{0x3FE6A09E667F3BCDu};
-    doubles m;
-    std::memcpy(&m, &mantissa, sizeof m);
-    const doubles f = m - 1.0;
-    const doubles s = f / (m + 1.0);
-    const doubles t = s * s;
-    doubles tail = doubles{} + 1.0 / 23;
-    unroll<10>([&](int i) INSONIFY_INLINE_LAMBDA { tail = tail * t + 1.0 / (21 - 2 * i); });
-    const doubles half_square = 0.5 * f * f;
-    constexpr double ln2_high = 0x1.62e42feep-1;
-    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
-    into = k * ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * ln2_low)) - f);
-}
-
-/// The largest whole number not above x, for |x| < 2^51.
-template <int N>
-INSONIFY_INLINE void floor_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
-    const lanes<double, N> nearest = (x + 0x1.8p52) - 0x1.8p52;
-    into = nearest > x ? nearest - 1.0 : nearest;
-}
-
-/// Cosine and sine of x turns, 0 < x < 1, by Taylor's series around the nearest quarter; absolute error < 3e-16.
-template <int N>
-INSONIFY_INLINE void circle_lanes(lanes<double, N>& cosine, lanes<double, N>& sine, const lanes<double, N>& x) {
-    using doubles = lanes<double, N>;
-    using quarters = lanes<std::int64_t, N>;
-    doubles rounded = 4.0 * x + 0x1p52;  // the nearest quarter in its last bits
-    quarters bits;
-    std::memcpy(&bits, &rounded, sizeof bits);
-    rounded = rounded - 0x1p52;
-    const doubles angle = (x - 0.25 * rounded) * (2 * numeric::pi);
-    const doubles t = angle * angle;
-    doubles odd = doubles{} + 1.0, even = doubles{} + 1.0;
-    unroll<8>([&](int i) INSONIFY_INLINE_LAMBDA {
-        const int n = 16 - 2 * i;
-        odd = 1.0 - odd * t * (1.0 / (n * (n + 1)));
-        even = 1.0 - even * t * (1.0 / (n * (n - 1)));
-    });
-    odd = odd * angle;
-    const quarters is_odd = quarters((bits & 1) != 0);
-    const doubles first = is_odd ? odd : even, second = is_odd ? even : odd;
-    cosine = quarters(((bits + 1) & 2) != 0) ? 0.0 - first : first;
-    sine = quarters((bits & 2) != 0) ? 0.0 - second : second;
-}
-
-template <int N>
-INSONIFY_INLINE void square_root(lanes<double, N>& into, const lanes<double, N>& of) {
-#if INSONIFY_SIMD && defined(__SSE2__)
-    if constexpr (N == 2) {
-        into = __builtin_ia32_sqrtpd(of);
-    } else if constexpr (N % 2 == 0) {
-        in_halves<N>(into, of, [](auto& half, const auto& from) { square_root<N / 2>(half, from); });
-    } else
-#endif
-        gather<N>(into, [&](int k) { return numeric::square_root(lane(of, k)); });
 }
 
 /// See normal_pair.
@@ -154,7 +81,114 @@ INSONIFY_INLINE void normal_lanes(lanes<double, N>& first, lanes<double, N>& sec
     uniform_lanes<N>(v, b);
     log_lanes<N>(u, u);
     square_root<N>(radius, -2.0 * u);
-    circle_lanes<N>(first, second, v);
+    cos_sin_turns<N>(first, second, v);
+    first = radius * first;
+    second = radius * second;
+}
+
+/// The block, of N, that lane k of words and draws belongs to: an order in which store_draws needs no shuffle across
+/// 128 bits.
+template <int N>
+constexpr int block_of_lane(int k) {
+    return N / 4 * (k % 4) + k / 4;
+}
+
+/// The 4 N words of N blocks of Philox in a row: word[i] holds word i of each; see block_of_lane.
+///
+/// @param counter  of the first block; its first word counts up from block to block
+template <int N>
+INSONIFY_INLINE void philox_words(lanes<std::uint32_t, N> (&word)[4], const std::uint32_t (&counter)[4],
+                                  std::uint32_t key_0, std::uint32_t key_1) {
+    if constexpr (N == 1) {
+        std::uint64_t block[4] = {counter[0], counter[1], counter[2], counter[3]};
+        philox_lanes<1>(block, key_0, key_1);
+        for (int i = 0; i < 4; ++i) word[i] = static_cast<std::uint32_t>(block[i]);
+    } else {
+        constexpr int half = N / 2;
+        using doubled = lanes<std::uint64_t, half>;
+        doubled step;
+        gather<half>(step, [](int k) { return static_cast<std::uint64_t>(block_of_lane<N>(k / 2 * 4 + k % 2)); });
+        // First words may exceed 2^32: the rounds ignore upper halves.
+        const doubled first = step + std::uint64_t{counter[0]}, second = doubled{} + std::uint64_t{counter[1]},
+                      third = doubled{} + std::uint64_t{counter[2]}, fourth = doubled{} + std::uint64_t{counter[3]};
+        doubled block[2][4] = {{first, second, third, fourth}, {first + std::uint64_t{half}, second, third, fourth}};
+        philox_rounds<half, 2>(block, key_0, key_1);
+        using words = lanes<std::uint32_t, N>;
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
+            shuffle<N>(word[i], words(block[0][i]), words(block[1][i]),
+                       [](int k) { return k % 4 / 2 * N + k / 4 * 4 + k % 2 * 2; });
+        });
+    }
+}
+
+/// 4 N draws in the order of their words: those of the first block, then those of the next.
+template <int N>
+INSONIFY_INLINE void store_draws(float* into, const lanes<float, N> (&draw)[4]) {
+    if constexpr (N == 1) {
+        for (int i = 0; i < 4; ++i) into[i] = draw[i];
+    } else {
+        lanes<float, N> row[4];
+        transpose_fours<N>(row, draw);
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { store(into + i * N, row[i]); });
+    }
+}
+
+/// Words as whole numbers from -2^31 to 2^31 - 1, rounded to floats.
+template <int N>
+INSONIFY_INLINE void signed_float(lanes<float, N>& into, const lanes<std::uint32_t, N>& bits) {
+    convert(into, lanes<std::int32_t, N>(bits));
+}
+
+/// Uniform in [-1, 1], symmetric to 2^-32.
+template <int N>
+INSONIFY_INLINE void symmetric_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
+    signed_float<N>(into, word ^ std::uint32_t{0x80000000u});
+    into = into * 0x1p-31f;
+}
+
+/// Uniform in (0, 1]: 31 bits, rounded to 24.
+template <int N>
+INSONIFY_INLINE void unit_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
+    signed_float<N>(into, word >> 1);
+    into = (into + 0.5f) * 0x1p-31f;
+}
+
+/// ln u for u = (word + 1/2) / 2^32, with the same relative accuracy near 1 as near 0.
+template <int N>
+INSONIFY_INLINE void log_uniform_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
+    using floats = lanes<float, N>;
+    using ints = lanes<std::int32_t, N>;
+    constexpr std::int32_t root_half = 0x3F3504F3;  // the bits of sqrt(1/2)
+    const ints upper = ints(word) >> 31;
+    floats from_end;  // 0 or 1, whichever is closer
+    convert(from_end, ints(word) ^ upper);
+    from_end = (from_end + 0.5f) * 0x1p-32f;
+    const floats u = upper != 0 ? 1.0f - from_end : from_end;
+    ints bits;
+    std::memcpy(&bits, &u, sizeof bits);
+    const ints shifted = bits - root_half;
+    floats k;
+    convert(k, ints(shifted >> 23));
+    const ints mantissa = (shifted & 0x007FFFFF) + root_half;
+    floats m;
+    std::memcpy(&m, &mantissa, sizeof m);
+    log_lanes<N>(into, k, floats(shifted >= 0 ? 0.0f - from_end : m - 1.0f));
+}
+
+/// sqrt(-2 ln u) of a uniform number: 0 to 6.66.
+template <int N>
+INSONIFY_INLINE void radius_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
+    log_uniform_lanes<N>(into, word);
+    square_root<N>(into, -2.0f * into);
+}
+
+/// Two independent standard normal draws of two words, as normal_pair's.
+template <int N>
+INSONIFY_INLINE void normal_lanes(lanes<float, N>& first, lanes<float, N>& second, const lanes<std::uint32_t, N>& a,
+                                  const lanes<std::uint32_t, N>& b) {
+    lanes<float, N> radius;
+    radius_lanes<N>(radius, a);
+    cos_sin_turns<N>(first, second, b);
     first = radius * first;
     second = radius * second;
 }

@@ -7,7 +7,7 @@
 #include <insonify/core/image.hpp>
 #include <insonify/core/quantize.hpp>
 #include <insonify/core/random.hpp>
-#include <insonify/core/simd/draw_lanes.hpp>
+#include <insonify/core/simd/random_lanes.hpp>
 #include <insonify/filter/concept.hpp>
 
 #include <concepts>

@@ -11,6 +11,7 @@
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/random.hpp>
 #include <insonify/core/simd/dispatch.hpp>
+#include <insonify/core/simd/elementary.hpp>
 #include <insonify/core/simd/lanes.hpp>
 #include <insonify/seabed/model.hpp>
 
@@ -192,14 +193,6 @@ INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
 #endif
 }
 
-/// Largest whole number not above a coordinate whose size is below 2^51.
-template <class Doubles>
-INSONIFY_INLINE void floor_of(Doubles& floor, const Doubles& u) {
-    constexpr double whole = 0x1.8p52;  // added, it leaves the nearest integer in the last bits
-    const Doubles nearest = (u + whole) - whole;
-    floor = nearest > u ? nearest - 1.0 : nearest;
-}
-
 /// N positions on a lattice: the way across their cells in [0, 1], and which cells they are, counted from `first`.
 template <int N>
 INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cell, const double* x, double frequency,
@@ -207,7 +200,7 @@ INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cel
     if constexpr (N == 1) {
         double floor;
         const double u = *x * frequency + offset;
-        floor_of(floor, u);
+        insonify::detail::floor_lanes<1>(floor, u);
         cell = static_cast<std::int32_t>(floor - first);
         across = static_cast<float>(u - floor);
     } else {
@@ -218,7 +211,7 @@ INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cel
             lanes<double, half> u, floor;
             insonify::detail::load(u, x + k * half);
             u = u * frequency + offset;
-            floor_of(floor, u);
+            insonify::detail::floor_lanes<half>(floor, u);
             insonify::detail::convert(name[k], lanes<double, half>(floor - first));
             insonify::detail::convert(part[k], lanes<double, half>(u - floor));
         }

@@ -13,7 +13,7 @@
 // M. V. Berry, M. R. Dennis. Phase Singularities in Isotropic Random Waves. Proc. R. Soc. A 456, 2000 (how many forks).
 #pragma once
 
-#include <insonify/core/simd/random_lanes.hpp>
+#include <insonify/core/simd/elementary.hpp>
 #include <insonify/seabed/detail/lattice.hpp>
 
 #include <array>
@@ -40,23 +40,6 @@ struct ripple_system {
 };
 
 namespace detail::inline INSONIFY_FLAGS {
-
-/// Cosine and sine of 2 pi x for |x| <= 1/2, absolute error < 2e-6, without a branch.
-template <class Lanes>
-INSONIFY_INLINE void turn(Lanes& cosine, Lanes& sine, const Lanes& x) {
-    // Series of the half angle, which stays below pi / 2, and then its double.
-    const Lanes a = x * static_cast<float>(numeric::pi);
-    const Lanes t = a * a;
-    const Lanes s =
-        a *
-        (1.0f + t * (-1.0f / 6 + t * (1.0f / 120 + t * (-1.0f / 5040 + t * (1.0f / 362880 - t * (1.0f / 39916800))))));
-    const Lanes c =
-        1.0f +
-        t * (-0.5f +
-             t * (1.0f / 24 + t * (-1.0f / 720 + t * (1.0f / 40320 + t * (-1.0f / 3628800 + t * (1.0f / 479001600))))));
-    sine = 2.0f * s * c;
-    cosine = 1.0f - 2.0f * s * s;
-}
 
 /// x[i] frequency + offset less the nearest whole number, for N positions.
 template <int N>
@@ -212,8 +195,8 @@ class ripple_train {
                 insonify::detail::load(wave_y, &wave_y_[n]);
                 insonify::detail::load(phase, &phase_[n]);
                 phase = wave_x * x + wave_y * y + phase;
-                floor_of(floor, phase);
-                insonify::detail::circle_lanes<wide>(cosine, sine, phase - floor);
+                insonify::detail::floor_lanes<wide>(floor, phase);
+                insonify::detail::cos_sin_turns<wide>(cosine, sine, phase - floor);
                 lanes<float, wide> narrow;
                 insonify::detail::convert(narrow, cosine);
                 insonify::detail::store(start_re + n, narrow);
@@ -282,7 +265,7 @@ class ripple_train {
 
             lanes<float, N> phase;
             turns<N>(phase, &part.x[i], carrier_x_, across_rows);
-            turn(cosine, sine, phase);
+            insonify::detail::cos_sin_turns<N>(cosine, sine, phase);
             const lanes<float, N> real = a * cosine - b * sine;
             insonify::detail::square_root<N>(magnitude, a * a + b * b + softening * softening);
             // With c = cos arg psi, the profile is (c - s) / (1 - s c): -1 to 1 like c itself, the curvature of its

@@ -103,7 +103,7 @@ class trawl_furrows {
         phase = phase + turns_along;
         phase = phase > 0.5f ? phase - 1.0f : phase;
         phase = phase < -0.5f ? phase + 1.0f : phase;
-        turn(cosine, sine, phase);
+        insonify::detail::cos_sin_turns<N>(cosine, sine, phase);
         off = off - (0.5f + (0.5f - 2 * half_width_) * (0.7f * lot * 0x1p-15f + 0.3f * sine));
         off = (off < 0.0f ? -off : off) * (1 / half_width_);
         if (!insonify::detail::any(ints(off < 2.0f))) return;

@@ -1,6 +1,6 @@
-// Draws in lanes of floats: the draws of random.hpp to their rounding, the same at every instruction set.
+// Random floats over lanes: the draws of random.hpp to a float's rounding, the same at every instruction set.
 #include <insonify/core/random.hpp>
-#include <insonify/core/simd/draw_lanes.hpp>
+#include <insonify/core/simd/random_lanes.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -106,7 +106,7 @@ TEST_CASE("The circle is round to 1.2e-7, at the quarters and their halves too")
     double worst = 0;
     for (std::uint64_t word = 0; word <= 0xFFFFFFFFu; word += 0x3FFFD) {
         float cosine, sine;
-        circle_lanes<1>(cosine, sine, static_cast<std::uint32_t>(word));
+        cos_sin_turns<1>(cosine, sine, static_cast<std::uint32_t>(word));
         const auto [exact_sine, exact_cosine] = in::numeric::sin_cos_turns(static_cast<double>(word) * 0x1p-32);
         worst = std::fmax(worst, std::fmax(std::abs(static_cast<double>(cosine) - exact_cosine),
                                            std::abs(static_cast<double>(sine) - exact_sine)));
