@@ -17,44 +17,44 @@ namespace seabed {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Patches strewn by a noise that exceeds a threshold.
+/// Random patches: where a noise exceeds a threshold.
 struct patches {
-    float coverage = 0.5f;  ///< in [0, 1]: their share of the area, over many patches
+    float coverage = 0.5f;  ///< in [0, 1]: fraction of the area, over many patches
     float size = 12.0f;     ///< metres, > 0: scale of the patches
 };
 
 }  // namespace INSONIFY_FLAGS
 
-/// What is nearer to a point than a radius.
+/// Points within a radius of a centre.
 struct disc {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 5;  ///< metres, >= 0
 };
 
-/// What is nearer to a path than half a width.
+/// Points within half a width of a path.
 struct band {
     std::vector<glm::dvec2> path;  ///< at least one point
     float width = 4;               ///< metres, >= 0
 };
 
-/// What a polygon encloses, by the even-odd rule.
+/// The inside of a polygon, by the even-odd rule.
 struct polygon {
     std::vector<glm::dvec2> corners;  ///< at least three
 };
 
 inline namespace INSONIFY_FLAGS {
 
-/// Where a picture, laid over the world like a heightfield, is above 1/2; interpolated between its pixels, outside as
-/// at its nearest edge. A step from 0 to 1 between two pixels is taken for a border across the spacing.
+/// Where an image, placed in the world like a heightfield, is above 1/2; interpolated between pixels and extended from
+/// its edges. A step from 0 to 1 between two pixels counts as a border of one spacing in width.
 struct stencil {
-    image<float> shares;
+    image<float> coverage;
     glm::dvec2 origin{0.0, 0.0};  ///< of pixel (0, 0), metres
     double spacing = 1;           ///< metres, > 0
 };
 
 }  // namespace INSONIFY_FLAGS
 
-/// Where an edit or a seabed is in force.
+/// Where a layer of `mixed` applies.
 using area = std::variant<patches, disc, band, polygon, stencil>;
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -111,11 +111,11 @@ inline double inside(const stencil& s, const glm::dvec2& p) {
         const int cell = (std::min)(static_cast<int>(held), (std::max)(pixels - 2, 0));
         return place{cell, (std::min)(cell + 1, pixels - 1), held - cell};
     };
-    const auto [x, right, u] = axis((p.x - s.origin.x) / s.spacing, s.shares.width());
-    const auto [y, up, v] = axis((p.y - s.origin.y) / s.spacing, s.shares.height());
-    const auto share = [&](int i, int j) { return static_cast<double>(s.shares(i, j)); };
-    const double low = share(x, y) + u * (share(right, y) - share(x, y));
-    const double high = share(x, up) + u * (share(right, up) - share(x, up));
+    const auto [x, right, u] = axis((p.x - s.origin.x) / s.spacing, s.coverage.width());
+    const auto [y, up, v] = axis((p.y - s.origin.y) / s.spacing, s.coverage.height());
+    const auto value = [&](int i, int j) { return static_cast<double>(s.coverage(i, j)); };
+    const double low = value(x, y) + u * (value(right, y) - value(x, y));
+    const double high = value(x, up) + u * (value(right, up) - value(x, up));
     return (low + v * (high - low) - 0.5) * s.spacing;
 }
 
@@ -139,25 +139,25 @@ inline void validate(const polygon& p) {
     validate_points(p.corners, "polygon.corners", 3);
 }
 inline void validate(const stencil& s) {
-    require(!s.shares.empty(), "stencil.shares.size()", s.shares.size(), "at least 1");
+    require(!s.coverage.empty(), "stencil.coverage.size()", s.coverage.size(), "at least 1");
     require(s.spacing > 0 && s.spacing < 1e6, "stencil.spacing", s.spacing, "metres above 0");
     require(s.origin.x >= -1e9 && s.origin.x <= 1e9, "stencil.origin.x", s.origin.x, "within 1e9 metres");
     require(s.origin.y >= -1e9 && s.origin.y <= 1e9, "stencil.origin.y", s.origin.y, "within 1e9 metres");
-    for (const float share : s.shares.pixels())
-        require(numeric::is_finite(share), "stencil.shares", share, "finite numbers");
+    for (const float value : s.coverage.pixels())
+        require(numeric::is_finite(value), "stencil.coverage", value, "finite numbers");
 }
 
 /// Evaluates an `area` along rows.
 class outline {
   public:
     /// @param border  metres, > 0: the finest detail of the outline
-    /// @param ragged  metres: how far a shape's outline strays
+    /// @param ragged  metres: rms deviation of the outline from the shape
     /// @param layer   selects the random stream, so that outlines of one seed differ
     outline(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
         : shape_(std::move(where)), noise_(roughness_of(shape_, border, ragged), seed, stream::mask, layer) {
         if (const auto* p = std::get_if<patches>(&shape_)) {
             require(p->coverage >= 0 && p->coverage <= 1, "patches.coverage", p->coverage, "0 to 1");
-            // The noise falls by its slope per metre across a border: scaled so, it is about the distance.
+            // Divided by its rms slope, the noise approximates the distance to the border.
             scale_ = static_cast<float>(1 / noise_.rms_slope());
             offset_ = p->coverage <= 0 ? -never
                       : p->coverage >= 1
@@ -188,7 +188,7 @@ class outline {
     }
 
   private:
-    static constexpr float never = 1e30f;  // beyond any value of the noise
+    static constexpr float never = 1e30f;  // above every value of the noise
 
     static roughness roughness_of(const area& where, float border, float ragged) {
         require(border >= 1e-3f && border < 1e6f, "layer.border", border, "metres from 0.001");

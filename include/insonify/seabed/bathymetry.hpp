@@ -1,8 +1,8 @@
 // Readers of surveyed bathymetry: heightfields from Esri ASCII grids and lists of soundings.
 //
-// Pictures of heights (16-bit PGM, PFM) come by `read_netpbm` and `from_image`; text by the parsers here, from whatever
-// `read_file` gives: `parse_esri_grid(read_file("bottom.asc"))`. Cells without data are NaN, which a heightfield leaves
-// out; `fill_gaps` closes them.
+// The parsers take text: `parse_esri_grid(read_file("bottom.asc"))`. For images of heights (16-bit PGM, PFM) use
+// `read_netpbm` and `from_image`. Cells without data are NaN, which are holes of a heightfield; `fill_gaps` closes
+// them.
 //
 // Source: Esri. ASCII Raster Format (ArcGIS documentation, "Esri ASCII raster format").
 #pragma once
@@ -32,7 +32,7 @@ class survey_reader {
         if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;  // byte order mark
     }
 
-    /// The next word, of lines further down too; empty at the end. Commas and semicolons part words like blanks.
+    /// The next word, on this line or a later one; empty at the end. Commas and semicolons separate words like blanks.
     std::string_view word() {
         for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) line_ += ends_line(at_) ? 1u : 0u;
         return word_here();
@@ -94,12 +94,12 @@ class survey_reader {
     std::size_t at_ = 0, line_ = 1;
 };
 
-/// Heights that a float can hold; everything else is no data.
+/// A height within 1000 km; NaN for anything else, such as codes for missing data.
 inline float height_or_nothing(double metres) {
     return metres > -1e6 && metres < 1e6 ? static_cast<float>(metres) : (std::numeric_limits<float>::quiet_NaN)();
 }
 
-inline void require_place(const survey_reader& text, double x, double y) {
+inline void require_position(const survey_reader& text, double x, double y) {
     if (!(x >= -1e9 && x <= 1e9 && y >= -1e9 && y <= 1e9)) text.fail("a position is not within 1e9 metres");
 }
 
@@ -142,20 +142,20 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
         else if (is("nodata_value"))
             no_data = in.number("nodata_value");
         else
-            in.fail("'" + std::string(key.substr(0, 40)) + "' is no word of a grid's head");
+            in.fail("'" + std::string(key.substr(0, 40)) + "' is not a keyword of a grid's header");
     }
     const auto whole = [](double n) {
         return n >= 2 && n <= (1 << 24) && n == static_cast<double>(static_cast<int>(n));
     };
-    if (!whole(columns)) in.fail("ncols is missing or no whole number from 2 to 2^24");
-    if (!whole(rows)) in.fail("nrows is missing or no whole number from 2 to 2^24");
+    if (!whole(columns)) in.fail("ncols is missing or not an integer from 2 to 2^24");
+    if (!whole(rows)) in.fail("nrows is missing or not an integer from 2 to 2^24");
     if (!has_x || !has_y) in.fail("xllcorner or yllcorner is missing");
     if (!(cell > 0 && cell < 1e6)) in.fail("cellsize is missing or not above 0");
-    // A height takes a digit and a blank: a head that promises more than the text can hold costs no memory.
+    // A height takes two characters at least: refuse headers of grids larger than the text before allocating.
     if (columns * rows > static_cast<double>(in.left() / 2 + 1))
         in.fail("the text is too short for ncols x nrows heights");
     const glm::dvec2 origin(x + (corner_x ? 0.5 * cell : 0), y + (corner_y ? 0.5 * cell : 0));
-    detail::require_place(in, origin.x, origin.y);
+    detail::require_position(in, origin.x, origin.y);
 
     heightfield field{
         .heights = image<float>(static_cast<int>(columns), static_cast<int>(rows)), .origin = origin, .spacing = cell};
@@ -170,8 +170,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 }
 
 /// Reads soundings, an `x y z` on each line, onto a grid: each vertex has the mean of the soundings that are nearest to
-/// it, or NaN if there is none. Lines end with LF, CR LF or CR. Lines that don't begin with a number are passed over,
-/// and so is what follows the z.
+/// it, or NaN if there is none. Lines end with LF, CR LF or CR. Lines that do not begin with a number are skipped, and
+/// so is the rest of a line after z.
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
@@ -193,7 +193,7 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
         if (!is_number) continue;
         const double x = in.number(first, "an x"), y = in.number(in.word_of_line(), "a y"),
                      z = in.number(in.word_of_line(), "a z");
-        detail::require_place(in, x, y);
+        detail::require_position(in, x, y);
         const std::int64_t column = numeric::floor_to_int(x / spacing + 0.5),
                            row = numeric::floor_to_int(y / spacing + 0.5);
         left = (std::min)(left, column), right = (std::max)(right, column);
@@ -203,7 +203,7 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     if (soundings.empty()) in.fail("there are no soundings");
     const std::int64_t width = (std::max)(right - left + 1, std::int64_t{2}),
                        height = (std::max)(high - low + 1, std::int64_t{2});
-    // Two soundings at the ends of the world must not cost the world's memory.
+    // Bounds the memory that two distant soundings may cost.
     const double most = (std::min)(1024.0 * static_cast<double>(soundings.size()), 67108864.0);
     if (static_cast<double>(width) * static_cast<double>(height) > most)
         in.fail("the soundings are too far apart, more than 1024 vertices for each or 2^26: take a larger spacing");
@@ -226,9 +226,9 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     return field;
 }
 
-/// Closes gaps from their edges inwards: each missing vertex becomes the mean of those of its eight neighbours that
-/// were known a step before.
-/// @param reach  how many steps, so how many vertices a gap is closed from each side; what is further in stays missing
+/// Closes gaps from their edges inwards: in each step, a missing vertex becomes the mean of those of its eight
+/// neighbours that were known before.
+/// @param reach  number of steps: vertices that a gap is closed by from each side; the rest stays NaN
 /// @throws invalid_input as `validate`, and for a reach below 0
 inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
     validate(field);

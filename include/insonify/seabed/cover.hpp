@@ -48,7 +48,7 @@ class border {
 };
 
 /// The range of samples of a row that have to be evaluated.
-struct extent {
+struct sample_range {
     std::size_t begin, end = 0;
 
     void include(std::size_t i) {
@@ -72,7 +72,7 @@ void lay_over(const outline& where, const border& edge, const Layer& layer, cons
     stretch_values across;
     where.margins(part, across);
     // Away from borders one of the two is all there is to evaluate.
-    extent above{count}, under{count};
+    sample_range above{count}, under{count};
     for (std::size_t i = 0; i < count; ++i) {
         across[i] = edge.across(across[i]);
         if (across[i] > 0) above.include(i);

@@ -57,7 +57,7 @@ class detailed_sampler {
     /// by 1/8 of five quarters more.
     height_range range() const {
         const height_range field = field_->prepare().range();
-        const double over = 0.2813 * (field.highest - field.lowest) + surface_.most();
+        const double over = 0.2813 * (field.highest - field.lowest) + surface_.upper_bound();
         return field.empty() ? field : height_range{field.lowest - over, field.highest + over};
     }
 

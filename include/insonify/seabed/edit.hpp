@@ -1,4 +1,4 @@
-// Edits of a seabed, by hand, plow or current; sculpt.hpp applies them.
+// Edits of a seabed: hills, furrows, ramps, scour, deposits. sculpt.hpp applies them.
 #pragma once
 
 #include <insonify/seabed/area.hpp>
@@ -17,10 +17,10 @@ struct raise {
     float height = 0.1f;  ///< metres, in the middle
 };
 
-/// Pulls the ground to a level.
+/// Levels the ground.
 struct flatten {
     glm::dvec2 centre{0.0, 0.0};
-    float radius = 1;  ///< metres, > 0: of the plain with its edge, which is a quarter of it wide
+    float radius = 1;  ///< metres, > 0: of the plain, whose outer quarter is its edge
     float level = 0;   ///< metres above the datum
 };
 
@@ -31,19 +31,19 @@ struct smooth {
     float length = 0.25f;  ///< metres, > 0; to eight bits, so that its multiples are exact
 };
 
-/// A straight slope between two points, as a slipway.
+/// A straight slope between two points, like a slipway.
 struct ramp {
     glm::dvec2 from{0.0, 0.0}, to{1.0, 0.0};
-    float width = 1;                          ///< metres, > 0: with its edges, each a quarter of it wide
+    float width = 1;                          ///< metres, > 0: with its edges, a quarter of it each
     float from_height = 0, to_height = 0.5f;  ///< metres above the datum
 };
 
-/// A furrow or ridge along a path, or the same mark again and again.
+/// A furrow or ridge along a path, or a row of marks.
 struct stamp {
     std::vector<glm::dvec2> path;  ///< at least one point
     float radius = 0.3f;           ///< metres, > 0: half the width of a furrow, with its edges
     float height = -0.1f;          ///< metres, in the middle; negative to dig
-    float every = 0;               ///< metres along the path from mark to mark; 0: without end
+    float every = 0;               ///< metres along the path from mark to mark; 0: a continuous furrow
 };
 
 /// Scour by a current around a target: a moat, deepest upstream, and two tails of deposited sediment.
@@ -88,20 +88,20 @@ inline float length(double x, double y) {
     return static_cast<float>(numeric::square_root(x * x + y * y));
 }
 
-/// A box around everything that an edit changes.
-struct box {
+/// Bounding rectangle of the ground that an edit changes, metres.
+struct extent {
     glm::dvec2 low, high;
 };
-inline box box_around(const glm::dvec2& centre, double reach) {
+inline extent extent_around(const glm::dvec2& centre, double reach) {
     return {centre - glm::dvec2(reach), centre + glm::dvec2(reach)};
 }
-inline box box_around(const std::vector<glm::dvec2>& points, double reach) {
-    box b = box_around(points.front(), reach);
+inline extent extent_around(const std::vector<glm::dvec2>& points, double reach) {
+    extent all = extent_around(points.front(), reach);
     for (const glm::dvec2& p : points) {
-        b.low = {(std::min)(b.low.x, p.x - reach), (std::min)(b.low.y, p.y - reach)};
-        b.high = {(std::max)(b.high.x, p.x + reach), (std::max)(b.high.y, p.y + reach)};
+        all.low = {(std::min)(all.low.x, p.x - reach), (std::min)(all.low.y, p.y - reach)};
+        all.high = {(std::max)(all.high.x, p.x + reach), (std::max)(all.high.y, p.y + reach)};
     }
-    return b;
+    return all;
 }
 
 inline void require_position(const char* name, const glm::dvec2& p) {
@@ -116,62 +116,62 @@ inline void require_height(const char* name, float value) {
     require(value > -1e6f && value < 1e6f, name, value, "a finite height");
 }
 
-inline box box_of(const raise& e) {
+inline extent extent_of(const raise& e) {
     require_position("raise.centre", e.centre);
     require_metres("raise.radius", e.radius, true);
     require_height("raise.height", e.height);
-    return box_around(e.centre, static_cast<double>(e.radius));
+    return extent_around(e.centre, static_cast<double>(e.radius));
 }
-inline box box_of(const flatten& e) {
+inline extent extent_of(const flatten& e) {
     require_position("flatten.centre", e.centre);
     require_metres("flatten.radius", e.radius, true);
     require_height("flatten.level", e.level);
-    return box_around(e.centre, static_cast<double>(e.radius));
+    return extent_around(e.centre, static_cast<double>(e.radius));
 }
-inline box box_of(const smooth& e) {
+inline extent extent_of(const smooth& e) {
     require_position("smooth.centre", e.centre);
     require_metres("smooth.radius", e.radius, true);
     require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres from 0.001");
-    return box_around(e.centre, static_cast<double>(e.radius));
+    return extent_around(e.centre, static_cast<double>(e.radius));
 }
-inline box box_of(const ramp& e) {
+inline extent extent_of(const ramp& e) {
     require_position("ramp.from", e.from);
     require_position("ramp.to", e.to);
     require_metres("ramp.width", e.width, true);
     require_height("ramp.from_height", e.from_height);
     require_height("ramp.to_height", e.to_height);
     require(e.from != e.to, "ramp.to", e.to.x, "another point than ramp.from");
-    return box_around(std::vector<glm::dvec2>{e.from, e.to}, static_cast<double>(e.width));
+    return extent_around(std::vector<glm::dvec2>{e.from, e.to}, static_cast<double>(e.width));
 }
-inline box box_of(const stamp& e) {
+inline extent extent_of(const stamp& e) {
     require(!e.path.empty(), "stamp.path.size()", e.path.size(), "at least 1");
     for (const glm::dvec2& p : e.path) require_position("stamp.path", p);
     require_metres("stamp.radius", e.radius, true);
     require_height("stamp.height", e.height);
     require_metres("stamp.every", e.every, false);
-    return box_around(e.path, static_cast<double>(e.radius));
+    return extent_around(e.path, static_cast<double>(e.radius));
 }
-inline box box_of(const scour& e) {
+inline extent extent_of(const scour& e) {
     require_position("scour.centre", e.centre);
     require_metres("scour.radius", e.radius, true);
     require_metres("scour.depth", e.depth, false);
     require_metres("scour.width", e.width, true);
     require_metres("scour.tail", e.tail, false);
     require(numeric::is_finite(e.current), "scour.current", e.current, "a finite angle");
-    return box_around(e.centre, static_cast<double>(e.radius) + static_cast<double>(e.width + e.tail));
+    return extent_around(e.centre, static_cast<double>(e.radius) + static_cast<double>(e.width + e.tail));
 }
-inline box box_of(const heap& e) {
+inline extent extent_of(const heap& e) {
     require_position("heap.centre", e.centre);
     require_metres("heap.radius", e.radius, false);
     require_height("heap.level", e.level);
     require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope from 0.001");
     // The ground may be anywhere; a hundred metres below the top it is not looked for.
-    return box_around(e.centre, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
+    return extent_around(e.centre, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
 }
 
-inline box box_of(const moat& e) {
+inline extent extent_of(const moat& e) {
     validate(e);
-    return box_around(e.outline, moat_reach(e));
+    return extent_around(e.outline, moat_reach(e));
 }
 
 /// The height at a position after an edit.

@@ -40,7 +40,7 @@ class flat_sampler {
         });
     }
 
-    height_range range() const { return {-surface_.most(), surface_.most()}; }
+    height_range range() const { return {-surface_.upper_bound(), surface_.upper_bound()}; }
 
   private:
     power_law_noise surface_;

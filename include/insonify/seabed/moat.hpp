@@ -1,4 +1,4 @@
-// Scour around an object that has lain for long: a moat along its outline and a mound of sediment down-current.
+// Scour around an object: a moat along its outline and a mound of sediment down-current.
 //
 // Sources: Richard J. S. Whitehouse. Scour at Marine Structures: A Manual for Practical Applications, 1998 (scour is
 // deepest up-current, and half of that in the lee). G. F. Caston. Wreck marks: indicators of net sand transport. Marine
@@ -18,13 +18,13 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// Scour around a footprint of any outline; `scour` is the same around a round one. The ground below the middle of the
-/// footprint stays, so that what lies on it keeps standing on it.
+/// Scour around a footprint of any outline; see `scour` for round ones. The ground below the middle of the footprint
+/// keeps its height, so that the target still rests on it.
 struct moat {
     std::vector<glm::dvec2> outline{
         {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  ///< of the target on the ground, 3 to 4096 corners
-    float depth = 0.3f;                       ///< metres, >= 0, where the current arrives; half of it in the lee
-    float width = 1.5f;                       ///< metres, > 0: from the outline to where the moat ends
+    float depth = 0.3f;                       ///< metres, >= 0, on the upstream side; half of it in the lee
+    float width = 1.5f;                       ///< metres, > 0: from the outline to the end of the moat
     float current = 0;                        ///< radians from +x: where it flows to
     float mound = 0.15f;                      ///< height of the deposit down-current, metres, >= 0
     float tail = 6;                           ///< its length, metres, >= 0; 0: none
@@ -52,7 +52,7 @@ constexpr double soft_edge(double t) {
     return inside * inside;
 }
 
-/// How far from its outline's corners a moat reaches, at most.
+/// Upper bound of a moat's distance from the corners of its outline.
 inline double moat_reach(const moat& m) {
     // The tail is as wide as the outline, whose corners may all lie to one side of it.
     double square = 0;
@@ -63,7 +63,7 @@ inline double moat_reach(const moat& m) {
     return numeric::square_root(square) + static_cast<double>(m.width) + static_cast<double>(m.tail);
 }
 
-/// How much a moat raises (or, negative, lowers) the ground at a position.
+/// Change of the ground's height at a position, metres.
 inline double moat_change(const moat& m, const glm::dvec2& p) {
     const numeric::sine_cosine flow = numeric::sin_cos(static_cast<double>(m.current));
     // Along the current and across it, of the outline and of the position, from the outline's mean corner.

@@ -65,8 +65,8 @@ class mud_sampler {
     }
 
     height_range range() const {
-        return {marks_.lowest() + trawls_.lowest() - surface_.most(),
-                marks_.highest() + trawls_.highest() + surface_.most()};
+        return {marks_.lowest() + trawls_.lowest() - surface_.upper_bound(),
+                marks_.highest() + trawls_.highest() + surface_.upper_bound()};
     }
 
   private:

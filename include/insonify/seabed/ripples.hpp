@@ -68,8 +68,8 @@ class ripples_sampler {
     detail::ripple_train::phasor psi(double x, double y) const { return first_.psi(x, y); }
 
     height_range range() const {
-        const double most = first_.most() + second_.most() + surface_.most();
-        return {-most, most};
+        const double highest = first_.upper_bound() + second_.upper_bound() + surface_.upper_bound();
+        return {-highest, highest};
     }
 
   private:

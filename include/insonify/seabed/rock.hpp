@@ -25,8 +25,8 @@ struct rock {
     float outcrop = 6.0f;    ///< metres, > 0: from outcrop to outcrop
     float block = 1.4f;      ///< metres, > 0: spacing of the largest blocks, which are 0.6 to 1.8 of it wide
     float smallest = 0.3f;   ///< metres, in (0, block]: spacing of the smallest
-    float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; 2 covers as much by each class
-    float fracture = 0.5f;   ///< in [0, 1]: how many places hold one of the smallest blocks, or of the most frequent
+    float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; at 2 each class covers the same area
+    float fracture = 0.5f;   ///< in [0, 1]: fraction of lattice cells that hold a block of the most frequent size
     float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees
     roughness surface{.rms = 0.012f, .longest = 0.8f, .shortest = 0.08f};
     std::uint64_t seed = 1;
@@ -79,10 +79,10 @@ class rock_sampler {
 
     height_range range() const {
         double blocks = 0;
-        for (const detail::block_layer& layer : blocks_) blocks += layer.most();
+        for (const detail::block_layer& layer : blocks_) blocks += layer.upper_bound();
         // See add_relief: an outcrop's top, and the share of its blocks that stand out of it.
         const double top = 1.00001 * (0.4 * static_cast<double>(relief_) + 0.8 * blocks);
-        return {-surface_.most(), surface_.most() + top};
+        return {-surface_.upper_bound(), surface_.upper_bound() + top};
     }
 
   private:

@@ -23,7 +23,7 @@ class sculpt_sampler;
 /// A seabed and a list of edits. Labels are those of the seabed.
 struct sculpted {
     any ground = flat{};
-    std::vector<edit> edits;  ///< the first is done first
+    std::vector<edit> edits;  ///< applied in this order
 
     /// @throws invalid_input for parameters out of their range
     INSONIFY_TAGGED sculpt_sampler prepare() const;
@@ -40,7 +40,7 @@ class sculpt_sampler {
   public:
     explicit sculpt_sampler(const sculpted& s) : ground_(s.ground.prepare()) {
         for (const edit& e : s.edits)
-            edits_.push_back({e, std::visit([](const auto& held) { return detail::box_of(held); }, e)});
+            edits_.push_back({e, std::visit([](const auto& held) { return detail::extent_of(held); }, e)});
     }
 
     void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
@@ -50,7 +50,7 @@ class sculpt_sampler {
     height_range range() const {
         height_range all = ground_.range();
         for (const bounded_edit& e : edits_)
-            all = std::visit([&](const auto& held) { return detail::range_after(held, all); }, e.done);
+            all = std::visit([&](const auto& held) { return detail::range_after(held, all); }, e.applied);
         return all;
     }
 
@@ -59,10 +59,10 @@ class sculpt_sampler {
     void fill(std::size_t count, const scanline& line, std::span<float> heights, std::span<type> types) const {
         if (count == 0) return ground_.row(line, heights, types);
         fill(count - 1, line, heights, types);
-        const edit& done = edits_[count - 1].done;
-        const detail::box& bounds = edits_[count - 1].bounds;
+        const edit& current = edits_[count - 1].applied;
+        const detail::extent& bounds = edits_[count - 1].bounds;
         if (line.y < bounds.low.y || line.y > bounds.high.y || heights.empty()) return;
-        // Which samples it reaches.
+        // The samples within its bounds.
         std::size_t begin = 0, end = heights.size();
         const auto reached = [&](std::size_t i) { return line.x(i) >= bounds.low.x && line.x(i) <= bounds.high.x; };
         if (line.spacing > 0) {
@@ -88,12 +88,12 @@ class sculpt_sampler {
                         part[i] = detail::height_after(e, {there.x(i), there.y}, part[i]);
                 }
             },
-            done);
+            current);
     }
 
     struct bounded_edit {
-        edit done;
-        detail::box bounds;
+        edit applied;
+        detail::extent bounds;
     };
     any_sampler ground_;
     std::vector<bounded_edit> edits_;

@@ -61,7 +61,7 @@ TEST_CASE("What is no Esri grid is refused with the line and the reason") {
                       ContainsSubstring("ncols"));
     CHECK_THROWS_WITH(read("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2 3 4"),
                       ContainsSubstring("cellsize"));
-    CHECK_THROWS_WITH(read("ncols 2\nwidth 3\n"), ContainsSubstring("'width' is no word"));
+    CHECK_THROWS_WITH(read("ncols 2\nwidth 3\n"), ContainsSubstring("'width' is not a keyword"));
     CHECK_THROWS_WITH(read("ncols 16777216\nnrows 16777216\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2"),
                       ContainsSubstring("too short"));
     CHECK_THROWS_WITH(read("ncols 2\nnrows 2\nxllcorner 1e300\nyllcorner 0\ncellsize 1\n1 2 3 4"),

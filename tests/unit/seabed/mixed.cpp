@@ -113,6 +113,6 @@ TEST_CASE("Layers name the parameter they refuse") {
     CHECK_THROWS_WITH(bed({.where = sb::disc{.radius = -1}}).prepare(), ContainsSubstring("disc.radius is -1"));
     CHECK_THROWS_WITH(bed({.where = sb::band{}}).prepare(), ContainsSubstring("band.path"));
     CHECK_THROWS_WITH(bed({.where = sb::polygon{{{0, 0}, {1, 1}}}}).prepare(), ContainsSubstring("polygon.corners"));
-    CHECK_THROWS_WITH(bed({.where = sb::stencil{}}).prepare(), ContainsSubstring("stencil.shares"));
+    CHECK_THROWS_WITH(bed({.where = sb::stencil{}}).prepare(), ContainsSubstring("stencil.coverage"));
     CHECK_THROWS_WITH(bed({.bottom = sb::rock{.block = 0}}).prepare(), ContainsSubstring("rock.block"));
 }

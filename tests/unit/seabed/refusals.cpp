@@ -78,14 +78,14 @@ TEST_CASE("Each field of blends, layers and areas is refused by name") {
                     {"path", [](auto& o, double v) { o.path[0].y = v; }, not_finite}});
     walk<sb::polygon>("polygon.", {.corners = {{0, 0}, {1, 0}, {0, 1}}}, within,
                       {{"corners", [](auto& o, double v) { o.corners[2].y = v; }, not_finite}});
-    walk<sb::stencil>("stencil.", {.shares = in::image<float>(2, 2)}, within,
+    walk<sb::stencil>("stencil.", {.coverage = in::image<float>(2, 2)}, within,
                       {FIELD(spacing, outside(0, most)),
                        FIELD(origin.x, outside(-1e9, 1e9)),
                        FIELD(origin.y, outside(-1e9, 1e9)),
-                       {"shares", [](auto& o, double v) { o.shares(1, 1) = static_cast<float>(v); }, not_finite}});
+                       {"coverage", [](auto& o, double v) { o.coverage(1, 1) = static_cast<float>(v); }, not_finite}});
     CHECK_THAT(refusal([&] { within(sb::band{}); }), ContainsSubstring("band.path"));
     CHECK_THAT(refusal([&] { within(sb::polygon{{{0, 0}, {1, 0}}}); }), ContainsSubstring("polygon.corners"));
-    CHECK_THAT(refusal([&] { within(sb::stencil{}); }), ContainsSubstring("stencil.shares"));
+    CHECK_THAT(refusal([&] { within(sb::stencil{}); }), ContainsSubstring("stencil.coverage"));
 }
 
 TEST_CASE("Each field of an edit is refused by name") {

@@ -19,20 +19,20 @@ namespace seabed::detail::inline INSONIFY_FLAGS {
 class block_layer {
   public:
     /// @param cell       metres: blocks reach 0.3 to 0.9 of it from their centre
-    /// @param share      in [0, 1]: how many cells hold a block
+    /// @param coverage   in [0, 1]: fraction of the cells that hold a block
     /// @param height     metres: of the highest blocks
     /// @param steepness  slope of the walls
-    block_layer(double cell, float share, float height, float steepness, cell_hash hash)
+    block_layer(double cell, float coverage, float height, float steepness, cell_hash hash)
         : lattice_(lattice::shifted(cell, hash)),
           hash_(hash),
-          share_(static_cast<std::int32_t>(share * 65536)),
+          coverage_(static_cast<std::int32_t>(coverage * 65536)),
           height_(height),
           wall_(steepness * static_cast<float>(cell)) {}
 
-    /// The share of their height that the grid of a stretch carries.
+    /// The fraction of the height that the stretch's grid can carry.
     float carried_by(const stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
 
-    /// Raises the values along a stretch, metres, to those of the blocks: 0 stays 0 between them.
+    /// Raises the values along a stretch, metres, to the tops of the blocks; values between blocks stay.
     template <int N>
     INSONIFY_INLINE void raise(const stretch& part, float* values) const {
         const lattice_coordinate v(lattice_.v(part.y));
@@ -45,23 +45,23 @@ class block_layer {
                     if (!some.look(*this, hash, dy, static_cast<std::uint32_t>(column), first + count - column))
                         continue;
                     for (int k = 0; k < N; ++k)
-                        if (some.there[k] != 0) draw<N>(part, values, column + k, block(*this, some, k));
+                        if (some.is_crossed[k] != 0) draw<N>(part, values, column + k, block(*this, some, k));
                 }
             });
         }
     }
 
-    /// No block is higher, metres: the middle of the widest has 0.9 * 1.1 of the height; a top tilts by half the height
-    /// per cell along each axis, and its corners are 0.975 of a cell away.
-    double most() const { return 1.00001 * (0.99 + 0.5 * 1.41422 * 0.975) * static_cast<double>(height_); }
+    /// Upper bound of the heights, metres: the middle of the widest block has 0.9 * 1.1 of the height; a top tilts by
+    /// half the height per cell along each axis, and its corners are 0.975 of a cell away.
+    double upper_bound() const { return 1.00001 * (0.99 + 0.5 * 1.41422 * 0.975) * static_cast<double>(height_); }
 
   private:
-    /// What a row meets of the blocks of N cells side by side: most cells are done with here.
+    /// Which blocks of N adjacent cells a row crosses; rejects most cells.
     template <int N>
     struct found {
         static constexpr std::size_t size = static_cast<std::size_t>(N);
-        alignas(32) std::int32_t there[size];
-        alignas(32) std::uint32_t lots[size];
+        alignas(32) std::int32_t is_crossed[size];
+        alignas(32) std::uint32_t seeds[size];
         alignas(32) float x[size], y[size], radius[size], chord[size];  // in cells, from the block's centre
 
         INSONIFY_INLINE bool look(const block_layer& layer, const cell_hash::row& hash, float dy, std::uint32_t column,
@@ -84,20 +84,21 @@ class block_layer {
             number_of(along, second);
             number_of(form, words(second << 16));
             up = dy - up;
-            // Middling sizes are the most common.
+            // Medium sizes are the most frequent.
             const floats reach = 0.6f + 1.2f * form * (form < 0.0f ? -form : form);
-            // The corners of an octagon lie 1 / cos(pi / 8) from its centre, at most 0.975 of a cell: none is missed.
+            // The corners of an octagon lie 1 / cos(pi / 8) from its centre, at most 0.975 of a cell: within one
+            // column.
             floats half = reach * reach * 1.1715729f - up * up;
             const ints zero{}, one = zero + 1;
             const auto limit = static_cast<std::uint32_t>((std::min)(most, std::int64_t{N}));
-            const ints lot = ints(first & 0xFFFFu);
-            const ints met = (half > 0.0f ? one : zero) & (lot < layer.share_ ? one : zero) &
-                             (ints(number) < static_cast<std::int32_t>(limit) ? one : zero);
-            if (!insonify::detail::any(ints(met != 0))) return false;
+            const ints chance = ints(first & 0xFFFFu);
+            const ints crossed = (half > 0.0f ? one : zero) & (chance < layer.coverage_ ? one : zero) &
+                                 (ints(number) < static_cast<std::int32_t>(limit) ? one : zero);
+            if (!insonify::detail::any(ints(crossed != 0))) return false;
             half = half > 0.0f ? half : floats{};
             insonify::detail::square_root<N>(half, half);
-            insonify::detail::store(there, met);
-            insonify::detail::store(lots, words(first ^ second));
+            insonify::detail::store(is_crossed, crossed);
+            insonify::detail::store(seeds, words(first ^ second));
             insonify::detail::store(x, along);
             insonify::detail::store(y, up);
             insonify::detail::store(radius, reach);
@@ -106,11 +107,11 @@ class block_layer {
         }
     };
 
-    /// A block as one row sees it: everything that depends on y is already in.
+    /// The cross section of a block along one row; all terms in y are already evaluated.
     struct block {
         template <int N>
         INSONIFY_INLINE block(const block_layer& layer, const found<N>& some, int k) {
-            const std::uint64_t bits = scramble(some.lots[k] * std::uint64_t{0x9E3779B97F4A7C15u});
+            const std::uint64_t bits = scramble(some.seeds[k] * std::uint64_t{0x9E3779B97F4A7C15u});
             const auto part = [&](int shift) {
                 return static_cast<float>(static_cast<std::int16_t>(static_cast<std::uint16_t>(bits >> shift))) *
                        0x1p-15f;
@@ -119,7 +120,7 @@ class block_layer {
             x = 0.5f + some.x[k];
             radius = some.radius[k];
             chord = some.chord[k];
-            // An octagon is the same an eighth of a turn on: cosines of 16 headings up to there.
+            // An octagon repeats every eighth of a turn: 16 headings within one.
             constexpr float headings[] = {1.0f,        0.99879546f, 0.99518473f, 0.98917651f, 0.98078528f, 0.97003125f,
                                           0.95694034f, 0.94154407f, 0.92387953f, 0.90398929f, 0.88192126f, 0.85772861f,
                                           0.83146961f, 0.80320753f, 0.77301045f, 0.74095113f};
@@ -131,17 +132,17 @@ class block_layer {
             u = y * sine;
             v = y * cosine;
             wall = layer.wall_;
-            // Wide blocks are high ones; a tilted top makes one side a ramp and the other a cliff.
+            // Height grows with width; a tilted top makes one side a ramp and the other a cliff.
             const float middle = layer.height_ * radius * (0.7f + 0.4f * part(48));
             tilt = 0.5f * layer.height_ * part(16);
             top = middle + 0.5f * layer.height_ * part(32) * y;
         }
 
-        float x;             // of the centre, in cells from the side of its own
+        float x;             // of the centre, in cells from the left side of its cell
         float cosine, sine;  // of its heading
-        float u, v;          // what y adds to the coordinates along and across the heading
+        float u, v;          // terms of y in the coordinates along and across the heading
         float radius;        // in cells
-        float chord;         // half of what the row cuts out of the circle around it
+        float chord;         // half the row's chord of the circumscribed circle
         float wall;          // metres per cell
         float top, tilt;     // metres at x, and metres per cell along the row
 
@@ -175,7 +176,7 @@ class block_layer {
 
     lattice lattice_;
     cell_hash hash_;
-    std::int32_t share_;  // of 65536
+    std::int32_t coverage_;  // of 65536
     float height_, wall_;
 };
 

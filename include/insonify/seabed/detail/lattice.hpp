@@ -1,8 +1,8 @@
 // World-fixed lattices: cell coordinates of positions, and random bits by cell.
 //
-// Random draws are keyed by lattice cell, so that a place looks the same in any grid, tile or order of evaluation.
-// Cells are found in double; what goes to float is the way across a cell alone, so precision is that of home at 10^7 m
-// from it.
+// Random draws are keyed by lattice cell, so that a position has the same relief in any grid, tile or order of
+// evaluation. Cells are computed in double and only fractions of a cell in float: precision at 10^7 m from the origin
+// is that at the origin.
 //
 // Based on: Guy L. Steele, Doug Lea, Christine H. Flood. Fast Splittable Pseudorandom Number Generators. OOPSLA, 2014
 // (the finaliser "variant 13"). Chris Wellons. Prospecting for Hash Functions. 2018 (the 32-bit finaliser "lowbias32").
@@ -49,7 +49,7 @@ constexpr std::uint64_t scramble(std::uint64_t z) {
 }
 
 /// 64 random bits for each cell of a plane: a pure function of (seed, stream, layer, column, row). Philox draws the
-/// key; the cells themselves are hashed by two finalisers, five times cheaper and the row's shared along it.
+/// key. Two finalisers hash the cell, five times cheaper than Philox; that of the row is evaluated once per row.
 class cell_hash {
   public:
     cell_hash(std::uint64_t seed, stream purpose, std::uint32_t layer = 0) {
@@ -64,8 +64,8 @@ class cell_hash {
         std::uint64_t operator()(std::int64_t column) const {
             return scramble(key_ + static_cast<std::uint64_t>(column) * 0x9E3779B97F4A7C15u);
         }
-        /// 32 bits for each of several columns at once, by the last 32 bits of their numbers: other bits than above,
-        /// which come again after 2^32 columns.
+        /// 32 bits for each of several columns at once, from the last 32 bits of their indices, so with a period of
+        /// 2^32 columns. They differ from those above.
         template <class Columns>
         INSONIFY_INLINE void mixed(Columns& bits, const Columns& columns) const {
             bits = columns ^ static_cast<std::uint32_t>(key_);
@@ -99,7 +99,7 @@ struct lattice {
     double frequency = 1;
     double offset_x = 0, offset_y = 0;
 
-    /// Shifted by its own hash: what is special at lattice lines must not line up over the layers of a sum.
+    /// Shifted by its own hash, so that the lattice lines of a sum's layers do not coincide.
     static lattice shifted(double cell, const cell_hash& hash) {
         const pair_of_bits shift(hash[0x7FFFFFFF](0x7FFFFFFF));
         return {1 / cell, static_cast<double>(shift.a), static_cast<double>(shift.b)};
@@ -108,8 +108,8 @@ struct lattice {
     double v(double y) const { return y * frequency + offset_y; }
 };
 
-/// The nearest length of eight bits: its multiples are exact, so places that are multiples of it are the same in
-/// whatever row they are sampled.
+/// The nearest length of eight bits. Its multiples are exact, so that nodes at multiples of it are the same in every
+/// row.
 inline double eight_bits(double length) {
     double unit = 1;
     while (unit * 256 <= length) unit *= 2;
@@ -117,7 +117,7 @@ inline double eight_bits(double length) {
     return static_cast<double>(numeric::floor_to_int(length / unit + 0.5)) * unit;
 }
 
-/// Where a coordinate lies on a lattice.
+/// A coordinate on a lattice: its cell and the fraction within it.
 struct lattice_coordinate {
     std::int64_t cell;
     float fraction;
@@ -125,7 +125,7 @@ struct lattice_coordinate {
         : cell(numeric::floor_to_int(cells)), fraction(static_cast<float>(cells - static_cast<double>(cell))) {}
 };
 
-/// The part of a row that is processed at a time: its positions, and the last of them again to fill whole vectors.
+/// The part of a row that is processed at a time: its positions, padded with the last to whole vectors.
 struct stretch {
     static constexpr std::size_t padded = chunk;  // which is a multiple of every lane count
 
@@ -136,7 +136,7 @@ struct stretch {
 
     stretch(const scanline& line, std::size_t samples)
         : y(line.y), spacing(line.spacing), grid_spacing(line.grid_spacing), count(samples) {
-        // As line.x(i) has it; counted by fours, so that no sum waits for the one before.
+        // The positions of line.x(i); four independent sums hide the latency of the additions.
         auto number = static_cast<double>(line.first);
         for (std::size_t i = 0; i < whole(); i += 4, number += 4) {
             x[i] = line.origin + line.spacing * number;
@@ -150,7 +150,7 @@ struct stretch {
     std::size_t whole() const { return (count + 15) & ~std::size_t{15}; }
     double last() const { return x[count - 1]; }
 
-    /// The samples that may lie in [low, high], as whole vectors: a few more, never one less.
+    /// The samples that may lie in [low, high], rounded outwards to whole vectors.
     struct range {
         std::size_t begin, end;
     };
@@ -179,7 +179,7 @@ void by_stretches(const scanline& line, std::span<float> heights, Fill&& fill) {
     }
 }
 
-/// Two halves as one vector.
+/// Concatenates two halves.
 template <int N, class Whole, class Half>
 INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
 #if INSONIFY_SIMD
@@ -193,7 +193,7 @@ INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
 #endif
 }
 
-/// N positions on a lattice: the way across their cells in [0, 1], and which cells they are, counted from `first`.
+/// N positions on a lattice: fractions within their cells, in [0, 1], and indices of the cells, counted from `first`.
 template <int N>
 INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cell, const double* x, double frequency,
                             double offset, double first) {
@@ -206,21 +206,21 @@ INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cel
     } else {
         constexpr int half = N / 2;
         lanes<float, half> part[2];
-        lanes<std::int32_t, half> name[2];
+        lanes<std::int32_t, half> index[2];
         for (int k = 0; k < 2; ++k) {
             lanes<double, half> u, floor;
             insonify::detail::load(u, x + k * half);
             u = u * frequency + offset;
             insonify::detail::floor_lanes<half>(floor, u);
-            insonify::detail::convert(name[k], lanes<double, half>(floor - first));
+            insonify::detail::convert(index[k], lanes<double, half>(floor - first));
             insonify::detail::convert(part[k], lanes<double, half>(u - floor));
         }
         join<N>(across, part[0], part[1]);
-        join<N>(cell, name[0], name[1]);
+        join<N>(cell, index[0], index[1]);
     }
 }
 
-/// x[i] frequency + offset as a float, for N positions whose distance from the offset's origin is short.
+/// x[i] frequency + offset for N positions, rounded to float: the sum has to be small.
 template <int N>
 INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double frequency, double offset) {
     if constexpr (N == 1) {
@@ -238,7 +238,7 @@ INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double freq
     }
 }
 
-/// Perlin's quintic: 0 to 1 with two derivatives zero at both ends.
+/// Perlin's quintic: from 0 to 1, first and second derivatives 0 at both ends.
 template <class T>
 INSONIFY_INLINE constexpr void fade(T& into, const T& t) {
     into = t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);

@@ -1,9 +1,9 @@
 // Selects the vertices of a heightfield that a mesh needs for a given tolerance.
 //
-// The hierarchy halves right triangles at the middle of their longest side. A middle is a vertex of the grid, and the
-// two triangles on its sides are halved together or not at all: so no vertex ever lies on another triangle's side, and
-// nothing needs stitching. Whether a triangle may stay whole is measured against every height below it, from small
-// triangles to large ones; where one had to be halved, all that contain it are.
+// The hierarchy bisects right triangles at the midpoint of their longest side. The midpoint is a vertex of the grid,
+// and the two triangles that share the side are bisected together: the mesh has no T-junctions. Whether a triangle may
+// stay whole is tested against every height within it, from small triangles to large ones; a bisected triangle forces
+// the bisection of all that contain it.
 //
 // Based on: William Evans, David Kirkpatrick, Gregg Townsend. Right-Triangulated Irregular Networks. Algorithmica 30,
 // 2001.
@@ -32,9 +32,9 @@ struct tolerance {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Which vertices of a heightfield a mesh needs. Vertices of the hierarchy are the middles of longest sides: those of a
-/// step s have their lowest set bit at s in one coordinate ("edges", the side lies along an axis) or in both
-/// ("centres", it is a diagonal).
+/// Flags the vertices of a heightfield that a mesh needs. Vertices of the hierarchy are midpoints of longest sides. At
+/// step s, the lowest set bit of one coordinate is s ("edges": the side lies along an axis) or that of both is
+/// ("centres": the side is a diagonal).
 class needed_vertices {
   public:
     template <executor E>
@@ -58,8 +58,8 @@ class needed_vertices {
     /// Cells along a side of the hierarchy's square.
     int size() const { return size_; }
 
-    /// Whether the diagonal that the hierarchy gives to the square of a vertex (x, y) of this step runs from its lowest
-    /// to its highest corner. It leads to the middle of the square that this one is a quarter of.
+    /// Whether the hierarchy's diagonal of the square around a centre (x, y) of this step rises from its lower left
+    /// corner. It points to the centre of the parent square.
     static bool rises(int x, int y, int step) { return ((x ^ y) & (2 * step)) == 0; }
 
     /// The step of the hierarchy's vertices, 0 at its corners.
@@ -100,7 +100,7 @@ class needed_vertices {
 
     bool is_centre_needed(int x, int y, int s) const {
         if (needed(x - s, y) || needed(x + s, y) || needed(x, y - s) || needed(x, y + s)) return true;
-        if (x + s > columns_ || y + s > rows_) return true;  // a part of it is beyond the field
+        if (x + s > columns_ || y + s > rows_) return true;  // partly outside of the field
         const double height = height_allowed({x - s, y - s}, {x + s, y + s});
         const bool up = rises(x, y, s);
         const point a{x - s, up ? y - s : y + s}, b{x + s, up ? y + s : y - s};
@@ -113,7 +113,7 @@ class needed_vertices {
             if (needed(x - h, y - h) || needed(x + h, y - h) || needed(x - h, y + h) || needed(x + h, y + h))
                 return true;
         }
-        // The longest side lies along x or y, a triangle on either side of it.
+        // The longest side lies along x or y, with a triangle on either side.
         const bool along_x = (x & s) != 0;
         const point reach = along_x ? point{s, 0} : point{0, s};
         const point a{x - reach.x, y - reach.y}, b{x + reach.x, y + reach.y};
@@ -121,14 +121,14 @@ class needed_vertices {
         for (const int side : {-s, s}) {
             const point tip = along_x ? point{x, y + side} : point{x + side, y};
             if (tip.x < 0 || tip.y < 0 || (along_x ? (side > 0 && y == rows_) : (side > 0 && x == columns_))) continue;
-            if (!inside(b.x, b.y) || !inside(tip.x, tip.y)) return true;  // a part of it is beyond the field
+            if (!inside(b.x, b.y) || !inside(tip.x, tip.y)) return true;  // partly outside of the field
             if (!fits(a, b, tip, height)) return true;
         }
         return false;
     }
 
-    /// A cell whose diagonal falls, drawn as one half of small triangles and one of a larger one: where it matters
-    /// which diagonal it is, both halves have to be small. Then they are cut as the heightfield is.
+    /// Cells with a falling diagonal, of which one half belongs to a larger triangle: where the choice of the diagonal
+    /// exceeds the tolerance, both halves become small triangles, with the heightfield's own diagonal.
     void pair_up_cells() {
         for (bool changed = true; changed;) {
             changed = false;
@@ -152,7 +152,7 @@ class needed_vertices {
         return static_cast<double>(off) <= allowed && static_cast<double>(-off) <= allowed;
     }
 
-    /// What a triangle in a box may be off by: the least of its corners.
+    /// Height tolerance of triangles in a box: the least over its corners.
     double height_allowed(const point& low, const point& high) const {
         if (!(allowed_.lean < (std::numeric_limits<double>::infinity)())) return allowed_.height;
         const auto farthest = [](double a, double b) { return (std::max)(a * a, b * b); };
@@ -163,11 +163,11 @@ class needed_vertices {
         return allowed_.height * distance > allowed_.lean ? allowed_.lean / distance : allowed_.height;
     }
 
-    /// Whether the triangle (a, b, tip), its longest side from a to b, may stand for all that lies below it.
+    /// Whether the triangle (a, b, tip), with its longest side from a to b, is within tolerance of all samples in it.
     bool fits(const point& a, const point& b, const point& tip, double height) const {
         const double slope = allowed_.slope * field_.spacing;
         const bool check_slopes = !slope_x_.empty();
-        // Most of those that don't fit are off in the middle of a side, and the smallest have no other vertices.
+        // Most rejections are at the midpoint of a side, and the smallest triangles have no other vertices.
         const auto middles_fit = [&](const image<float>& values, double allowed) {
             return fits_middle(values, a, b, allowed) && fits_middle(values, b, tip, allowed) &&
                    fits_middle(values, tip, a, allowed);
@@ -201,7 +201,7 @@ class needed_vertices {
     static bool each_row(const point& a, const point& b, const point& c, const Visit& visit) {
         struct side {
             point low;
-            int top, lean;  // to the right, for each row up
+            int top, lean;  // lean: columns to the right per row
             side(const point& p, const point& q) : low(p.y < q.y ? p : q), top((std::max)(p.y, q.y)) {
                 const int across = (p.y < q.y ? q.x : p.x) - low.x;
                 lean = across > 0 ? 1 : across < 0 ? -1 : 0;  // sides are level, upright or diagonal
@@ -222,11 +222,11 @@ class needed_vertices {
         return true;
     }
 
-    /// The plane through the values at three vertices, and how far others may be from it.
+    /// The plane through the values at three vertices, with the tolerance of others.
     class plane {
       public:
         plane(const image<float>& values, double allowed, const point& a, const point& b, const point& c)
-            : values_(values), from_(a), most_(static_cast<float>(allowed)) {
+            : values_(values), from_(a), tolerance_(static_cast<float>(allowed)) {
             if (values.empty()) return;
             const auto abx = static_cast<float>(b.x - a.x), aby = static_cast<float>(b.y - a.y);
             const auto acx = static_cast<float>(c.x - a.x), acy = static_cast<float>(c.y - a.y);
@@ -251,13 +251,13 @@ class needed_vertices {
                 floats value;
                 load(value, row + x);
                 const floats off = value - (start + dx_ * (across + static_cast<float>(x - from_.x)));
-                const ints fit = (off <= most_) & (-off <= most_);
+                const ints fit = (off <= tolerance_) & (-off <= tolerance_);
                 const ints missed = fit == 0;
                 if (insonify::detail::any(missed)) return false;
             }
             for (; x <= last; ++x) {
                 const float off = row[x] - (start + dx_ * static_cast<float>(x - from_.x));
-                if (!(off <= most_ && -off <= most_)) return false;
+                if (!(off <= tolerance_ && -off <= tolerance_)) return false;
             }
             return true;
         }
@@ -265,10 +265,10 @@ class needed_vertices {
       private:
         const image<float>& values_;
         point from_;
-        float most_, at_ = 0, dx_ = 0, dy_ = 0;
+        float tolerance_, at_ = 0, dx_ = 0, dy_ = 0;
     };
 
-    /// A falling side cuts cells in the middle, where the heightfield has its own, rising diagonals.
+    /// A falling side crosses the rising diagonals of the heightfield's cells at their midpoints.
     bool fits_falling(const point& p, const point& q, double allowed) const {
         const int length = q.x - p.x;
         if (length != p.y - q.y || length == 0) return true;

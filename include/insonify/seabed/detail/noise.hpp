@@ -1,7 +1,7 @@
 // Gradient noise on the world's lattice, and power-law relief made of its octaves.
 //
-// Along a row, the height of a cell's noise is a fixed pair of lines blended by the fade curve, so hashing and the
-// whole y direction are paid for once per cell crossed, not once per sample.
+// Along a row, the noise within a cell is two straight lines blended by the fade curve. Gradients are hashed and
+// blended over y once per cell, not once per sample.
 //
 // Based on: Ken Perlin. Improving Noise. SIGGRAPH, 2002 (gradients on a lattice, quintic fade).
 #pragma once
@@ -19,19 +19,19 @@ namespace seabed::inline INSONIFY_FLAGS {
 /// Gradient noise: mean 0, variance 1, twice differentiable, waves of about one to three cells.
 class gradient_noise {
   public:
-    /// Brings the variance to 1: that of the sum over the corners is 8/3 (181/462) (535/18018) for gradients uniform in
-    /// the square, by integrating the squared weights over the cell.
+    /// Scales the variance to 1. The sum over the corners has a variance of 8/3 (181/462) (535/18018) for gradients
+    /// uniform in a square, the integral of the squared weights over the cell.
     static constexpr float gain = 5.6777169f;
-    /// What it never exceeds. Along each axis the corners weigh fade(t) and 1 - fade(t), and a gradient of 1 gives t or
-    /// 1 - t there: t + fade(t) (1 - 2 t) at most, which is 1/2 in the middle and less elsewhere; both axes make 1.
-    static constexpr double most = 1.00001 * static_cast<double>(gain);
+    /// Upper bound of the absolute value. Along each axis the corners have weights fade(t) and 1 - fade(t), and a
+    /// gradient of 1 contributes t or 1 - t: at most t + fade(t) (1 - 2 t) <= 1/2, so both axes together add up to 1.
+    static constexpr double upper_bound = 1.00001 * static_cast<double>(gain);
     /// Mean square of the gradient, times the square of the cell: 324744/19367, by the same integral.
     static constexpr float mean_square_slope = 16.767904f;
 
     /// @param cell  metres, > 0
     gradient_noise(double cell, detail::cell_hash hash) : lattice_(detail::lattice::shifted(cell, hash)), hash_(hash) {}
 
-    /// The share of it that the grid of a stretch carries; a cell is about half a wave.
+    /// The fraction of the amplitude that the stretch's grid can carry; a cell is about half a wavelength.
     float carried_by(const detail::stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
 
     /// Adds `amplitude` times the noise along a stretch to its values.
@@ -42,13 +42,13 @@ class gradient_noise {
                                  amplitude * gain};
         const std::int64_t first = numeric::floor_to_int(lattice_.u(part.x[0]));
         const std::int64_t last = numeric::floor_to_int(lattice_.u(part.x[part.whole() - 1])) + 1;
-        const bool dense = last - first < most_columns;
-        alignas(32) side sides[most_columns + 16];
+        const bool dense = last - first < table_size;
+        alignas(32) side sides[table_size + 16];
         if (dense) line.template tabulate<N>(sides, static_cast<std::uint32_t>(first), static_cast<int>(last - first));
 
         for (std::size_t i = 0; i < part.whole(); i += N) {
             using insonify::detail::lane;
-            lanes<float, N> across, share, sum, corner[4];  // height and slope at both sides of the cell
+            lanes<float, N> across, weight, sum, corner[4];  // height and slope at both sides of the cell
             lanes<std::int32_t, N> cell;
             const auto fetch = [&](const side* from) INSONIFY_INLINE_LAMBDA {
                 if constexpr (N == 1)
@@ -68,7 +68,7 @@ class gradient_noise {
                     fetch(sides);
                 }
             } else {
-                // So wide apart that each sample has its own columns.
+                // Samples are so far apart that each has its own columns.
                 for (int k = 0; k < N; ++k) {
                     const detail::lattice_coordinate u(lattice_.u(part.x[i + static_cast<std::size_t>(k)]));
                     line.template tabulate<1>(sides + 2 * k, static_cast<std::uint32_t>(u.cell), 1);
@@ -79,9 +79,9 @@ class gradient_noise {
             }
             const lanes<float, N> left = corner[0] + corner[1] * across,
                                   right = corner[2] + corner[3] * (across - 1.0f);
-            detail::fade(share, across);
+            detail::fade(weight, across);
             insonify::detail::load(sum, values + i);
-            sum = sum + (left + share * (right - left));
+            sum = sum + (left + weight * (right - left));
             insonify::detail::store(values + i, sum);
         }
     }
@@ -96,11 +96,11 @@ class gradient_noise {
     struct side {
         float height, slope;
     };
-    static constexpr std::int64_t most_columns = 512;  // beyond that, samples lie in cells of their own
+    static constexpr std::int64_t table_size = 512;  // columns; samples of wider rows lie in cells of their own
 
     struct line_of_cells {
         detail::cell_hash::row below, above;
-        float up, rise, gain;  // the row's way up in its cells, its fade, and what to multiply by
+        float up, rise, gain;  // the row's fraction within its cells, the fade of it, and the scale
 
         template <int N>
         INSONIFY_INLINE void sides_of(lanes<float, N>& height, lanes<float, N>& slope, const words<N>& column) const {
@@ -191,10 +191,10 @@ class power_law_noise {
     /// Adds the relief along a stretch to its values, metres.
     void add(const detail::stretch& part, detail::stretch_values& values, isa level = best_isa()) const;
 
-    /// What is added is never above this, nor below its negative, metres.
-    double most() const {
+    /// Upper bound of the relief's absolute value, metres.
+    double upper_bound() const {
         double sum = 0;
-        for (const octave& o : octaves_) sum += static_cast<double>(o.amplitude) * gradient_noise::most;
+        for (const octave& o : octaves_) sum += static_cast<double>(o.amplitude) * gradient_noise::upper_bound;
         return sum;
     }
 
@@ -217,7 +217,7 @@ class power_law_noise {
         INSONIFY_INLINE void run() const {
             for (const octave& o : noise.octaves_) {
                 const float kept = o.noise.carried_by(part);
-                if (kept == 0) break;  // nor the finer ones
+                if (kept == 0) break;  // finer octaves are not carried either
                 o.noise.template add<N>(part, kept * o.amplitude, values);
             }
         }

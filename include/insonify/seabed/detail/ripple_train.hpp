@@ -1,12 +1,12 @@
 // One system of sand ripples: crests of equal height that meander, end and fork, as wave-made ripples do.
 //
-// A Gaussian random field of ripples fades in and out, which real ones don't. Here the phase of such a field,
+// The amplitude of a Gaussian random field varies; that of real ripples does not. Here the phase of such a field,
 // psi(x) = sum_n exp i(k_n . x + phi_n), drives a profile of constant amplitude: height = (eta / 2) cos arg psi. Crests
 // fork at the zeros of psi, around which the phase winds once.
 //
-// The carrier exp(i k_0 . x) is divided out of psi. What is left varies slowly, so along a row it is summed on a
-// lattice several times coarser than the ripples and interpolated; across rows it is exact. The lattice is the world's:
-// a height depends on seed and position alone.
+// The envelope psi exp(-i k_0 . x) varies slowly. Along a row it is summed on a lattice several times coarser than the
+// ripples and interpolated; across rows it is exact. The lattice is fixed to the world: a height depends on seed and
+// position alone.
 //
 // Based on: Dajun Tang, Frank S. Henyey, Brian T. Hefner, Peter A. Traykovski. Simulating Realistic-Looking Sediment
 // Ripple Fields. IEEE Journal of Oceanic Engineering 34, 2009 (why ripples are not Gaussian).
@@ -24,16 +24,17 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// What ripples of one kind are like. Ripples that waves make are 0.05 to 1.5 m long and 0.05 to 0.2 times as high.
+/// Parameters of one system of ripples. Wave ripples are 0.05 to 1.5 m long and 0.05 to 0.2 times as high.
 ///
-/// They fork 2 pi spread bandwidth / wavelength^2 times per square metre.
+/// Crests fork 2 pi spread bandwidth / wavelength^2 times per square metre.
 struct ripple_system {
     float wavelength = 0.8f;  ///< metres, > 0: from crest to crest
     float steepness = 0.11f;  ///< in [0, 0.5]: height from trough to crest, over the wavelength
     float direction = 0;      ///< radians from +x: where the wave vector points, across the crests
-    float spread = 0.09f;     ///< radians, in [0, 0.5]: standard deviation of the direction; more of it, more forks
+    float spread = 0.09f;     ///< radians, in [0, 0.5]: standard deviation of the direction; forks grow with it
     float bandwidth = 0.09f;  ///< in [0, 0.25]: relative standard deviation of the wave number
-    float sharpness = 0.25f;  ///< in [0, 0.9]: 0 is sinusoidal, more is narrower crests and wider troughs: trochoidal
+    float sharpness =
+        0.25f;  ///< in [0, 0.9]: 0 is sinusoidal; larger is trochoidal, with narrow crests and wide troughs
 
     INSONIFY_MEMBER float height() const { return steepness * wavelength; }
     friend bool operator==(const ripple_system&, const ripple_system&) = default;
@@ -41,7 +42,7 @@ struct ripple_system {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// x[i] frequency + offset less the nearest whole number, for N positions.
+/// x[i] frequency + offset minus the nearest integer, for N positions.
 template <int N>
 INSONIFY_INLINE void turns(lanes<float, N>& into, const double* x, double frequency, double offset) {
     constexpr double whole = 0x1.8p52;  // added, it leaves the nearest integer in the last bits
@@ -72,8 +73,8 @@ class ripple_train {
   public:
     static constexpr std::size_t waves = 32;
 
-    /// Softens the zeros of psi, as a share of its rms: the amplitude dips to nothing at the very fork, over a few
-    /// hundredths of a wavelength more than a phase jump would, and slopes stay bounded.
+    /// Regularizes the zeros of psi, relative to its rms: the amplitude falls to zero at a fork within a few hundredths
+    /// of a wavelength, and slopes stay bounded.
     static constexpr float softening = 0.15f;
 
     /// @param name  of the system, for errors
@@ -91,11 +92,11 @@ class ripple_train {
     /// Adds the relief along a stretch to its values, metres.
     void add(const stretch& part, stretch_values& values, isa level = best_isa()) const;
 
-    /// What is added is never above this, nor below its negative, metres: the profile is within [-1, 1] of half the
-    /// height, but for the carrier's error of 2e-6, which the sharpest crests multiply by 19.
-    double most() const { return 1.0001 * static_cast<double>(half_height_); }
+    /// Upper bound of the relief's absolute value, metres: the profile is within half the height, up to the carrier's
+    /// error of 2e-6, which the sharpest crests multiply by 19.
+    double upper_bound() const { return 1.0001 * static_cast<double>(half_height_); }
 
-    /// psi at a point, its waves summed in full: mean square 1, phase that of the crests, zeros where they fork.
+    /// psi at a point, summed without interpolation: mean square 1, the phase of the crests, zeros at their forks.
     struct phasor {
         double re, im;
     };
@@ -113,11 +114,10 @@ class ripple_train {
 
   private:
     static constexpr std::size_t block = 32;    // lattice points whose rotations are tabulated
-    static constexpr std::size_t points = 256;  // the most that a stretch shares
+    static constexpr std::size_t points = 256;  // size of the table that a stretch shares
 
     void draw_waves(const ripple_system& r, random_sequence draw) {
-        // The k-th direction goes with a wave number from any of as many strata: so few waves have the moments asked
-        // for.
+        // Latin hypercube sampling of direction and wave number: few waves suffice for the moments asked for.
         std::array<double, waves> strata{};
         for (std::uint32_t n = 0; n < waves; ++n) {
             const std::uint32_t other = draw.below(n + 1);
@@ -140,8 +140,8 @@ class ripple_train {
             largest = (std::max)(largest, numeric::abs(wave_x_[n]));
         }
 
-        // Space the lattice so that the fastest wave turns by a sixteenth per step: cubic interpolation then errs by
-        // less than 0.0006 of it.
+        // The fastest wave turns by a sixteenth per lattice step: cubic interpolation is then off by less than 0.0006
+        // of its amplitude.
         step_ = (std::min)(static_cast<double>(r.wavelength), 1 / (16 * (std::max)(largest, 1e-6 * frequency)));
         const double scale = numeric::square_root(1.0 / static_cast<double>(waves));
         for (std::size_t n = 0; n < waves; ++n) {
@@ -157,8 +157,8 @@ class ripple_train {
         }
     }
 
-    /// Mean 0, standard deviation 1, never beyond 2.45, from a uniform number: the tails of a normal would only widen
-    /// the band.
+    /// A triangular variable of mean 0 and standard deviation 1 from a uniform one. It is bounded by 2.45; the tails of
+    /// a normal one would widen the band.
     static double triangular(double u) {
         const double side = u < 0.5 ? numeric::square_root(2 * u) - 1 : 1 - numeric::square_root(2 - 2 * u);
         return side * 2.449489742783178;
@@ -177,7 +177,7 @@ class ripple_train {
         }
     };
 
-    /// psi without its carrier at `count` points of the lattice; writes to whole vectors.
+    /// The envelope at `count` points of the lattice; writes whole vectors.
     template <int N>
     INSONIFY_INLINE void envelope(float* re, float* im, std::int64_t from, double y, std::size_t count) const {
         for (std::size_t done = 0; done < count;) {
@@ -226,7 +226,7 @@ class ripple_train {
     INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
         using insonify::detail::lane;
         const double frequency = 1 / step_, across_rows = carrier_y_ * part.y;
-        // What sharpens crests has half their wavelength.
+        // The harmonic that sharpens crests has half their wavelength.
         const float half_height = half_height_ * carried(wavelength_, part.grid_spacing);
         const float sharpness = sharpness_ * carried(wavelength_ / 2, part.grid_spacing);
         const std::int64_t first = numeric::floor_to_int(part.x[0] * frequency) - 1;
@@ -242,7 +242,7 @@ class ripple_train {
             if (dense) {
                 locate<N>(across, cell, &part.x[i], frequency, 0, static_cast<double>(first));
             } else {
-                // So wide apart that each sample has a stencil of its own.
+                // Samples are so far apart that each has its own stencil.
                 for (int k = 0; k < N; ++k) {
                     const lattice_coordinate u(part.x[i + static_cast<std::size_t>(k)] * frequency);
                     envelope<N>(&table_re[static_cast<std::size_t>(4 * k)], &table_im[static_cast<std::size_t>(4 * k)],

@@ -9,16 +9,16 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed::detail::inline INSONIFY_FLAGS {
 
-/// Calls `visit(first, count)` for runs of columns of a lattice, which together hold each column from which something
-/// reaches a sample of the stretch once, in rising order.
-/// @param reach  how many columns a thing reaches beyond its own
+/// Calls `visit(first, count)` for runs of lattice columns whose features may reach a sample of the stretch: each such
+/// column once, in rising order.
+/// @param reach  columns that a feature extends beyond its own
 template <class Visit>
 INSONIFY_INLINE void visit_columns(const lattice& l, const stretch& part, std::int64_t reach, Visit&& visit) {
     const std::int64_t first = numeric::floor_to_int(l.u(part.x[0])), last = numeric::floor_to_int(l.u(part.last()));
     const bool sparse = last - first > 4 * static_cast<std::int64_t>(part.count);
     std::int64_t next = first - reach;
     for (std::size_t i = sparse ? 0 : part.count - 1; i < part.count; ++i) {
-        // Columns between samples that are far apart reach none.
+        // Where samples are far apart, columns between them reach none.
         const std::int64_t column = numeric::floor_to_int(l.u(part.x[i]));
         if (sparse) next = (std::max)(next, column - reach);
         const std::int64_t count = column + reach + 1 - next;
@@ -32,8 +32,8 @@ class round_marks {
   public:
     round_marks() = default;
     /// @param cell          metres
-    /// @param filled, high  how many cells hold a mark, and how many of those that do a mound, as shares of all cells
-    /// @param mound, pock   metres: of the largest
+    /// @param filled, high  fractions of all cells that hold a mark, and that hold a mound
+    /// @param mound, pock   height and depth of the largest, metres
     round_marks(double cell, float filled, float high, float mound, float pock, cell_hash hash)
         : hash_(hash), filled_(filled), high_(high), mound_(mound), pock_(-pock) {
         lattice_.frequency = 1 / cell;

@@ -1,7 +1,7 @@
 // Furrows of trawl boards: long, nearly straight, in a few directions.
 //
-// Boats of one direction go side by side in lanes that meander a little; a lane holds one furrow, which comes and goes
-// along it. The spoil lies in a low berm on either side.
+// Furrows of one direction run in parallel, slightly meandering strips. A strip holds one furrow with gaps along it.
+// The spoil lies in a low berm on either side.
 #pragma once
 
 #include <insonify/seabed/detail/lattice.hpp>
@@ -15,13 +15,13 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// What trawls leave. Doors dig 0.05 to 0.3 m deep and 0.2 to 2 m wide.
+/// Furrows of trawl doors, 0.05 to 0.3 m deep and 0.2 to 2 m wide.
 struct trawl_marks {
     float density = 0;    ///< furrows per metre that one crosses, in [0, 1 / (4 width)]; 0 for none
     float depth = 0.06f;  ///< metres, >= 0
     float width = 0.5f;   ///< metres, > 0: between the tops of the berms
-    int directions = 2;   ///< 1 to 8: in which boats work
-    float length = 150;   ///< metres, > 0: about how long a furrow is
+    int directions = 2;   ///< 1 to 8: number of directions of towing
+    float length = 150;   ///< metres, > 0: typical length of a furrow
 
     friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
 };
@@ -42,7 +42,7 @@ class trawl_furrows {
         if (t.density == 0 || t.depth == 0) return;
         random_sequence draw(seed, static_cast<std::uint32_t>(stream::trawls));
         const double turn = draw.uniform();
-        // Half of the places along a lane have a furrow.
+        // A furrow is present along half of its strip.
         const double lane = 0.5 * t.directions / static_cast<double>(t.density);
         for (int n = 0; n < t.directions; ++n) {
             const auto heading = numeric::sin_cos_turns(turn + 0.5 * (n + 0.6 * draw.uniform()) / t.directions);
@@ -56,12 +56,12 @@ class trawl_furrows {
         if (!families_.empty()) dispatch(kernel{*this, part, values.data()}, level);
     }
 
-    /// The deepest furrows cross where the highest berms do not, metres.
+    /// Bounds of the relief where furrows, or berms, of all directions cross, metres.
     double lowest() const { return -1.00001 * static_cast<double>(families_.size()) * static_cast<double>(depth_); }
     double highest() const { return -0.3 * lowest(); }
 
   private:
-    /// Boats of one direction.
+    /// Furrows of one direction.
     struct family {
         double cosine, sine, per_lane, per_length, per_bend;  // the last three per metre
     };
@@ -97,7 +97,7 @@ class trawl_furrows {
         hash_[static_cast<std::int64_t>(n)].mixed(bits, words(words(cell) + static_cast<std::uint32_t>(first)));
         insonify::detail::convert(lot, ints(ints(bits << 16) >> 16));
         insonify::detail::convert(bends, ints(ints(bits) >> 16));
-        // Each lane's furrow bends by itself and keeps clear of the lane's sides: no neighbour needs to be looked at.
+        // A furrow stays within its strip, so that a sample meets one furrow at most.
         lanes<float, N> turns_along, phase = bends * 0x1p-16f;
         turns<N>(turns_along, &part.x[i], f.cosine * f.per_bend, part.y * f.sine * f.per_bend);
         phase = phase + turns_along;
@@ -114,13 +114,13 @@ class trawl_furrows {
         }
     }
 
-    /// @param lot     random bits of the lane
+    /// @param bits    random bits of the strip
     /// @param off     half widths from the furrow's middle
     /// @param along   metres
-    float depth_at(const family& f, std::size_t n, std::uint32_t lot, float off, double along) const {
-        // The way along a lane is cut at whole lengths; each has a furrow or none, faded where the other begins.
-        const lattice_coordinate u(along * f.per_length + static_cast<double>(lot) * 0x1p-32);
-        const cell_hash::row presence = hash_[static_cast<std::int64_t>((std::uint64_t{lot} << 8) + n + 64)];
+    float depth_at(const family& f, std::size_t n, std::uint32_t bits, float off, double along) const {
+        // A strip is divided into lengths with or without a furrow, faded where they meet.
+        const lattice_coordinate u(along * f.per_length + static_cast<double>(bits) * 0x1p-32);
+        const cell_hash::row presence = hash_[static_cast<std::int64_t>((std::uint64_t{bits} << 8) + n + 64)];
         const auto present = [&](std::int64_t cell) { return (presence(cell) & 1) != 0 ? 1.0f : 0.0f; };
         const float strength = mix(present(u.cell), present(u.cell + 1), fade(clamp01(8 * u.fraction - 7)));
         // A bowl down to -1 that rises to a berm of 0.3, which ends at twice the half width.
