@@ -1,5 +1,4 @@
-// How far a target's shadow reaches on a level bottom, from its vertices: the closed form that measured shadows are
-// compared with.
+// Length of a target's shadow on a level bottom, in closed form from its vertices, to compare measured shadows with.
 #pragma once
 
 #include <insonify/insonify.hpp>

@@ -1,4 +1,4 @@
-// A progress bar with rate and time left: on a terminal alone, nothing of it in a log.
+// A progress bar with rate and remaining time, drawn only on terminals.
 #pragma once
 
 #include <chrono>

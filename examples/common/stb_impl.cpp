@@ -1,5 +1,5 @@
-// The one translation unit that implements stb's PNG writer and image reader for the examples. With libdeflate, PNG
-// files are packed by it instead of by stb's own packer, which takes most of a data set's time and leaves larger files.
+// Implements stb's PNG writer and image reader for the examples. Where available, libdeflate compresses PNG files:
+// stb's own compressor would take most of a data set's time and make larger files.
 #include <cstdlib>
 
 #if defined(EXAMPLES_LIBDEFLATE)
@@ -19,8 +19,8 @@ static unsigned char* packed(unsigned char* bytes, int count, int* packed_count,
 #define STBIW_ZLIB_COMPRESS packed
 #endif
 
-// Formats that are known by their first bytes; stb takes nearly anything for a TGA, and reads 16-bit PNM beyond its
-// buffer.
+// Formats with a signature. TGA is left out because stb accepts nearly any file as one, PNM because stb reads 16-bit
+// files beyond its buffer.
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP

@@ -1,4 +1,4 @@
-// The file of --config: lines `option = value`, and nothing else. CLI11 passes over what it does not understand.
+// Reader of --config files: lines of `option = value`. Refuses anything else, which CLI11 would skip.
 #pragma once
 
 #include <sstream>

@@ -1,5 +1,5 @@
-// Keeps two generators from making the same images at the same time, where the file system has locks. Without locks
-// they do work twice, and leave the same bytes.
+// File locks that keep two generators from making the same images at the same time. On file systems without locks the
+// work is done twice, with the same bytes.
 #pragma once
 
 #include <insonify/io/file.hpp>
@@ -15,8 +15,8 @@
 
 namespace generator {
 
-/// One lock file for a folder: shard k holds its byte k, what needs the whole folder holds all bytes. These locks
-/// (POSIX records) work over NFS, and end with the process however it ends.
+/// One lock file per folder: shard k locks byte k, operations on the whole folder lock all bytes. These are POSIX
+/// record locks, which work over NFS and are released when the process ends for any reason.
 class folder_lock {
   public:
     /// @param shard  or -1 for the whole folder
@@ -54,7 +54,7 @@ class folder_lock {
     folder_lock(const folder_lock&) = delete;
     folder_lock& operator=(const folder_lock&) = delete;
 
-    /// Why there is no lock; empty if there is one.
+    /// Reason for the lack of a lock; empty if there is one.
     const std::string& without() const {
         return without_;
     }

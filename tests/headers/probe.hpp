@@ -1,4 +1,4 @@
-// What one translation unit of the flags test tells of itself.
+// Results of one translation unit in the flags test.
 #pragma once
 
 #include <cstdint>

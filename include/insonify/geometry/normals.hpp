@@ -49,9 +49,9 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     return normals;
 }
 
-/// Turns over each triangle whose three corner normals all point to its back: normals decide which side is outside.
+/// Flips each triangle whose three corner normals all point to its back: normals define the outside.
 /// @param m  its indices have positions, and positions have normals
-/// @returns how many were turned
+/// @returns the number of flipped triangles
 inline std::size_t wind_by_normals(mesh& m) {
     std::size_t turned = 0;
     for (glm::uvec3& t : m.triangles) {

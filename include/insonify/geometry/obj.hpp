@@ -30,7 +30,7 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// One pass over the text. Words are parted by blanks; a backslash at the end of a line continues it.
+/// Parses the text in one pass. Blanks separate words; a backslash at the end of a line continues it.
 class obj_reader {
   public:
     obj_reader(std::string_view text, std::string_view name) : text_(text), name_(name) {}
@@ -74,7 +74,7 @@ class obj_reader {
     }
     static bool blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
-    /// One character on, or over a continuation.
+    /// Skips one character, or a continuation.
     void advance() {
         const std::size_t continued = continuation(at_);
         line_ += continued > 0 ? 1 : 0;
@@ -134,7 +134,7 @@ class obj_reader {
         return {x, y, number()};
     }
 
-    /// From the file's count, from 1 up or from -1 back, to a count from 0.
+    /// Converts an index of the file, 1 and up or -1 and down, to one from 0.
     std::uint32_t index(std::string_view digits, std::size_t given, const char* what) {
         std::int64_t value = 0;
         const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -147,7 +147,7 @@ class obj_reader {
         return static_cast<std::uint32_t>(value > 0 ? value - 1 : count + value);
     }
 
-    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`; what stands for the texture is passed over.
+    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`; texture coordinates are skipped.
     corner parse_corner(std::string_view text) {
         const std::size_t slash = text.find('/');
         const std::size_t second = slash == text.npos ? text.npos : text.find('/', slash + 1);

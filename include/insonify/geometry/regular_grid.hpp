@@ -123,7 +123,7 @@ struct cell_cut {
 
 inline namespace INSONIFY_FLAGS {
 
-/// How a mesh lies on a regular grid; nothing if it doesn't. All heights are finite.
+/// The regular grid that a mesh's vertices lie on, if they do and all heights are finite.
 /// @param off  by which share of a step vertices may lie beside the lattice
 template <executor_argument E = serial_executor>
 std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {

@@ -20,7 +20,7 @@ inline namespace INSONIFY_ABI {
 
 namespace detail {
 
-/// What copies of a shared mesh refer to.
+/// The state that copies of a shared mesh refer to.
 struct mesh_facts {
     mesh shape;
     bounding_box box;
@@ -61,12 +61,10 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
 
 }  // namespace detail::inline INSONIFY_ONCE
 
-/// An immutable mesh: copies refer to the same triangles. A mesh whose triangles follow one another without order, as
-/// those of a shuffled one, is renumbered, triangles and vertices, and so is a regular grid that comes in another order
-/// than its rows'; otherwise a mesh keeps its numbers. Triangles that are
-/// wound against all of their normals are turned over. What renderers need of it is found once, when it is made: its
-/// bounds, smooth normals if it brings none, whether it is closed or a heightfield, and the regular grid that a
-/// heightfield's vertices lie on, if they do.
+/// An immutable mesh: copies refer to the same triangles. Shuffled meshes are reordered, triangles and vertices, for
+/// coherent access; regular grids are reordered by rows; other meshes keep their order. Triangles that are wound
+/// against all of their normals are flipped. The constructor computes what renderers need: bounds, smooth normals if
+/// there are none, whether the mesh is closed or a heightfield, and the regular grid of a heightfield.
 class shared_mesh {
   public:
     /// No triangles.

@@ -17,9 +17,9 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What a mesh is to a shadow policy.
+/// Class of a mesh, by which shadow policies choose their casters.
 enum class surface_kind {
-    open,         ///< neither was proven
+    open,         ///< neither of the two could be proven
     closed,       ///< each edge is run along as often one way as the other: a ray that comes from outside and ends
                   ///< outside crosses as many triangles from behind as from the front, whatever the surface intersects
     heightfield,  ///< z over a convex part of the xy plane, all triangles counter-clockwise from above

@@ -21,20 +21,19 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// What a mesh is as a surface, with vertices in the same place taken as one (sharp edges split them for their
-/// normals).
+/// Topology of a mesh, with coincident vertices merged (sharp edges split vertices for their normals).
 struct topology {
     std::size_t vertices = 0;        ///< distinct positions that triangles use
     std::size_t edges = 0;           ///< pairs of vertices that triangles join
     std::size_t triangles = 0;       ///< without the degenerate ones
-    std::size_t degenerate = 0;      ///< triangles with two corners in the same place, left out of everything else
+    std::size_t degenerate = 0;      ///< triangles with two coincident corners, not counted elsewhere
     std::size_t boundary_edges = 0;  ///< edges with one triangle
     std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that run along it the same way
     std::size_t inward_pieces = 0;   ///< connected ones whose triangles face inwards, as those of a cavity do
 
     /// Every edge joins two triangles of the same orientation.
     bool closed() const { return triangles > 0 && boundary_edges == 0 && tangled_edges == 0; }
-    /// All that one sees of it from outside is the front of its triangles.
+    /// Closed, with all triangles facing outwards.
     bool solid() const { return closed() && inward_pieces == 0; }
     /// V - E + F: 2 for a closed surface of one piece without handles.
     std::int64_t euler_characteristic() const {
@@ -69,10 +68,10 @@ inline topology inspect(const mesh& m) {
     topology out;
     const std::vector<std::uint32_t> first = weld(m.positions);
 
-    // An edge is sorted under its lower vertex; the third element tells which way the triangle runs along it.
+    // An edge is sorted under its lower vertex; the third element is the triangle's direction along it.
     std::vector<std::tuple<std::uint32_t, std::uint32_t, bool>> sides;
     std::vector<bool> used(m.positions.size());
-    std::vector<std::uint32_t> joined = first;  // to a vertex of the same piece; its last is the piece's name
+    std::vector<std::uint32_t> joined = first;  // to a vertex of the same piece; the root is the piece's id
     const auto piece_of = [&](std::uint32_t vertex) {
         while (joined[vertex] != vertex) vertex = joined[vertex] = joined[joined[vertex]];
         return vertex;

@@ -33,7 +33,7 @@ namespace detail::inline INSONIFY_FLAGS {
     raise_io(path, std::string(reason) + ": " + std::error_code(error, std::generic_category()).message());
 }
 
-/// Closes what it opened.
+/// Owns an open file.
 class file_handle {
   public:
     file_handle() = default;
@@ -70,8 +70,8 @@ inline std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
-/// Brings the names in a folder to disk. A folder that can't be opened or synced, as on some network file systems, is
-/// left to the system: the file itself is on disk.
+/// Syncs a folder's entries to disk. Failure is ignored, as some network file systems cannot sync folders: the file
+/// itself is on disk.
 inline void sync_folder(const std::string& folder) noexcept {
 #if defined(__unix__) || defined(__APPLE__)
     const int handle = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
@@ -116,14 +116,14 @@ inline std::string read_file(const std::string& path) {
     return bytes;
 }
 
-/// A file in the making, beside the one it will replace. `commit` brings it to disk and into place in one step; without
-/// that, nothing of it remains and the old file is as it was. A symbolic link is replaced, not followed.
+/// A temporary file beside the one that it will replace. `commit` syncs it to disk and renames it; without a commit it
+/// is removed and the old file stays. A symbolic link is replaced, not followed.
 ///
-/// The temporary name is the path with .tmp0, .tmp1, ...: the first that is free, so threads and processes that
-/// write one path don't meet, and the last to commit wins.
+/// The temporary name is the path with the first free suffix of .tmp0, .tmp1, ..., so that concurrent writers of one
+/// path do not collide; the last to commit wins.
 class replacement_file {
   public:
-    /// @throws io_error if the folder of `path` takes no new file
+    /// @throws io_error if no file can be created in the folder of `path`
     explicit replacement_file(std::string path) : path_(std::move(path)) {
         for (int number = 0; file_.get() == nullptr; ++number) {
             temporary_ = path_ + ".tmp" + detail::to_text(number);
@@ -142,19 +142,19 @@ class replacement_file {
         std::remove(temporary_.c_str());
     }
 
-    /// Appends. Doesn't throw, so C libraries may call back into it; `commit` reports what failed.
+    /// Appends. Does not throw, so that C libraries may call it; `commit` reports failures.
     void write(const void* data, std::size_t size) noexcept {
         errno = 0;
         if (error_ == 0 && std::fwrite(data, 1, size, file_.get()) != size) error_ = errno != 0 ? errno : EIO;
     }
 
-    /// To be called once, at the end.
+    /// Call once, at the end.
     /// @throws io_error if a write failed, or the file can't be brought to disk or into place
     void commit() {
         errno = 0;
         const bool written = error_ == 0 && detail::sync_to_disk(file_.get());
         if (!(file_.close() && written)) detail::raise_io(path_, "can't write", error_ != 0 ? error_ : errno);
-        const std::string folder = detail::folder_of(path_);  // nothing may throw once the file is in place
+        const std::string folder = detail::folder_of(path_);  // before the rename: nothing after it may throw
         if (!detail::rename_over(temporary_, path_)) detail::raise_io(path_, "can't replace", errno);
         temporary_.clear();
         detail::sync_folder(folder);
@@ -167,8 +167,8 @@ class replacement_file {
     int error_ = 0;
 };
 
-/// Puts `bytes` at `path`, all or nothing.
-/// @throws io_error if it can't be written; what was there before then still is
+/// Writes `bytes` to `path` atomically.
+/// @throws io_error if it can't be written; an existing file then stays as it was
 inline void write_file(const std::string& path, std::string_view bytes) {
     replacement_file file(path);
     file.write(bytes.data(), bytes.size());

@@ -143,11 +143,11 @@ class netpbm_reader {
         }
         return value;
     }
-    /// Before anything is allocated: a file of n bytes never makes an image of more than a few n.
+    /// Refuses headers whose image would not fit the file, before allocating it.
     void check_size() const {
         const std::uint64_t samples = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_) *
                                       static_cast<std::uint64_t>(channels());
-        // A plain sample takes a space and a digit at least.
+        // A plain sample takes at least a space and a digit.
         const bool fits = is_plain() ? samples <= rest_.size() / 2 : samples <= rest_.size() / sample_size();
         if (!fits) {
             fail("a raster of " + to_text(width_) + " x " + to_text(height_) + " pixels is longer than the file");
@@ -217,7 +217,7 @@ image<Pixel> parse_netpbm(std::string_view bytes, std::string_view name = "netpb
     }
     image<Pixel> out(reader.width(), reader.height());
     for (int row = 0; row < out.height(); ++row) {
-        // PFM goes from the bottom up.
+        // PFM stores rows from the bottom up.
         for (Pixel& pixel : out.row(reader.is_float() ? out.height() - 1 - row : row)) {
             if constexpr (channels == 1) {
                 pixel = detail::next_sample<sample>(reader);

@@ -12,13 +12,13 @@ namespace seabed {
 /// A mesh of some vertices of a heightfield.
 struct adaptive_mesh {
     mesh shape;                           ///< as `tessellate` makes it
-    std::vector<std::uint32_t> vertices;  ///< which vertex of the heightfield each is: j width + i
+    std::vector<std::uint32_t> vertices;  ///< index of each in the heightfield: j width + i
 };
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Calls `emit(corner, corner, corner)`, counter-clockwise and each a glm::ivec2, for every triangle that a vertex
-/// brings: those whose right angle it is.
+/// Calls `emit(corner, corner, corner)`, counter-clockwise and each a glm::ivec2, for every triangle whose right angle
+/// is at a vertex.
 template <class Emit>
 void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit) {
     if (!needed(x, y)) return;
@@ -40,7 +40,7 @@ void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit)
             if (!needed(middle.x, middle.y)) emit(here, a, b);
             continue;
         }
-        // Half a cell. If the other half is as large, the cell is cut as the heightfield is.
+        // Half a cell. If the other half is one triangle, too, the cell has the heightfield's diagonal.
         const glm::ivec2 opposite = a + b - here;
         const bool rising = (b.x - a.x) == (b.y - a.y);
         if (!rising && needed(opposite.x, opposite.y))
@@ -60,7 +60,7 @@ inline namespace INSONIFY_FLAGS {
 /// `tessellate`; a plane takes two, and some more beside an edge whose length is not a power of two cells. Takes
 /// several times as long as `tessellate`.
 ///
-/// No two triangles that share a longest side could be replaced by the one that they are halves of.
+/// The mesh is minimal within its hierarchy: no two halves of a triangle could be merged within the tolerance.
 /// @param first  as for `tessellate`
 /// @throws invalid_input as `tessellate`, and for a negative or NaN tolerance or a nadir that is not finite
 template <executor_argument Executor = serial_executor>
@@ -78,12 +78,12 @@ adaptive_mesh tessellate(const heightfield& field, const tolerance& allowed, Exe
 
     const int size = needed.size();
     const auto rows = static_cast<std::size_t>(heights.height()), columns = static_cast<std::size_t>(heights.width());
-    // The corners of the hierarchy's root, which are no triangle's middle vertex.
+    // The corners of the hierarchy's root are not midpoints of any side.
     const auto is_corner = [=](std::size_t x, std::size_t y) {
         const auto end = static_cast<std::size_t>(size);
         return (x == 0 || x == end) && (y == 0 || y == end);
     };
-    // The whole square's two halves, where not even its centre is needed.
+    // The two halves of the root, if not even its centre is needed.
     const bool whole = needed.inside(size, size) && (size == 1 || !needed(size / 2, size / 2));
     const auto each_triangle = [&](std::size_t j, const auto& emit) {
         const auto known = [&](const glm::ivec2& p) { return numeric::is_finite(heights(p.x, p.y)); };

@@ -17,12 +17,12 @@ class blend_sampler;
 
 }  // namespace INSONIFY_FLAGS
 
-/// Patches of `first` in `second`: where a noise exceeds a threshold there is one, else the other. Across the border
-/// one relief sinks beneath the other, so ripples end in tips within about a border's width.
+/// Patches of `first` in `second`, placed by a noise that exceeds a threshold. Across the border one relief sinks below
+/// the other, so that ripples end in tips within about a border's width.
 struct blend {
     any first = ripples{};
     any second = flat{};
-    float coverage = 0.5f;  ///< in [0, 1]: share of the area that is `first`, over many patches
+    float coverage = 0.5f;  ///< in [0, 1]: fraction of the area that is `first`, over many patches
     float patch = 12.0f;    ///< metres, > 0: scale of the patches
     float border = 0.6f;    ///< metres, in (0, patch]: typical width of borders, about a ripple or two
     std::uint64_t seed = 1;

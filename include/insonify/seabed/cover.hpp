@@ -1,7 +1,7 @@
 // Composites one seabed over another with a natural border: high ground is buried last.
 //
-// Across a border the layer rises from beneath: its crests come out first, as narrow tips, while its troughs are still
-// filled; further in, the highest of what lies below looks out of it last. Types follow the surface that is on top.
+// Across a border the layer rises through the ground below: its crests emerge first, as narrow tips, while its troughs
+// are still filled; the highest parts of the ground disappear last. Labels are those of the upper surface.
 #pragma once
 
 #include <insonify/seabed/any.hpp>
@@ -19,17 +19,17 @@ namespace detail::inline INSONIFY_FLAGS {
 class border {
   public:
     /// @param width   metres, > 0
-    /// @param relief  metres: that of the layer and of what lies below it, the larger
+    /// @param relief  metres: the larger of the layer's and the lower ground's
     border(float width, float relief) : per_metre_(1 / width), relief_(relief + 1e-6f) {}
 
-    /// From 0, where there is no layer, to 1, where there is nothing else.
+    /// Progress across the border: 0 outside of the layer, 1 where it hides the ground below.
     float across(float margin) const { return clamp01(0.5f + margin * per_metre_); }
 
     struct meeting {
         float height;
         bool is_layer;
     };
-    /// What is on top at `t` of the way across; at 0 and 1 the very heights of the one and the other.
+    /// The upper surface at progress `t`; at 0 and 1 exactly the heights of either.
     meeting at(float t, float below, float layer) const {
         const float rise = layer - below;
         if (t <= 0) return {below, false};
@@ -62,7 +62,7 @@ struct sample_range {
     }
 };
 
-/// Composites a layer over what lies below it. `below(line, heights, types)` evaluates the latter where the layer does
+/// Composites a layer over the ground below. `below(line, heights, types)` evaluates the ground where the layer does
 /// not hide it.
 template <class Below, typed_sampler Layer>
 void lay_over(const outline& where, const border& edge, const Layer& layer, const scanline& line,
@@ -71,7 +71,7 @@ void lay_over(const outline& where, const border& edge, const Layer& layer, cons
     const stretch part(line, count);
     stretch_values across;
     where.margins(part, across);
-    // Away from borders one of the two is all there is to evaluate.
+    // Away from borders only one of the two is evaluated.
     sample_range above{count}, under{count};
     for (std::size_t i = 0; i < count; ++i) {
         across[i] = edge.across(across[i]);

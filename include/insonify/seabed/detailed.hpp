@@ -17,10 +17,10 @@ class detailed_sampler;
 
 }  // namespace INSONIFY_FLAGS
 
-/// A heightfield, smooth between its vertices instead of in facets, and roughness on top.
+/// A heightfield with cubic interpolation between its vertices, plus roughness.
 ///
-/// To go on where the survey's spectrum ends, take its spacing for the longest cell: of a sediment's relief all that is
-/// shorter than L metres has an rms of facts_of(sediment).rms() L^0.625.
+/// To continue the survey's spectrum, set the roughness's longest cell to the survey's spacing: a sediment's relief of
+/// wavelengths below L metres has an rms of facts_of(sediment).rms() L^0.625.
 struct detailed {
     heightfield field{};
     roughness surface{.rms = 0.01f, .longest = 1, .shortest = 0.06f};
@@ -53,8 +53,8 @@ class detailed_sampler {
         for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
     }
 
-    /// Catmull-Rom's negative shares sum to 1/8 at most: a row overshoots by as much of the range, and a column of rows
-    /// by 1/8 of five quarters more.
+    /// Catmull-Rom's negative weights add up to 1/8 at most: rows overshoot the range by 1/8 at either end, and columns
+    /// of rows by 1/8 of the resulting five quarters more.
     height_range range() const {
         const height_range field = field_->prepare().range();
         const double over = 0.2813 * (field.highest - field.lowest) + surface_.upper_bound();
@@ -62,7 +62,7 @@ class detailed_sampler {
     }
 
   private:
-    /// Catmull-Rom in both directions; beside missing vertices, and where there is none, the drawn facets.
+    /// Catmull-Rom interpolation in both directions; beside missing vertices, the facets of the mesh.
     float smooth_at(double x, double y) const {
         const image<float>& h = field_->heights;
         const detail::grid_coordinate u((x - field_->origin.x) / field_->spacing, h.width() - 1),

@@ -165,7 +165,7 @@ inline extent extent_of(const heap& e) {
     require_metres("heap.radius", e.radius, false);
     require_height("heap.level", e.level);
     require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope from 0.001");
-    // The ground may be anywhere; a hundred metres below the top it is not looked for.
+    // The ground may be at any height; the search ends a hundred metres below the top.
     return extent_around(e.centre, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
 }
 
@@ -267,8 +267,8 @@ inline height_range range_after(const heap& e, const height_range& ground) {
     return {ground.lowest, (std::max)(ground.highest, static_cast<double>(e.level))};
 }
 
-/// Shares that the 16 places around a coordinate, four to a length, have in its smoothed value: a cubic B-spline, which
-/// leaves slopes as they are.
+/// Weights of the 16 nodes around a coordinate, four to a length, in the smoothed value: a cubic B-spline, which
+/// preserves slopes.
 inline std::array<float, 16> smooth_shares(float fraction) {
     std::array<float, 16> shares;
     for (std::size_t n = 0; n < 16; ++n) {
@@ -279,7 +279,7 @@ inline std::array<float, 16> smooth_shares(float fraction) {
     return shares;
 }
 
-/// A row of the ground smoothed.
+/// Smooths a row of the ground.
 /// @param ground  fills the heights of rows
 template <class Ground>
 void smooth_row(const smooth& e, const scanline& line, std::span<float> heights, Ground&& ground) {

@@ -19,7 +19,7 @@ namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A coordinate in cells, held inside a grid: which of its cells, and how far across, in [0, 1]. NaN counts as 0.
+/// A coordinate in cells, clamped to the grid: the cell's index and the fraction within it, in [0, 1]. NaN counts as 0.
 struct grid_coordinate {
     int cell;
     double across;
@@ -30,7 +30,7 @@ struct grid_coordinate {
     }
 };
 
-/// The plane over one point: its height there and how much it rises over a cell in x and in y, metres.
+/// The plane at a point: its height, and its rise per cell in x and in y, metres.
 struct facet {
     double height, rise_x, rise_y;
 };
@@ -40,7 +40,7 @@ inline facet facet_at(image_view<const float> heights, double u, double v) {
     const grid_coordinate x(u, heights.width() - 1), y(v, heights.height() - 1);
     const double corner = static_cast<double>(heights(x.cell, y.cell));
     const double opposite = static_cast<double>(heights(x.cell + 1, y.cell + 1));
-    // The diagonal runs from this corner to the opposite one: below it the right vertex counts, above it the upper.
+    // The diagonal runs from this corner to the opposite one, with the right vertex below it and the upper above.
     const bool lower = x.across >= y.across;
     const double side = static_cast<double>(lower ? heights(x.cell + 1, y.cell) : heights(x.cell, y.cell + 1));
     const double rise_x = lower ? side - corner : opposite - side;
@@ -57,15 +57,15 @@ class heightfield_sampler;
 
 }  // namespace INSONIFY_FLAGS
 
-/// Heights at the vertices of a square grid; vertex (i, j) stands at origin + spacing * (i, j), so that y, along track,
-/// grows with the row: the array looked at as a picture has forward at the bottom (`from_image` turns it).
+/// Heights at the vertices of a square grid; vertex (i, j) lies at origin + spacing * (i, j), so that y, along track,
+/// grows with the row: viewed as an image, the array has forward at the bottom (`from_image` flips it).
 ///
-/// Between vertices the surface is the one that is drawn: each cell is cut from vertex (i, j) to (i + 1, j + 1) into
-/// two plane triangles. Outside, it goes on as at the nearest edge. A vertex that is NaN or infinite is no data:
-/// queries on its triangles return NaN, and they are left out of the drawn mesh.
+/// The surface is that of the drawn mesh: the diagonal from vertex (i, j) to (i + 1, j + 1) divides each cell into two
+/// plane triangles. Heights outside are those of the nearest edge. A vertex that is NaN or infinite has no data:
+/// queries on its triangles return NaN, and the mesh leaves them out.
 struct heightfield {
     image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
-    image<type> types{};          ///< one per vertex, or none: then everything is `fallback`
+    image<type> types{};          ///< one per vertex; empty: all are `fallback`
     glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
     double spacing = 1;           ///< metres between vertices, > 0
     type fallback = type::sand;
@@ -130,7 +130,7 @@ class heightfield_sampler {
         for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
     }
 
-    /// Of all vertices, wherever they are.
+    /// The range of all vertices.
     height_range range() const {
         height_range all;
         for (const float height : field_->heights.pixels()) {
@@ -161,14 +161,14 @@ inline std::vector<type_properties> heightfield::legend() const {
 
 inline namespace INSONIFY_FLAGS {
 
-/// A heightfield from a picture of heights: one vertex per pixel, height = scale * pixel, the top row foremost (the
-/// largest y), vertex (0, 0) at the world's origin.
+/// A heightfield from an image of heights: one vertex per pixel, height = scale * pixel, the top row at the largest y,
+/// vertex (0, 0) at the world's origin.
 ///
-/// A picture of 8 bits has 256 heights: over 1 m of relief its steps are 4 mm high, and under a grazing light each
-/// draws a contour line. Take 16 bits or more, or smooth the pixels first.
+/// An image of 8 bits has 256 heights: over 1 m of relief its steps are 4 mm high and show as contour lines at grazing
+/// light. Use 16 bits or more, or smooth the pixels first.
 /// @param spacing  metres between pixels, > 0
 /// @param scale    metres per unit of a pixel
-/// @param no_data  the value of pixels that mean nothing, as 0 often is; NaN pixels always do
+/// @param no_data  the value of pixels without data, often 0; NaN pixels never have data
 /// @throws invalid_input for a picture smaller than 2 x 2, a spacing not above 0 or a scale that is not finite
 inline heightfield from_image(image_view<const float> picture, double spacing, float scale = 1,
                               float no_data = std::numeric_limits<float>::quiet_NaN()) {

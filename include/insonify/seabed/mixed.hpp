@@ -22,10 +22,10 @@ struct layer {
     any bottom = ripples{};
     area where = patches{};
     float border = 0.6f;  ///< metres, from 0.001: width of the border, about a ripple or two
-    float ragged = 0.5f;  ///< metres, >= 0: how far the outline of a shape strays; patches are ragged by themselves
+    float ragged = 0.5f;  ///< metres, >= 0: rms deviation of a shape's outline; patches ignore it
 };
 
-/// Bottoms on a base, in order: a later layer hides the earlier where it lies.
+/// Layers on a base, from the lowest to the highest.
 ///
 ///     mixed{.base = flat{}, .layers = {{ripples{}, patches{.coverage = 0.4f}}, {rock{}, disc{{10, 5}, 8}}}}
 struct mixed {
@@ -72,7 +72,7 @@ class mixed_sampler {
     }
 
   private:
-    /// What the base and the first `count` layers make.
+    /// The base with the first `count` layers.
     void fill(std::size_t count, const scanline& line, std::span<float> heights, std::span<type> types) const {
         if (count == 0) return base_.row(line, heights, types);
         const prepared_layer& top = layers_[count - 1];

@@ -24,7 +24,7 @@ struct mud {
     float size = 0.35f;          ///< metres, > 0: radius of the largest; the smallest have 0.4 of it
     float mound_height = 0.04f;  ///< metres, >= 0: of the largest mounds
     float pock_depth = 0.04f;    ///< metres, >= 0: of the largest pock marks
-    float pock_share = 0.4f;     ///< in [0, 1]: how many of them are pock marks
+    float pock_share = 0.4f;     ///< in [0, 1]: fraction of them that are pock marks
     trawl_marks trawls{};        ///< none unless they have a density
     std::uint64_t seed = 1;
     type kind = type::mud;

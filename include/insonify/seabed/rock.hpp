@@ -19,10 +19,10 @@ class rock_sampler;
 /// Outcrops with steep faces, blocks on and around them, and rough surfaces.
 ///
 /// Blocks come in sizes that halve from one class to the next. Above a size there are N of them per square metre,
-/// N ~ size^-sizes, and each is as high as its size allows.
+/// N ~ size^-sizes; height is proportional to size.
 struct rock {
     float relief = 0.5f;     ///< metres, >= 0: about the height of outcrops with their blocks
-    float outcrop = 6.0f;    ///< metres, > 0: from outcrop to outcrop
+    float outcrop = 6.0f;    ///< metres, > 0: typical distance between outcrops
     float block = 1.4f;      ///< metres, > 0: spacing of the largest blocks, which are 0.6 to 1.8 of it wide
     float smallest = 0.3f;   ///< metres, in (0, block]: spacing of the smallest
     float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; at 2 each class covers the same area
@@ -56,7 +56,7 @@ class rock_sampler {
         for (std::uint32_t k = 0; k < 3; ++k, cell /= 2) {
             outcrops_.push_back(gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
         }
-        // A class of blocks half as large has 2^sizes times as many of them, on four times as many places.
+        // Blocks of half the size are 2^sizes times as many, in four times as many cells.
         const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
         float share = 1, height = 0.8f * r.relief, most = 1;
         float size = r.block;
@@ -80,7 +80,7 @@ class rock_sampler {
     height_range range() const {
         double blocks = 0;
         for (const detail::block_layer& layer : blocks_) blocks += layer.upper_bound();
-        // See add_relief: an outcrop's top, and the share of its blocks that stand out of it.
+        // See add_relief: the top of an outcrop, and the fraction of its blocks' height that rises above it.
         const double top = 1.00001 * (0.4 * static_cast<double>(relief_) + 0.8 * blocks);
         return {-surface_.upper_bound(), surface_.upper_bound() + top};
     }
@@ -104,7 +104,7 @@ class rock_sampler {
         using lanes = insonify::detail::lanes<float, N>;
         using insonify::detail::load;
         using insonify::detail::store;
-        // Where a noise exceeds a level, the bottom steps up to an outcrop's top, over faces as steep as a bank.
+        // Where a noise exceeds a threshold, the bottom steps up to the top of an outcrop over a steep face.
         detail::stretch_values weights{}, tops;
         float amplitude = 1;
         for (const gradient_noise& octave : outcrops_) {
@@ -120,13 +120,13 @@ class rock_sampler {
             load(height, heights + i);
             height = height + (0.4f * relief_) * step;
             store(heights + i, height);
-            // Blocks are whole on an outcrop; around it sediment has buried most of them.
+            // Blocks are exposed on an outcrop and mostly buried by sediment around it.
             step = 0.3f + 0.5f * step;
             store(&weights[i], step);
         }
         for (const detail::block_layer& layer : blocks_) {
             const float kept = layer.carried_by(part);
-            if (kept == 0) break;  // nor the smaller ones
+            if (kept == 0) break;  // smaller blocks are not carried either
             tops.fill(0);
             layer.template raise<N>(part, tops.data());
             for (std::size_t i = 0; i < part.whole(); i += N) {

@@ -14,7 +14,7 @@ namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Which triangles of a cell have data at all their corners.
+/// The triangles of a cell that have data at all corners.
 struct cell_facets {
     bool lower, upper;
 
@@ -27,7 +27,7 @@ struct cell_facets {
     std::size_t count() const { return std::size_t{lower} + std::size_t{upper}; }
 };
 
-/// A vertex of a heightfield as its mesh has it; one without data lies at z = 0.
+/// Position of a heightfield's vertex in the mesh; z = 0 without data.
 inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_t j, glm::ivec2 first) {
     const float height = field.heights(static_cast<int>(i), static_cast<int>(j));
     return {static_cast<float>(field.spacing * (static_cast<double>(first.x) + static_cast<double>(i))),
@@ -47,7 +47,7 @@ void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 f
     result.positions.resize(heights.size());
     result.normals.resize(heights.size());
 
-    // Write the vertices, and count the triangles of each row of cells on the way.
+    // Write the vertices and count the triangles of each row of cells.
     std::vector<std::size_t> first_triangle(height, 0);
     ex.bulk(height, [&](std::size_t j) {
         row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
@@ -86,7 +86,7 @@ inline namespace INSONIFY_FLAGS {
 /// Positions are relative to the heightfield's origin, x in [0, spacing (width - 1)], so that float holds them wherever
 /// the field lies: place the mesh at `field.origin`. Vertex (i, j) is number j width + i. Normals are those that
 /// `normals` gives. Vertices without data lie at z = 0 and belong to no triangle.
-/// @param first  what vertex (0, 0) counts as, in x and y: positions are spacing (first + (i, j)), and meshes of parts
+/// @param first  index of vertex (0, 0) in a larger grid: positions are spacing (first + (i, j)), and meshes of parts
 ///               of one grid share their vertices to the last bit
 /// @throws invalid_input as `validate`, and for 2^32 vertices or more
 template <executor_argument Executor = serial_executor>

@@ -1,10 +1,10 @@
-// One kernel, several instruction sets: written once over a lane count, chosen when the program runs.
+// Run-time dispatch: a kernel is written once over a lane count and compiled for several instruction sets.
 //
-// A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
-// values go through it at a time. Its arithmetic is the same in every lane at every N, and products are never fused
-// with sums, so all levels give the same bytes; N = 1 is plain scalar code, compiled where INSONIFY_SIMD is 0. Kernels
-// that gain by AVX-512 say how many values at a time are best there, `static constexpr int widest = 16`; others stay at
-// AVX2. That is for kernels that gain more than a tenth: each copy costs compile time.
+// A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is the
+// number of 32-bit values that it processes at a time. Its arithmetic is the same in every lane at every N, and
+// products are never fused with sums, so all levels give the same bytes; N = 1 is scalar code, compiled where
+// INSONIFY_SIMD is 0. Kernels use AVX-512 only if they state their lane count there, `static constexpr int widest =
+// 16`, which is for those that gain more than a tenth: each copy costs compile time.
 #pragma once
 
 #include <insonify/core/error.hpp>

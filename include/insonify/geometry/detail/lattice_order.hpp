@@ -19,7 +19,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The lattice that one of a mesh's triangles is half a cell of.
+/// The lattice of which a triangle is half a cell.
 class triangle_lattice {
   public:
     /// Of a cell's three edges the longest is its diagonal. The first step goes mostly along x, both upwards.

@@ -1,7 +1,7 @@
 // Bounding-volume tree that finds the triangles of a mesh that a plane may cut.
 //
-// Boxes around runs of eight triangles, boxes around eight of those, and so on: an implicit tree over the triangles in
-// their own order, which shared_mesh keeps coherent. Building it is one pass, and triangles are visited in order.
+// An implicit tree of bounding boxes, eight triangles to a leaf and eight children to a node, over the triangles in
+// their own order, which shared_mesh keeps coherent. It is built in one pass, and triangles are visited in order.
 #pragma once
 
 #include <insonify/core/linear.hpp>

@@ -19,7 +19,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Concave polygons with more corners are cut into a fan, which covers too much: the work stays linear for any input.
+/// Concave polygons with more corners become a fan, which covers too much, so that the time stays linear for any input.
 inline constexpr std::size_t ear_clipping_limit = 512;
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -28,7 +28,7 @@ namespace detail::inline INSONIFY_FLAGS {
 class flat_polygon {
   public:
     explicit flat_polygon(std::span<const glm::vec3> corners) : corners_(corners) {
-        // Newell's area vector, from the first corner so that a polygon far from the origin keeps its digits.
+        // Newell's area vector, relative to the first corner: precise far from the origin.
         glm::dvec3 area(0);
         const glm::dvec3 origin(corners[0]);
         for (std::size_t i = 2; i < corners.size(); ++i) {
@@ -70,7 +70,7 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
         ring[i].reflex = polygon.turn(ring[i].previous, i, ring[i].next) < 0;
     }
 
-    // An ear is cut off by a diagonal inside the polygon; if anything is in the way, some reflex corner is.
+    // The diagonal of an ear lies inside the polygon, which is so if no reflex corner lies in the ear.
     const auto is_ear = [&](std::uint32_t i) {
         const auto [previous, next, reflex, ear] = ring[i];
         if (reflex) return false;
@@ -83,7 +83,7 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
 
     std::uint32_t tip = 0;
     for (std::uint32_t left = count; left > 3; --left) {
-        // A simple polygon always has an ear. One that crosses itself may not: then any corner will do.
+        // A simple polygon always has an ear. A self-intersecting one may not: then any corner is cut off.
         for (std::uint32_t walked = 0; !ring[tip].ear && walked < left; ++walked) tip = ring[tip].next;
         const std::uint32_t a = ring[tip].previous, b = ring[tip].next;
         triangles.emplace_back(a, tip, b);

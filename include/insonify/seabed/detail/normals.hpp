@@ -1,8 +1,7 @@
 // Normals of a heightfield, by finite differences of its vertices.
 //
-// Central differences match the mesh of the field: they see the relief that is drawn and nothing finer, whatever the
-// model. Of a wave of n vertices to the length they give sin(2 pi / n) / (2 pi / n) of the slope:
-// 0.90 at 8, 0.97 at 16.
+// Central differences resolve the relief of the drawn mesh and nothing finer, for every model. The slope of a wave of n
+// vertices is reduced by sin(2 pi / n) / (2 pi / n): 0.90 at 8, 0.97 at 16.
 #pragma once
 
 #include <insonify/core/executor.hpp>
@@ -20,9 +19,8 @@ namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// How much a surface rises at the vertices of a row, by central differences: twice the rise of a cell. A neighbour
-/// that is missing or beyond the edge leaves the side that is there to count twice; at a vertex without data nothing
-/// rises.
+/// Rises of a surface at the vertices of a row, by central differences: twice the rise per cell. Beside an edge or a
+/// missing neighbour the one-sided difference is doubled; it is 0 at a vertex without data.
 class row_rises {
   public:
     row_rises(const image<float>& heights, int j)
@@ -61,7 +59,7 @@ class row_rises {
 /// The normals of one row of vertices.
 class row_normals {
   public:
-    /// @param out  as many as the row has vertices
+    /// @param out  one for each vertex of the row
     row_normals(const heightfield& field, int row, glm::vec3* out)
         : width_(static_cast<std::size_t>(field.heights.width())),
           here_(field.heights.row(row).data()),
@@ -81,7 +79,7 @@ class row_normals {
         using insonify::detail::load;
         one(0);
         std::size_t i = 1;
-        const float twice = inner_ ? 1.0f : 2.0f;  // at an edge the side that is there counts twice
+        const float twice = inner_ ? 1.0f : 2.0f;  // one-sided differences at an edge are doubled
         for (; i + N < width_; i += N) {
             floats left, right, back, ahead, here, length, x, y;
             load(left, here_ + i - 1);
@@ -89,7 +87,7 @@ class row_normals {
             load(back, back_ + i);
             load(ahead, ahead_ + i);
             load(here, here_ + i);
-            // A neighbour or the vertex itself without data is rare, and left to the slow way.
+            // Missing data is rare and takes the scalar path.
             ints bits;
             const floats known = (left - left) + (right - right) + (back - back) + (ahead - ahead) + (here - here);
             std::memcpy(&bits, &known, sizeof bits);
