@@ -1233,13 +1233,13 @@ void validate_if_possible(const T& value) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/core/simd/dispatch.hpp -----------------------------------------------------------
-// One kernel, several instruction sets: written once over a lane count, chosen when the program runs.
+// Run-time dispatch: a kernel is written once over a lane count and compiled for several instruction sets.
 //
-// A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is how many 32-bit
-// values go through it at a time. Its arithmetic is the same in every lane at every N, and products are never fused
-// with sums, so all levels give the same bytes; N = 1 is plain scalar code, compiled where INSONIFY_SIMD is 0. Kernels
-// that gain by AVX-512 say how many values at a time are best there, `static constexpr int widest = 16`; others stay at
-// AVX2. That is for kernels that gain more than a tenth: each copy costs compile time.
+// A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is the
+// number of 32-bit values that it processes at a time. Its arithmetic is the same in every lane at every N, and
+// products are never fused with sums, so all levels give the same bytes; N = 1 is scalar code, compiled where
+// INSONIFY_SIMD is 0. Kernels use AVX-512 only if they state their lane count there, `static constexpr int widest =
+// 16`, which is for those that gain more than a tenth: each copy costs compile time.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -1762,8 +1762,162 @@ void dequantize_row(std::span<const Code> from, std::span<float> to) {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/core/simd/elementary.hpp ---------------------------------------------------------
+// Elementary functions over SIMD lanes: logarithms, cosine and sine, floor, square root.
+//
+// Every function gives the same bits at every N; its comment states its accuracy.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Converts an integer below 2^52: as the mantissa of a double of 2^52, it adds its value.
+template <int N>
+INSONIFY_INLINE void to_double(lanes<double, N>& into, const lanes<std::uint64_t, N>& number) {
+    const lanes<std::uint64_t, N> bits = number | std::uint64_t{0x4330000000000000u};
+    std::memcpy(&into, &bits, sizeof into);
+    into = into - 0x1p52;
+}
+
+/// numeric::log for normal numbers above 0, operation by operation.
+template <int N>
+INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
+    using doubles = lanes<double, N>;
+    using words = lanes<std::uint64_t, N>;
+    words bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    const words shifted = bits + (std::uint64_t{0x3FF0000000000000u} - std::uint64_t{0x3FE6A09E667F3BCDu});
+    doubles k;
+    to_double<N>(k, words(shifted >> 52));
+    k = k - 1023.0;
+    const words mantissa = (shifted & std::uint64_t{0x000FFFFFFFFFFFFFu}) + std::uint64_t{0x3FE6A09E667F3BCDu};
+    doubles m;
+    std::memcpy(&m, &mantissa, sizeof m);
+    const doubles f = m - 1.0;
+    const doubles s = f / (m + 1.0);
+    const doubles t = s * s;
+    doubles tail = doubles{} + 1.0 / 23;
+    unroll<10>([&](int i) INSONIFY_INLINE_LAMBDA { tail = tail * t + 1.0 / (21 - 2 * i); });
+    const doubles half_square = 0.5 * f * f;
+    constexpr double ln2_high = 0x1.62e42feep-1;
+    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
+    into = k * ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * ln2_low)) - f);
+}
+
+/// ln(2^k (1 + f)) for whole k and sqrt(1/2) - 1 <= f <= sqrt(2) - 1, relative error below 2e-7; the sum of
+/// numeric::log.
+template <int N>
+INSONIFY_INLINE void log_lanes(lanes<float, N>& into, const lanes<float, N>& k, const lanes<float, N>& f) {
+    using floats = lanes<float, N>;
+    const floats s = f / (f + 2.0f);
+    const floats t = s * s;
+    const floats tail = t * (2 / 3.0f + t * (2 / 5.0f + t * (2 / 7.0f + t * (2 / 9.0f))));
+    const floats half_square = 0.5f * f * f;
+    constexpr float ln2_high = 0x1.62ep-1f, ln2_low = 0x1.0bfbe8p-15f;
+    into = k * ln2_high - ((half_square - (s * (half_square + tail) + k * ln2_low)) - f);
+}
+
+/// The largest whole number not above x, for |x| < 2^51.
+template <int N>
+INSONIFY_INLINE void floor_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
+    const lanes<double, N> nearest = (x + 0x1.8p52) - 0x1.8p52;
+    into = nearest > x ? nearest - 1.0 : nearest;
+}
+
+/// Cosine and sine of x turns, 0 < x < 1, by Taylor series around the nearest quarter turn; absolute error below 3e-16.
+template <int N>
+INSONIFY_INLINE void cos_sin_turns(lanes<double, N>& cosine, lanes<double, N>& sine, const lanes<double, N>& x) {
+    using doubles = lanes<double, N>;
+    using quarters = lanes<std::int64_t, N>;
+    doubles rounded = 4.0 * x + 0x1p52;  // the nearest quarter in its last bits
+    quarters bits;
+    std::memcpy(&bits, &rounded, sizeof bits);
+    rounded = rounded - 0x1p52;
+    const doubles angle = (x - 0.25 * rounded) * (2 * numeric::pi);
+    const doubles t = angle * angle;
+    doubles odd = doubles{} + 1.0, even = doubles{} + 1.0;
+    unroll<8>([&](int i) INSONIFY_INLINE_LAMBDA {
+        const int n = 16 - 2 * i;
+        odd = 1.0 - odd * t * (1.0 / (n * (n + 1)));
+        even = 1.0 - even * t * (1.0 / (n * (n - 1)));
+    });
+    odd = odd * angle;
+    const quarters is_odd = quarters((bits & 1) != 0);
+    const doubles first = is_odd ? odd : even, second = is_odd ? even : odd;
+    cosine = quarters(((bits + 1) & 2) != 0) ? 0.0 - first : first;
+    sine = quarters((bits & 2) != 0) ? 0.0 - second : second;
+}
+
+/// Cosine and sine of word / 2^32 turns, absolute error below 1.2e-7.
+template <int N>
+INSONIFY_INLINE void cos_sin_turns(lanes<float, N>& cosine, lanes<float, N>& sine,
+                                   const lanes<std::uint32_t, N>& word) {
+    using floats = lanes<float, N>;
+    using words = lanes<std::uint32_t, N>;
+    // The two leading bits are the nearest quarter turn; the angle from there is in the rest of the word.
+    const words quarter = word + std::uint32_t{0x20000000u};
+    floats angle;
+    convert(angle, lanes<std::int32_t, N>(word << 2));
+    angle = angle * static_cast<float>(2 * numeric::pi / 0x1p34);
+    const floats t = angle * angle;
+    const floats odd = angle + angle * t * (-1 / 6.0f + t * (1 / 120.0f + t * (-1 / 5040.0f + t * (1 / 362880.0f))));
+    const floats even = 1.0f + t * (-0.5f + t * (1 / 24.0f + t * (-1 / 720.0f + t * (1 / 40320.0f))));
+    const auto is_odd = (quarter & std::uint32_t{0x40000000u}) != 0;
+    floats first = is_odd ? odd : even, second = is_odd ? even : odd;
+    words bits;
+    std::memcpy(&bits, &first, sizeof bits);
+    bits = bits ^ ((quarter + std::uint32_t{0x40000000u}) & std::uint32_t{0x80000000u});
+    std::memcpy(&cosine, &bits, sizeof bits);
+    std::memcpy(&bits, &second, sizeof bits);
+    bits = bits ^ (quarter & std::uint32_t{0x80000000u});
+    std::memcpy(&sine, &bits, sizeof bits);
+}
+
+/// Cosine and sine of x turns, |x| <= 1/2, absolute error below 2e-6.
+template <int N>
+INSONIFY_INLINE void cos_sin_turns(lanes<float, N>& cosine, lanes<float, N>& sine, const lanes<float, N>& x) {
+    using floats = lanes<float, N>;
+    // Taylor series of the half angle, which is below pi / 2, then the double-angle formulas.
+    const floats a = x * static_cast<float>(numeric::pi);
+    const floats t = a * a;
+    const floats s =
+        a *
+        (1.0f + t * (-1.0f / 6 + t * (1.0f / 120 + t * (-1.0f / 5040 + t * (1.0f / 362880 - t * (1.0f / 39916800))))));
+    const floats c =
+        1.0f +
+        t * (-0.5f +
+             t * (1.0f / 24 + t * (-1.0f / 720 + t * (1.0f / 40320 + t * (-1.0f / 3628800 + t * (1.0f / 479001600))))));
+    sine = 2.0f * s * c;
+    cosine = 1.0f - 2.0f * s * s;
+}
+
+/// Correctly rounded.
+template <int N>
+INSONIFY_INLINE void square_root(lanes<double, N>& into, const lanes<double, N>& of) {
+#if INSONIFY_SIMD && defined(__SSE2__)
+    if constexpr (N == 2) {
+        into = __builtin_ia32_sqrtpd(of);
+    } else if constexpr (N % 2 == 0) {
+        in_halves<N>(into, of, [](auto& half, const auto& from) { square_root<N / 2>(half, from); });
+    } else
+#endif
+        gather<N>(into, [&](int k) { return numeric::square_root(lane(of, k)); });
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/core/simd/random_lanes.hpp -------------------------------------------------------
-// SIMD versions of random.hpp to the same bits: Philox blocks, uniform and normal draws.
+// SIMD versions of random.hpp: Philox blocks, uniform and normal draws, as doubles and as floats.
+//
+// Doubles are the draws of random.hpp to the same bits. Floats follow the same law to a float's rounding: a normal draw
+// differs by less than 6e-7 from exact arithmetic on its two words, and no probability by more than 6e-8. Both give the
+// same bits at every N.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -1775,7 +1929,7 @@ namespace detail::inline INSONIFY_FLAGS {
 /// lanes of 32 bits have W / 2 of these.
 template <int N>
 INSONIFY_INLINE void multiply_words(lanes<std::uint64_t, N>& into, const lanes<std::uint64_t, N>& a, std::uint32_t b) {
-    // One instruction, which clang sees for itself and g++ has to be told. dispatch.hpp has made it known.
+    // One instruction, which clang selects by itself and g++ does not.
 #if INSONIFY_DISPATCH && INSONIFY_WHOLE_KERNELS && !defined(__clang__)
     using halves = lanes<std::int32_t, 2 * N>;
     const lanes<std::uint64_t, N> factor = lanes<std::uint64_t, N>{} + std::uint64_t{b};
@@ -1793,7 +1947,7 @@ INSONIFY_INLINE void multiply_words(lanes<std::uint64_t, N>& into, const lanes<s
 }
 
 /// Philox4x32-10 of `Count` times N counters under one key, in place; the lower half of each lane holds a word, the
-/// upper half is of no meaning. Several counters run side by side because each waits for its products.
+/// upper half is unspecified. Several counters interleave, to hide the latency of the products.
 template <int N, std::size_t Count>
 INSONIFY_INLINE void philox_rounds(lanes<std::uint64_t, N> (&counter)[Count][4], std::uint32_t key_0,
                                    std::uint32_t key_1) {
@@ -1822,87 +1976,11 @@ INSONIFY_INLINE void philox_lanes(lanes<std::uint64_t, N> (&counter)[4], std::ui
     for (int i = 0; i < 4; ++i) counter[i] = all[0][i] & std::uint64_t{0xFFFFFFFFu};
 }
 
-/// A number below 2^52 as a double: put where a double of 2^52 has its last bits, it becomes that much more.
-template <int N>
-INSONIFY_INLINE void to_double(lanes<double, N>& into, const lanes<std::uint64_t, N>& number) {
-    const lanes<std::uint64_t, N> bits = number | std::uint64_t{0x4330000000000000u};
-    std::memcpy(&into, &bits, sizeof into);
-    into = into - 0x1p52;
-}
-
 /// See uniform_open.
 template <int N>
 INSONIFY_INLINE void uniform_lanes(lanes<double, N>& into, const lanes<std::uint64_t, N>& word) {
     to_double<N>(into, word);
     into = (into + 0.5) * 0x1p-32;
-}
-
-/// numeric::log for normal numbers above 0, operation by operation.
-template <int N>
-INSONIFY_INLINE void log_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
-    using doubles = lanes<double, N>;
-    using words = lanes<std::uint64_t, N>;
-    words bits;
-    std::memcpy(&bits, &x, sizeof bits);
-    const words shifted = bits + (std::uint64_t{0x3FF0000000000000u} - std::uint64_t{0x3FE6A09E667F3BCDu});
-    doubles k;
-    to_double<N>(k, words(shifted >> 52));
-    k = k - 1023.0;
-    const words mantissa = (shifted & std::uint64_t{0x000FFFFFFFFFFFFFu}) + std::uint64_t{0x3FE6A09E667F3BCDu};
-    doubles m;
-    std::memcpy(&m, &mantissa, sizeof m);
-    const doubles f = m - 1.0;
-    const doubles s = f / (m + 1.0);
-    const doubles t = s * s;
-    doubles tail = doubles{} + 1.0 / 23;
-    unroll<10>([&](int i) INSONIFY_INLINE_LAMBDA { tail = tail * t + 1.0 / (21 - 2 * i); });
-    const doubles half_square = 0.5 * f * f;
-    constexpr double ln2_high = 0x1.62e42feep-1;
-    constexpr double ln2_low = 0x1.a39ef35793c76p-33;
-    into = k * ln2_high - ((half_square - (s * (half_square + 2.0 * t * tail) + k * ln2_low)) - f);
-}
-
-/// The largest whole number not above x, for |x| < 2^51.
-template <int N>
-INSONIFY_INLINE void floor_lanes(lanes<double, N>& into, const lanes<double, N>& x) {
-    const lanes<double, N> nearest = (x + 0x1.8p52) - 0x1.8p52;
-    into = nearest > x ? nearest - 1.0 : nearest;
-}
-
-/// Cosine and sine of x turns, 0 < x < 1, by Taylor's series around the nearest quarter; absolute error < 3e-16.
-template <int N>
-INSONIFY_INLINE void circle_lanes(lanes<double, N>& cosine, lanes<double, N>& sine, const lanes<double, N>& x) {
-    using doubles = lanes<double, N>;
-    using quarters = lanes<std::int64_t, N>;
-    doubles rounded = 4.0 * x + 0x1p52;  // the nearest quarter in its last bits
-    quarters bits;
-    std::memcpy(&bits, &rounded, sizeof bits);
-    rounded = rounded - 0x1p52;
-    const doubles angle = (x - 0.25 * rounded) * (2 * numeric::pi);
-    const doubles t = angle * angle;
-    doubles odd = doubles{} + 1.0, even = doubles{} + 1.0;
-    unroll<8>([&](int i) INSONIFY_INLINE_LAMBDA {
-        const int n = 16 - 2 * i;
-        odd = 1.0 - odd * t * (1.0 / (n * (n + 1)));
-        even = 1.0 - even * t * (1.0 / (n * (n - 1)));
-    });
-    odd = odd * angle;
-    const quarters is_odd = quarters((bits & 1) != 0);
-    const doubles first = is_odd ? odd : even, second = is_odd ? even : odd;
-    cosine = quarters(((bits + 1) & 2) != 0) ? 0.0 - first : first;
-    sine = quarters((bits & 2) != 0) ? 0.0 - second : second;
-}
-
-template <int N>
-INSONIFY_INLINE void square_root(lanes<double, N>& into, const lanes<double, N>& of) {
-#if INSONIFY_SIMD && defined(__SSE2__)
-    if constexpr (N == 2) {
-        into = __builtin_ia32_sqrtpd(of);
-    } else if constexpr (N % 2 == 0) {
-        in_halves<N>(into, of, [](auto& half, const auto& from) { square_root<N / 2>(half, from); });
-    } else
-#endif
-        gather<N>(into, [&](int k) { return numeric::square_root(lane(of, k)); });
 }
 
 /// See normal_pair.
@@ -1914,7 +1992,114 @@ INSONIFY_INLINE void normal_lanes(lanes<double, N>& first, lanes<double, N>& sec
     uniform_lanes<N>(v, b);
     log_lanes<N>(u, u);
     square_root<N>(radius, -2.0 * u);
-    circle_lanes<N>(first, second, v);
+    cos_sin_turns<N>(first, second, v);
+    first = radius * first;
+    second = radius * second;
+}
+
+/// The block, of N, that lane k of words and draws belongs to: an order in which store_draws needs no shuffle across
+/// 128 bits.
+template <int N>
+constexpr int block_of_lane(int k) {
+    return N / 4 * (k % 4) + k / 4;
+}
+
+/// The 4 N words of N blocks of Philox in a row: word[i] holds word i of each; see block_of_lane.
+///
+/// @param counter  of the first block; its first word counts up from block to block
+template <int N>
+INSONIFY_INLINE void philox_words(lanes<std::uint32_t, N> (&word)[4], const std::uint32_t (&counter)[4],
+                                  std::uint32_t key_0, std::uint32_t key_1) {
+    if constexpr (N == 1) {
+        std::uint64_t block[4] = {counter[0], counter[1], counter[2], counter[3]};
+        philox_lanes<1>(block, key_0, key_1);
+        for (int i = 0; i < 4; ++i) word[i] = static_cast<std::uint32_t>(block[i]);
+    } else {
+        constexpr int half = N / 2;
+        using doubled = lanes<std::uint64_t, half>;
+        doubled step;
+        gather<half>(step, [](int k) { return static_cast<std::uint64_t>(block_of_lane<N>(k / 2 * 4 + k % 2)); });
+        // First words may exceed 2^32: the rounds ignore upper halves.
+        const doubled first = step + std::uint64_t{counter[0]}, second = doubled{} + std::uint64_t{counter[1]},
+                      third = doubled{} + std::uint64_t{counter[2]}, fourth = doubled{} + std::uint64_t{counter[3]};
+        doubled block[2][4] = {{first, second, third, fourth}, {first + std::uint64_t{half}, second, third, fourth}};
+        philox_rounds<half, 2>(block, key_0, key_1);
+        using words = lanes<std::uint32_t, N>;
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
+            shuffle<N>(word[i], words(block[0][i]), words(block[1][i]),
+                       [](int k) { return k % 4 / 2 * N + k / 4 * 4 + k % 2 * 2; });
+        });
+    }
+}
+
+/// 4 N draws in the order of their words: those of the first block, then those of the next.
+template <int N>
+INSONIFY_INLINE void store_draws(float* into, const lanes<float, N> (&draw)[4]) {
+    if constexpr (N == 1) {
+        for (int i = 0; i < 4; ++i) into[i] = draw[i];
+    } else {
+        lanes<float, N> row[4];
+        transpose_fours<N>(row, draw);
+        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { store(into + i * N, row[i]); });
+    }
+}
+
+/// Words as whole numbers from -2^31 to 2^31 - 1, rounded to floats.
+template <int N>
+INSONIFY_INLINE void signed_float(lanes<float, N>& into, const lanes<std::uint32_t, N>& bits) {
+    convert(into, lanes<std::int32_t, N>(bits));
+}
+
+/// Uniform in [-1, 1], symmetric to 2^-32.
+template <int N>
+INSONIFY_INLINE void symmetric_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
+    signed_float<N>(into, word ^ std::uint32_t{0x80000000u});
+    into = into * 0x1p-31f;
+}
+
+/// Uniform in (0, 1]: 31 bits, rounded to 24.
+template <int N>
+INSONIFY_INLINE void unit_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
+    signed_float<N>(into, word >> 1);
+    into = (into + 0.5f) * 0x1p-31f;
+}
+
+/// ln u for u = (word + 1/2) / 2^32, with the same relative accuracy near 1 as near 0.
+template <int N>
+INSONIFY_INLINE void log_uniform_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
+    using floats = lanes<float, N>;
+    using ints = lanes<std::int32_t, N>;
+    constexpr std::int32_t root_half = 0x3F3504F3;  // the bits of sqrt(1/2)
+    const ints upper = ints(word) >> 31;
+    floats from_end;  // 0 or 1, whichever is closer
+    convert(from_end, ints(word) ^ upper);
+    from_end = (from_end + 0.5f) * 0x1p-32f;
+    const floats u = upper != 0 ? 1.0f - from_end : from_end;
+    ints bits;
+    std::memcpy(&bits, &u, sizeof bits);
+    const ints shifted = bits - root_half;
+    floats k;
+    convert(k, ints(shifted >> 23));
+    const ints mantissa = (shifted & 0x007FFFFF) + root_half;
+    floats m;
+    std::memcpy(&m, &mantissa, sizeof m);
+    log_lanes<N>(into, k, floats(shifted >= 0 ? 0.0f - from_end : m - 1.0f));
+}
+
+/// sqrt(-2 ln u) of a uniform number: 0 to 6.66.
+template <int N>
+INSONIFY_INLINE void radius_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
+    log_uniform_lanes<N>(into, word);
+    square_root<N>(into, -2.0f * into);
+}
+
+/// Two independent standard normal draws of two words, as normal_pair's.
+template <int N>
+INSONIFY_INLINE void normal_lanes(lanes<float, N>& first, lanes<float, N>& second, const lanes<std::uint32_t, N>& a,
+                                  const lanes<std::uint32_t, N>& b) {
+    lanes<float, N> radius;
+    radius_lanes<N>(radius, a);
+    cos_sin_turns<N>(first, second, b);
     first = radius * first;
     second = radius * second;
 }
@@ -2473,168 +2658,6 @@ inline auto rice_correlation(double steady) {
 /// Taps for fields of echoes without a steady part or texture, whose intensities have the given length.
 inline std::vector<float> intensity_taps(double length) {
     return field_taps(field_length(length, rice_correlation(0)));
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/core/simd/draw_lanes.hpp ---------------------------------------------------------
-// Random floats, 16 or 32 at a time, for image noise.
-//
-// The law is that of the draws in random.hpp to a float's rounding: a normal draw is off by less than 6e-7 of what
-// exact arithmetic makes of its two words, and no probability by more than 6e-8. Same bits at every N.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// Which of N blocks lane k of their words and draws belongs to, so that store_draws gets by with shuffles inside of
-/// 128 bits.
-template <int N>
-constexpr int block_of_lane(int k) {
-    return N / 4 * (k % 4) + k / 4;
-}
-
-/// The 4 N words of N blocks of Philox in a row: word[i] holds word i of each; see block_of_lane.
-///
-/// @param counter  of the first block; its first word counts up from block to block
-template <int N>
-INSONIFY_INLINE void philox_words(lanes<std::uint32_t, N> (&word)[4], const std::uint32_t (&counter)[4],
-                                  std::uint32_t key_0, std::uint32_t key_1) {
-    if constexpr (N == 1) {
-        std::uint64_t block[4] = {counter[0], counter[1], counter[2], counter[3]};
-        philox_lanes<1>(block, key_0, key_1);
-        for (int i = 0; i < 4; ++i) word[i] = static_cast<std::uint32_t>(block[i]);
-    } else {
-        constexpr int half = N / 2;
-        using doubled = lanes<std::uint64_t, half>;
-        doubled step;
-        gather<half>(step, [](int k) { return static_cast<std::uint64_t>(block_of_lane<N>(k / 2 * 4 + k % 2)); });
-        // The first words count past 2^32 as they should: the rounds don't look at upper halves.
-        const doubled first = step + std::uint64_t{counter[0]}, second = doubled{} + std::uint64_t{counter[1]},
-                      third = doubled{} + std::uint64_t{counter[2]}, fourth = doubled{} + std::uint64_t{counter[3]};
-        doubled block[2][4] = {{first, second, third, fourth}, {first + std::uint64_t{half}, second, third, fourth}};
-        philox_rounds<half, 2>(block, key_0, key_1);
-        using words = lanes<std::uint32_t, N>;
-        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
-            shuffle<N>(word[i], words(block[0][i]), words(block[1][i]),
-                       [](int k) { return k % 4 / 2 * N + k / 4 * 4 + k % 2 * 2; });
-        });
-    }
-}
-
-/// 4 N draws in the order of their words: those of the first block, then those of the next.
-template <int N>
-INSONIFY_INLINE void store_draws(float* into, const lanes<float, N> (&draw)[4]) {
-    if constexpr (N == 1) {
-        for (int i = 0; i < 4; ++i) into[i] = draw[i];
-    } else {
-        lanes<float, N> row[4];
-        transpose_fours<N>(row, draw);
-        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { store(into + i * N, row[i]); });
-    }
-}
-
-/// Words as whole numbers from -2^31 to 2^31 - 1, rounded to floats.
-template <int N>
-INSONIFY_INLINE void signed_float(lanes<float, N>& into, const lanes<std::uint32_t, N>& bits) {
-    convert(into, lanes<std::int32_t, N>(bits));
-}
-
-/// Uniform in [-1, 1], symmetric to 2^-32.
-template <int N>
-INSONIFY_INLINE void symmetric_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
-    signed_float<N>(into, word ^ std::uint32_t{0x80000000u});
-    into = into * 0x1p-31f;
-}
-
-/// Uniform in (0, 1]: 31 bits, rounded to 24.
-template <int N>
-INSONIFY_INLINE void unit_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
-    signed_float<N>(into, word >> 1);
-    into = (into + 0.5f) * 0x1p-31f;
-}
-
-/// ln(2^k (1 + f)) for whole k and sqrt(1/2) - 1 <= f <= sqrt(2) - 1, relative error below 2e-7; the sum of
-/// numeric::log.
-template <int N>
-INSONIFY_INLINE void log_lanes(lanes<float, N>& into, const lanes<float, N>& k, const lanes<float, N>& f) {
-    using floats = lanes<float, N>;
-    const floats s = f / (f + 2.0f);
-    const floats t = s * s;
-    const floats tail = t * (2 / 3.0f + t * (2 / 5.0f + t * (2 / 7.0f + t * (2 / 9.0f))));
-    const floats half_square = 0.5f * f * f;
-    constexpr float ln2_high = 0x1.62ep-1f, ln2_low = 0x1.0bfbe8p-15f;
-    into = k * ln2_high - ((half_square - (s * (half_square + tail) + k * ln2_low)) - f);
-}
-
-/// ln u of u = (word + 1/2) / 2^32; next to 1, where the logarithm is small, it is as exact as next to 0.
-template <int N>
-INSONIFY_INLINE void log_uniform_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
-    using floats = lanes<float, N>;
-    using ints = lanes<std::int32_t, N>;
-    constexpr std::int32_t root_half = 0x3F3504F3;  // the bits of sqrt(1/2)
-    const ints upper = ints(word) >> 31;
-    floats from_end;  // 0 or 1, whichever is closer
-    convert(from_end, ints(word) ^ upper);
-    from_end = (from_end + 0.5f) * 0x1p-32f;
-    const floats u = upper != 0 ? 1.0f - from_end : from_end;
-    ints bits;
-    std::memcpy(&bits, &u, sizeof bits);
-    const ints shifted = bits - root_half;
-    floats k;
-    convert(k, ints(shifted >> 23));
-    const ints mantissa = (shifted & 0x007FFFFF) + root_half;
-    floats m;
-    std::memcpy(&m, &mantissa, sizeof m);
-    log_lanes<N>(into, k, floats(shifted >= 0 ? 0.0f - from_end : m - 1.0f));
-}
-
-/// Cosine and sine of word / 2^32 turns, absolute error below 1.2e-7.
-template <int N>
-INSONIFY_INLINE void circle_lanes(lanes<float, N>& cosine, lanes<float, N>& sine, const lanes<std::uint32_t, N>& word) {
-    using floats = lanes<float, N>;
-    using words = lanes<std::uint32_t, N>;
-    // The two leading bits of this are the nearest quarter, the rest of the word is what is left of the angle.
-    const words quarter = word + std::uint32_t{0x20000000u};
-    floats angle;
-    signed_float<N>(angle, word << 2);
-    angle = angle * static_cast<float>(2 * numeric::pi / 0x1p34);
-    const floats t = angle * angle;
-    const floats odd = angle + angle * t * (-1 / 6.0f + t * (1 / 120.0f + t * (-1 / 5040.0f + t * (1 / 362880.0f))));
-    const floats even = 1.0f + t * (-0.5f + t * (1 / 24.0f + t * (-1 / 720.0f + t * (1 / 40320.0f))));
-    const auto is_odd = (quarter & std::uint32_t{0x40000000u}) != 0;
-    floats first = is_odd ? odd : even, second = is_odd ? even : odd;
-    words bits;
-    std::memcpy(&bits, &first, sizeof bits);
-    bits = bits ^ ((quarter + std::uint32_t{0x40000000u}) & std::uint32_t{0x80000000u});
-    std::memcpy(&cosine, &bits, sizeof bits);
-    std::memcpy(&bits, &second, sizeof bits);
-    bits = bits ^ (quarter & std::uint32_t{0x80000000u});
-    std::memcpy(&sine, &bits, sizeof bits);
-}
-
-/// sqrt(-2 ln u) of a uniform number: 0 to 6.66.
-template <int N>
-INSONIFY_INLINE void radius_lanes(lanes<float, N>& into, const lanes<std::uint32_t, N>& word) {
-    log_uniform_lanes<N>(into, word);
-    square_root<N>(into, -2.0f * into);
-}
-
-/// Two independent standard normal draws of two words, as normal_pair's.
-template <int N>
-INSONIFY_INLINE void normal_lanes(lanes<float, N>& first, lanes<float, N>& second, const lanes<std::uint32_t, N>& a,
-                                  const lanes<std::uint32_t, N>& b) {
-    lanes<float, N> radius;
-    radius_lanes<N>(radius, a);
-    circle_lanes<N>(first, second, b);
-    first = radius * first;
-    second = radius * second;
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -6017,7 +6040,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The lattice that one of a mesh's triangles is half a cell of.
+/// The lattice of which a triangle is half a cell.
 class triangle_lattice {
   public:
     /// Of a cell's three edges the longest is its diagonal. The first step goes mostly along x, both upwards.
@@ -6188,9 +6211,9 @@ inline std::vector<glm::vec3> smooth_normals(const mesh& m) {
     return normals;
 }
 
-/// Turns over each triangle whose three corner normals all point to its back: normals decide which side is outside.
+/// Flips each triangle whose three corner normals all point to its back: normals define the outside.
 /// @param m  its indices have positions, and positions have normals
-/// @returns how many were turned
+/// @returns the number of flipped triangles
 inline std::size_t wind_by_normals(mesh& m) {
     std::size_t turned = 0;
     for (glm::uvec3& t : m.triangles) {
@@ -6323,7 +6346,7 @@ struct cell_cut {
 
 inline namespace INSONIFY_FLAGS {
 
-/// How a mesh lies on a regular grid; nothing if it doesn't. All heights are finite.
+/// The regular grid that a mesh's vertices lie on, if they do and all heights are finite.
 /// @param off  by which share of a step vertices may lie beside the lattice
 template <executor_argument E = serial_executor>
 std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
@@ -6389,20 +6412,19 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// What a mesh is as a surface, with vertices in the same place taken as one (sharp edges split them for their
-/// normals).
+/// Topology of a mesh, with coincident vertices merged (sharp edges split vertices for their normals).
 struct topology {
     std::size_t vertices = 0;        ///< distinct positions that triangles use
     std::size_t edges = 0;           ///< pairs of vertices that triangles join
     std::size_t triangles = 0;       ///< without the degenerate ones
-    std::size_t degenerate = 0;      ///< triangles with two corners in the same place, left out of everything else
+    std::size_t degenerate = 0;      ///< triangles with two coincident corners, not counted elsewhere
     std::size_t boundary_edges = 0;  ///< edges with one triangle
     std::size_t tangled_edges = 0;   ///< edges with more than two triangles, or two that run along it the same way
     std::size_t inward_pieces = 0;   ///< connected ones whose triangles face inwards, as those of a cavity do
 
     /// Every edge joins two triangles of the same orientation.
     bool closed() const { return triangles > 0 && boundary_edges == 0 && tangled_edges == 0; }
-    /// All that one sees of it from outside is the front of its triangles.
+    /// Closed, with all triangles facing outwards.
     bool solid() const { return closed() && inward_pieces == 0; }
     /// V - E + F: 2 for a closed surface of one piece without handles.
     std::int64_t euler_characteristic() const {
@@ -6437,10 +6459,10 @@ inline topology inspect(const mesh& m) {
     topology out;
     const std::vector<std::uint32_t> first = weld(m.positions);
 
-    // An edge is sorted under its lower vertex; the third element tells which way the triangle runs along it.
+    // An edge is sorted under its lower vertex; the third element is the triangle's direction along it.
     std::vector<std::tuple<std::uint32_t, std::uint32_t, bool>> sides;
     std::vector<bool> used(m.positions.size());
-    std::vector<std::uint32_t> joined = first;  // to a vertex of the same piece; its last is the piece's name
+    std::vector<std::uint32_t> joined = first;  // to a vertex of the same piece; the root is the piece's id
     const auto piece_of = [&](std::uint32_t vertex) {
         while (joined[vertex] != vertex) vertex = joined[vertex] = joined[joined[vertex]];
         return vertex;
@@ -6506,9 +6528,9 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What a mesh is to a shadow policy.
+/// Class of a mesh, by which shadow policies choose their casters.
 enum class surface_kind {
-    open,         ///< neither was proven
+    open,         ///< neither of the two could be proven
     closed,       ///< each edge is run along as often one way as the other: a ray that comes from outside and ends
                   ///< outside crosses as many triangles from behind as from the front, whatever the surface intersects
     heightfield,  ///< z over a convex part of the xy plane, all triangles counter-clockwise from above
@@ -6629,7 +6651,7 @@ inline namespace INSONIFY_ABI {
 
 namespace detail {
 
-/// What copies of a shared mesh refer to.
+/// The state that copies of a shared mesh refer to.
 struct mesh_facts {
     mesh shape;
     bounding_box box;
@@ -6670,12 +6692,10 @@ INSONIFY_FUNCTION std::shared_ptr<const mesh_facts> facts_of(mesh m) {
 
 }  // namespace detail::inline INSONIFY_ONCE
 
-/// An immutable mesh: copies refer to the same triangles. A mesh whose triangles follow one another without order, as
-/// those of a shuffled one, is renumbered, triangles and vertices, and so is a regular grid that comes in another order
-/// than its rows'; otherwise a mesh keeps its numbers. Triangles that are
-/// wound against all of their normals are turned over. What renderers need of it is found once, when it is made: its
-/// bounds, smooth normals if it brings none, whether it is closed or a heightfield, and the regular grid that a
-/// heightfield's vertices lie on, if they do.
+/// An immutable mesh: copies refer to the same triangles. Shuffled meshes are reordered, triangles and vertices, for
+/// coherent access; regular grids are reordered by rows; other meshes keep their order. Triangles that are wound
+/// against all of their normals are flipped. The constructor computes what renderers need: bounds, smooth normals if
+/// there are none, whether the mesh is closed or a heightfield, and the regular grid of a heightfield.
 class shared_mesh {
   public:
     /// No triangles.
@@ -6815,7 +6835,7 @@ namespace detail::inline INSONIFY_FLAGS {
     raise_io(path, std::string(reason) + ": " + std::error_code(error, std::generic_category()).message());
 }
 
-/// Closes what it opened.
+/// Owns an open file.
 class file_handle {
   public:
     file_handle() = default;
@@ -6852,8 +6872,8 @@ inline std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
-/// Brings the names in a folder to disk. A folder that can't be opened or synced, as on some network file systems, is
-/// left to the system: the file itself is on disk.
+/// Syncs a folder's entries to disk. Failure is ignored, as some network file systems cannot sync folders: the file
+/// itself is on disk.
 inline void sync_folder(const std::string& folder) noexcept {
 #if defined(__unix__) || defined(__APPLE__)
     const int handle = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
@@ -6898,14 +6918,14 @@ inline std::string read_file(const std::string& path) {
     return bytes;
 }
 
-/// A file in the making, beside the one it will replace. `commit` brings it to disk and into place in one step; without
-/// that, nothing of it remains and the old file is as it was. A symbolic link is replaced, not followed.
+/// A temporary file beside the one that it will replace. `commit` syncs it to disk and renames it; without a commit it
+/// is removed and the old file stays. A symbolic link is replaced, not followed.
 ///
-/// The temporary name is the path with .tmp0, .tmp1, ...: the first that is free, so threads and processes that
-/// write one path don't meet, and the last to commit wins.
+/// The temporary name is the path with the first free suffix of .tmp0, .tmp1, ..., so that concurrent writers of one
+/// path do not collide; the last to commit wins.
 class replacement_file {
   public:
-    /// @throws io_error if the folder of `path` takes no new file
+    /// @throws io_error if no file can be created in the folder of `path`
     explicit replacement_file(std::string path) : path_(std::move(path)) {
         for (int number = 0; file_.get() == nullptr; ++number) {
             temporary_ = path_ + ".tmp" + detail::to_text(number);
@@ -6924,19 +6944,19 @@ class replacement_file {
         std::remove(temporary_.c_str());
     }
 
-    /// Appends. Doesn't throw, so C libraries may call back into it; `commit` reports what failed.
+    /// Appends. Does not throw, so that C libraries may call it; `commit` reports failures.
     void write(const void* data, std::size_t size) noexcept {
         errno = 0;
         if (error_ == 0 && std::fwrite(data, 1, size, file_.get()) != size) error_ = errno != 0 ? errno : EIO;
     }
 
-    /// To be called once, at the end.
+    /// Call once, at the end.
     /// @throws io_error if a write failed, or the file can't be brought to disk or into place
     void commit() {
         errno = 0;
         const bool written = error_ == 0 && detail::sync_to_disk(file_.get());
         if (!(file_.close() && written)) detail::raise_io(path_, "can't write", error_ != 0 ? error_ : errno);
-        const std::string folder = detail::folder_of(path_);  // nothing may throw once the file is in place
+        const std::string folder = detail::folder_of(path_);  // before the rename: nothing after it may throw
         if (!detail::rename_over(temporary_, path_)) detail::raise_io(path_, "can't replace", errno);
         temporary_.clear();
         detail::sync_folder(folder);
@@ -6949,8 +6969,8 @@ class replacement_file {
     int error_ = 0;
 };
 
-/// Puts `bytes` at `path`, all or nothing.
-/// @throws io_error if it can't be written; what was there before then still is
+/// Writes `bytes` to `path` atomically.
+/// @throws io_error if it can't be written; an existing file then stays as it was
 inline void write_file(const std::string& path, std::string_view bytes) {
     replacement_file file(path);
     file.write(bytes.data(), bytes.size());
@@ -7095,11 +7115,11 @@ class netpbm_reader {
         }
         return value;
     }
-    /// Before anything is allocated: a file of n bytes never makes an image of more than a few n.
+    /// Refuses headers whose image would not fit the file, before allocating it.
     void check_size() const {
         const std::uint64_t samples = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_) *
                                       static_cast<std::uint64_t>(channels());
-        // A plain sample takes a space and a digit at least.
+        // A plain sample takes at least a space and a digit.
         const bool fits = is_plain() ? samples <= rest_.size() / 2 : samples <= rest_.size() / sample_size();
         if (!fits) {
             fail("a raster of " + to_text(width_) + " x " + to_text(height_) + " pixels is longer than the file");
@@ -7169,7 +7189,7 @@ image<Pixel> parse_netpbm(std::string_view bytes, std::string_view name = "netpb
     }
     image<Pixel> out(reader.width(), reader.height());
     for (int row = 0; row < out.height(); ++row) {
-        // PFM goes from the bottom up.
+        // PFM stores rows from the bottom up.
         for (Pixel& pixel : out.row(reader.is_float() ? out.height() - 1 - row : row)) {
             if constexpr (channels == 1) {
                 pixel = detail::next_sample<sample>(reader);
@@ -7318,11 +7338,44 @@ struct draw_stats {
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
-// ------------ insonify/seabed/type.hpp ------------------------------------------------------------------
-// Labels of the sea floor and their properties: name, brightness and speckle.
+// ------------ insonify/seabed/registry.hpp --------------------------------------------------------------
+// Labels of the sea floor: the registry of the library's, and the properties of a label.
 //
-// A label is one byte. The library's labels are the rows of registry.hpp; `own_type(0)` and above are free for users'
-// seabeds, which state the properties of their labels (see model.hpp).
+// A label is one byte, stored in data sets. To add a type of relief, write its model in a file of its own and a row at
+// the end of INSONIFY_RELIEF_TYPES; to add a sediment, write a row at the end of INSONIFY_SEDIMENTS. The enumerations,
+// names in manifests, defaults of scenes and defaults of speckle are made from the rows. Labels number the rows in
+// order; `own_type(0)` and above are free for users' seabeds, which state their properties (see model.hpp).
+
+#include <iterator>
+
+// Types named after their relief, with the gray values of the paper's pictures. `sediment` has none of them.
+//      label, name, reflectivity, speckle: looks, texture, steady
+#define INSONIFY_RELIEF_TYPES(ROW)           \
+    ROW(sand, "sand", 0.45f, {1, 15, 0})     \
+    ROW(ripples, "ripples", 0.5f, {1, 0, 0}) \
+    ROW(mud, "mud", 0.4f, {1, 0, 1})         \
+    ROW(rock, "rock", 0.6f, {1, 1.5f, 0})
+
+// Sediments. Roughness: APL-UW High-Frequency Ocean Environmental Acoustic Models Handbook, TR 9407, 1994 (eqs. 2-10,
+// table 2). Levels meet that report's backscattering strengths at 100 kHz and 20 degrees; that of medium silt is
+// interpolated. Textures: few scatterers to a cell of stones, many to one of sand (D. A. Abraham, A. P. Lyons. Novel
+// Physical Interpretations of K-Distributed Reverberation. IEEE Journal of Oceanic Engineering 27, 2002); muds are
+// Rician (J. I. Dunlop. Statistical Modelling of Sidescan Sonar Images. OCEANS 1997).
+//      label, name, grain size phi, roughness w2 in cm^4, Lambert level in dB, speckle: texture, steady, relief
+#define INSONIFY_SEDIMENTS(ROW)                                                                                    \
+    ROW(rough_rock, "rough rock", -9.0f, 0.20693f, 3.1f, 0.8f, 0, {.kind = sediment_form::blocks, .relief = 1})    \
+    ROW(hard_rock, "hard rock", -7.0f, 0.01862f, -2.7f, 1.2f, 0,                                                   \
+        {sediment_form::blocks, 0.5f, 6, 1.4f, 0.3f, 2, 0.35f})                                                    \
+    ROW(cobble, "cobble", -3.0f, 0.0156f, -6.9f, 2, 0, {sediment_form::blocks, 0.15f, 5, 0.5f, 0.12f, 2.6f, 0.6f}) \
+    ROW(sandy_gravel, "sandy gravel", -1.0f, 0.012937f, -10.0f, 3, 0, {})                                          \
+    ROW(coarse_sand, "coarse sand", 0.5f, 0.006957f, -12.5f, 6, 0, {})                                             \
+    ROW(medium_sand, "medium sand", 1.5f, 0.004446f, -14.9f, 10, 0, {})                                            \
+    ROW(fine_sand, "fine sand", 2.5f, 0.002715f, -17.9f, 15, 0, {})                                                \
+    ROW(very_fine_sand, "very fine sand", 3.5f, 0.001544f, -17.7f, 20, 0, {})                                      \
+    ROW(coarse_silt, "coarse silt", 4.5f, 0.000781f, -18.5f, 0, 0.2f, {})                                          \
+    ROW(medium_silt, "medium silt", 5.5f, 0.000517f, -21.2f, 0, 0.5f, {sediment_form::soft})                       \
+    ROW(sandy_mud, "sandy mud", 6.0f, 0.000517f, -22.5f, 0, 1, {sediment_form::soft})                              \
+    ROW(silty_clay, "silty clay", 8.0f, 0.000517f, -22.6f, 0, 1, {sediment_form::soft})
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -7333,47 +7386,33 @@ inline namespace INSONIFY_ABI {
 /// variance / mean^2 of the intensity, is
 /// (1 + 1 / texture) (1 + (1 + 2 steady) / (looks (1 + steady)^2)) - 1.
 struct speckle_law {
-    int looks = 1;  ///< independent intensities that are averaged: 1 to 64
-    float texture =
-        0;  ///< shape of the gamma-distributed mean of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: none
-    float steady = 0;  ///< power of a steady echo over that of the diffuse ones: Rician amplitudes
+    int looks = 1;      ///< independent intensities that are averaged: 1 to 64
+    float texture = 0;  ///< shape of the K-distribution: rock 0.5 to 2, sand 8 to 20; 0: no texture
+    float steady = 0;   ///< power of a steady echo over that of the diffuse ones: Rician amplitudes
     friend bool operator==(const speckle_law&, const speckle_law&) = default;
 };
 
 namespace seabed {
 
-/// Label of the bottom: four types of relief, the twelve of `sediment` (see sediment.hpp), and user-defined ones from
-/// 16 on.
-enum class type : std::uint8_t {
-    sand,
-    ripples,
-    mud,
-    rock,
-    rough_rock,
-    hard_rock,
-    cobble,
-    sandy_gravel,
-    coarse_sand,
-    medium_sand,
-    fine_sand,
-    very_fine_sand,
-    coarse_silt,
-    medium_silt,
-    sandy_mud,
-    silty_clay,
-};
-inline constexpr std::size_t type_count = 16;    ///< of the library: labels below it
-inline constexpr std::size_t label_count = 256;  ///< of all; the last means no seabed in images of labels
+#define INSONIFY_LABEL(label, ...) label,
+
+/// Label of the bottom: a type of relief, a sediment, or a user's (see `own_type`).
+enum class type : std::uint8_t { INSONIFY_RELIEF_TYPES(INSONIFY_LABEL) INSONIFY_SEDIMENTS(INSONIFY_LABEL) };
+
+#undef INSONIFY_LABEL
+
+inline constexpr std::size_t first_own_label = 64;  ///< labels below are the library's, now or in future
+inline constexpr std::size_t label_count = 256;     ///< of all; the last means no seabed in images of labels
 
 inline namespace INSONIFY_FLAGS {
 
-/// A label that the library does not use.
-/// @param number  0 to 238
+/// A label for a user's seabed, which the library never uses.
+/// @param number  0 to 190
 /// @throws invalid_input for a number out of its range
 constexpr type own_type(int number) {
-    const auto limit = static_cast<int>(label_count - 1 - type_count);
-    if (number < 0 || number >= limit) insonify::detail::refuse("own_type number", number, "0 to 238");
-    return static_cast<type>(static_cast<int>(type_count) + number);
+    const auto limit = static_cast<int>(label_count - 1 - first_own_label);
+    if (number < 0 || number >= limit) insonify::detail::refuse("own_type number", number, "0 to 190");
+    return static_cast<type>(static_cast<int>(first_own_label) + number);
 }
 
 /// Index of a label in tables with one entry per label.
@@ -7394,45 +7433,16 @@ struct type_properties {
 
 inline namespace INSONIFY_FLAGS {
 
-/// A label, or the properties of one, as a seabed's `kind`.
+/// The label of a seabed's `kind`, which is a label or the properties of one.
 constexpr type label_of(type t) {
     return t;
 }
-/// The label of a type with its properties.
+/// The same for properties.
 constexpr type label_of(const type_properties& p) {
     return p.label;
 }
 
 }  // namespace INSONIFY_FLAGS
-
-}  // namespace seabed
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/registry.hpp --------------------------------------------------------------
-// The registry of the library's labels: one row for each, with its name, relief, brightness and speckle.
-//
-// To add a type of relief, write its model in a file of its own and add a row to `relief_types`. To add a sediment, add
-// a row to `sediments`. Defaults of scenes and of speckle, and names in manifests, are read from here. The label of a
-// row is its index, which a static_assert checks: labels are stored in data sets and never change.
-
-#include <iterator>
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace seabed {
-
-/// Types named after their relief, with the gray values of the paper's pictures.
-inline constexpr type_properties relief_types[] = {
-    {type::sand, "sand", 0.45f, {1, 15, 0}},
-    {type::ripples, "ripples", 0.5f, {1, 0, 0}},
-    {type::mud, "mud", 0.4f, {1, 0, 1}},
-    {type::rock, "rock", 0.6f, {1, 1.5f, 0}},
-};
 
 /// The relief of a sediment besides its roughness: `level` as of `flat`, `soft` as of `mud`, or the blocks of `rock`,
 /// whose parameters follow.
@@ -7441,7 +7451,7 @@ struct sediment_form {
     float relief = 0.5f, outcrop = 6.0f, block = 1.4f, smallest = 0.3f, sizes = 2.2f, fracture = 0.5f;
 };
 
-/// What is known of a sediment.
+/// The acoustic and geometric parameters of a sediment.
 struct sediment_facts {
     type label;
     std::string_view name;
@@ -7449,7 +7459,7 @@ struct sediment_facts {
     float strength;  ///< w2 of the roughness spectrum W(K) = w2 (K cm)^-3.25, cm^4
     float level;     ///< of Lambert's law, decibels: S_b = level + 20 log10(sin grazing)
     float texture;   ///< shape of the K-distribution, 0 for none
-    float steady;    ///< power of a steady echo among the others, over theirs
+    float steady;    ///< power of a steady echo over that of the diffuse ones
     sediment_form form{};
 
     /// Root mean square height of what is shorter than a metre, metres: 2 pi w2 K^-1.25 / 1.25 at K = 2 pi / 100 cm.
@@ -7460,35 +7470,39 @@ struct sediment_facts {
     }
 };
 
-/// Sediments from the coarsest to the finest. Roughness: APL-UW High-Frequency Ocean Environmental Acoustic Models
-/// Handbook, TR 9407, 1994 (eqs. 2-10, table 2). Levels meet that report's backscattering strengths at 100 kHz and 20
-/// degrees; that of medium silt lies between its neighbours'. Textures: few scatterers to a cell of stones, many to one
-/// of sand (D. A. Abraham, A. P. Lyons. Novel Physical Interpretations of K-Distributed Reverberation. IEEE Journal of
-/// Oceanic Engineering 27, 2002); muds are Rician (J. I. Dunlop. Statistical Modelling of Sidescan Sonar Images. OCEANS
-/// 1997).
-inline constexpr sediment_facts sediments[] = {
-    {type::rough_rock, "rough rock", -9.0f, 0.20693f, 3.1f, 0.8f, 0, {.kind = sediment_form::blocks, .relief = 1}},
-    {type::hard_rock,
-     "hard rock",
-     -7.0f,
-     0.01862f,
-     -2.7f,
-     1.2f,
-     0,
-     {.kind = sediment_form::blocks, .relief = 0.5f, .sizes = 2, .fracture = 0.35f}},
-    {type::cobble, "cobble", -3.0f, 0.0156f, -6.9f, 2, 0, {sediment_form::blocks, 0.15f, 5, 0.5f, 0.12f, 2.6f, 0.6f}},
-    {type::sandy_gravel, "sandy gravel", -1.0f, 0.012937f, -10.0f, 3, 0},
-    {type::coarse_sand, "coarse sand", 0.5f, 0.006957f, -12.5f, 6, 0},
-    {type::medium_sand, "medium sand", 1.5f, 0.004446f, -14.9f, 10, 0},
-    {type::fine_sand, "fine sand", 2.5f, 0.002715f, -17.9f, 15, 0},
-    {type::very_fine_sand, "very fine sand", 3.5f, 0.001544f, -17.7f, 20, 0},
-    {type::coarse_silt, "coarse silt", 4.5f, 0.000781f, -18.5f, 0, 0.2f},
-    {type::medium_silt, "medium silt", 5.5f, 0.000517f, -21.2f, 0, 0.5f, {sediment_form::soft}},
-    {type::sandy_mud, "sandy mud", 6.0f, 0.000517f, -22.5f, 0, 1, {sediment_form::soft}},
-    {type::silty_clay, "silty clay", 8.0f, 0.000517f, -22.6f, 0, 1, {sediment_form::soft}},
-};
-/// How many sediments have a name.
-inline constexpr std::size_t sediment_count = std::size(sediments);
+#define INSONIFY_PROPERTIES(label, ...) {type::label, __VA_ARGS__},
+#define INSONIFY_SEDIMENT(label, ...) label = static_cast<int>(type::label),
+
+/// Sediments by name, from the coarsest to the finest: each has the value of its label.
+enum class sediment : std::uint8_t { INSONIFY_SEDIMENTS(INSONIFY_SEDIMENT) };
+
+/// The rows of types of relief.
+inline constexpr type_properties relief_types[] = {INSONIFY_RELIEF_TYPES(INSONIFY_PROPERTIES)};
+/// The rows of sediments.
+inline constexpr sediment_facts sediments[] = {INSONIFY_SEDIMENTS(INSONIFY_PROPERTIES)};
+
+#undef INSONIFY_SEDIMENT
+#undef INSONIFY_PROPERTIES
+#undef INSONIFY_SEDIMENTS
+#undef INSONIFY_RELIEF_TYPES
+
+inline namespace INSONIFY_FLAGS {
+
+/// The label of a sediment.
+constexpr type type_of(sediment s) {
+    return static_cast<type>(s);
+}
+
+/// The row of a sediment.
+constexpr const sediment_facts& facts_of(sediment s) {
+    return sediments[static_cast<std::size_t>(s) - std::size(relief_types)];
+}
+
+}  // namespace INSONIFY_FLAGS
+
+/// Labels of the library.
+inline constexpr std::size_t type_count = std::size(relief_types) + std::size(sediments);
+static_assert(type_count <= first_own_label);
 
 namespace detail::inline INSONIFY_FLAGS {
 
@@ -7497,8 +7511,7 @@ constexpr std::array<type_properties, type_count> registered_types() {
     std::size_t count = 0;
     for (const type_properties& t : relief_types) rows[count++] = t;
     // Sediments relative to sand, which is as bright as medium sand.
-    const float sand = relief_types[0].reflectivity /
-                       sediments[index_of(type::medium_sand) - std::size(relief_types)].strength_at_nadir();
+    const float sand = relief_types[0].reflectivity / facts_of(sediment::medium_sand).strength_at_nadir();
     for (const sediment_facts& s : sediments)
         rows[count++] = {s.label, s.name, sand * s.strength_at_nadir(), {1, s.texture, s.steady}};
     return rows;
@@ -7506,16 +7519,8 @@ constexpr std::array<type_properties, type_count> registered_types() {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-/// Every label of the library.
+/// The properties of each label of the library, by index.
 inline constexpr std::array<type_properties, type_count> built_in_types = detail::registered_types();
-static_assert(std::size(relief_types) + sediment_count == type_count);
-static_assert(
-    [] {
-        for (std::size_t i = 0; i < built_in_types.size(); ++i)
-            if (index_of(built_in_types[i].label) != i) return false;
-        return true;
-    }(),
-    "the label of a row is its index");
 
 inline namespace INSONIFY_FLAGS {
 
@@ -7967,9 +7972,9 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/detail/lattice.hpp --------------------------------------------------------
 // World-fixed lattices: cell coordinates of positions, and random bits by cell.
 //
-// Random draws are keyed by lattice cell, so that a place looks the same in any grid, tile or order of evaluation.
-// Cells are found in double; what goes to float is the way across a cell alone, so precision is that of home at 10^7 m
-// from it.
+// Random draws are keyed by lattice cell, so that a position has the same relief in any grid, tile or order of
+// evaluation. Cells are computed in double and only fractions of a cell in float: precision at 10^7 m from the origin
+// is that at the origin.
 //
 // Based on: Guy L. Steele, Doug Lea, Christine H. Flood. Fast Splittable Pseudorandom Number Generators. OOPSLA, 2014
 // (the finaliser "variant 13"). Chris Wellons. Prospecting for Hash Functions. 2018 (the 32-bit finaliser "lowbias32").
@@ -8005,7 +8010,7 @@ constexpr std::uint64_t scramble(std::uint64_t z) {
 }
 
 /// 64 random bits for each cell of a plane: a pure function of (seed, stream, layer, column, row). Philox draws the
-/// key; the cells themselves are hashed by two finalisers, five times cheaper and the row's shared along it.
+/// key. Two finalisers hash the cell, five times cheaper than Philox; that of the row is evaluated once per row.
 class cell_hash {
   public:
     cell_hash(std::uint64_t seed, stream purpose, std::uint32_t layer = 0) {
@@ -8020,8 +8025,8 @@ class cell_hash {
         std::uint64_t operator()(std::int64_t column) const {
             return scramble(key_ + static_cast<std::uint64_t>(column) * 0x9E3779B97F4A7C15u);
         }
-        /// 32 bits for each of several columns at once, by the last 32 bits of their numbers: other bits than above,
-        /// which come again after 2^32 columns.
+        /// 32 bits for each of several columns at once, from the last 32 bits of their indices, so with a period of
+        /// 2^32 columns. They differ from those above.
         template <class Columns>
         INSONIFY_INLINE void mixed(Columns& bits, const Columns& columns) const {
             bits = columns ^ static_cast<std::uint32_t>(key_);
@@ -8055,7 +8060,7 @@ struct lattice {
     double frequency = 1;
     double offset_x = 0, offset_y = 0;
 
-    /// Shifted by its own hash: what is special at lattice lines must not line up over the layers of a sum.
+    /// Shifted by its own hash, so that the lattice lines of a sum's layers do not coincide.
     static lattice shifted(double cell, const cell_hash& hash) {
         const pair_of_bits shift(hash[0x7FFFFFFF](0x7FFFFFFF));
         return {1 / cell, static_cast<double>(shift.a), static_cast<double>(shift.b)};
@@ -8064,8 +8069,8 @@ struct lattice {
     double v(double y) const { return y * frequency + offset_y; }
 };
 
-/// The nearest length of eight bits: its multiples are exact, so places that are multiples of it are the same in
-/// whatever row they are sampled.
+/// The nearest length of eight bits. Its multiples are exact, so that nodes at multiples of it are the same in every
+/// row.
 inline double eight_bits(double length) {
     double unit = 1;
     while (unit * 256 <= length) unit *= 2;
@@ -8073,7 +8078,7 @@ inline double eight_bits(double length) {
     return static_cast<double>(numeric::floor_to_int(length / unit + 0.5)) * unit;
 }
 
-/// Where a coordinate lies on a lattice.
+/// A coordinate on a lattice: its cell and the fraction within it.
 struct lattice_coordinate {
     std::int64_t cell;
     float fraction;
@@ -8081,7 +8086,7 @@ struct lattice_coordinate {
         : cell(numeric::floor_to_int(cells)), fraction(static_cast<float>(cells - static_cast<double>(cell))) {}
 };
 
-/// The part of a row that is processed at a time: its positions, and the last of them again to fill whole vectors.
+/// The part of a row that is processed at a time: its positions, padded with the last to whole vectors.
 struct stretch {
     static constexpr std::size_t padded = chunk;  // which is a multiple of every lane count
 
@@ -8092,7 +8097,7 @@ struct stretch {
 
     stretch(const scanline& line, std::size_t samples)
         : y(line.y), spacing(line.spacing), grid_spacing(line.grid_spacing), count(samples) {
-        // As line.x(i) has it; counted by fours, so that no sum waits for the one before.
+        // The positions of line.x(i); four independent sums hide the latency of the additions.
         auto number = static_cast<double>(line.first);
         for (std::size_t i = 0; i < whole(); i += 4, number += 4) {
             x[i] = line.origin + line.spacing * number;
@@ -8106,7 +8111,7 @@ struct stretch {
     std::size_t whole() const { return (count + 15) & ~std::size_t{15}; }
     double last() const { return x[count - 1]; }
 
-    /// The samples that may lie in [low, high], as whole vectors: a few more, never one less.
+    /// The samples that may lie in [low, high], rounded outwards to whole vectors.
     struct range {
         std::size_t begin, end;
     };
@@ -8135,7 +8140,7 @@ void by_stretches(const scanline& line, std::span<float> heights, Fill&& fill) {
     }
 }
 
-/// Two halves as one vector.
+/// Concatenates two halves.
 template <int N, class Whole, class Half>
 INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
 #if INSONIFY_SIMD
@@ -8149,42 +8154,34 @@ INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
 #endif
 }
 
-/// Largest whole number not above a coordinate whose size is below 2^51.
-template <class Doubles>
-INSONIFY_INLINE void floor_of(Doubles& floor, const Doubles& u) {
-    constexpr double whole = 0x1.8p52;  // added, it leaves the nearest integer in the last bits
-    const Doubles nearest = (u + whole) - whole;
-    floor = nearest > u ? nearest - 1.0 : nearest;
-}
-
-/// N positions on a lattice: the way across their cells in [0, 1], and which cells they are, counted from `first`.
+/// N positions on a lattice: fractions within their cells, in [0, 1], and indices of the cells, counted from `first`.
 template <int N>
 INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cell, const double* x, double frequency,
                             double offset, double first) {
     if constexpr (N == 1) {
         double floor;
         const double u = *x * frequency + offset;
-        floor_of(floor, u);
+        insonify::detail::floor_lanes<1>(floor, u);
         cell = static_cast<std::int32_t>(floor - first);
         across = static_cast<float>(u - floor);
     } else {
         constexpr int half = N / 2;
         lanes<float, half> part[2];
-        lanes<std::int32_t, half> name[2];
+        lanes<std::int32_t, half> index[2];
         for (int k = 0; k < 2; ++k) {
             lanes<double, half> u, floor;
             insonify::detail::load(u, x + k * half);
             u = u * frequency + offset;
-            floor_of(floor, u);
-            insonify::detail::convert(name[k], lanes<double, half>(floor - first));
+            insonify::detail::floor_lanes<half>(floor, u);
+            insonify::detail::convert(index[k], lanes<double, half>(floor - first));
             insonify::detail::convert(part[k], lanes<double, half>(u - floor));
         }
         join<N>(across, part[0], part[1]);
-        join<N>(cell, name[0], name[1]);
+        join<N>(cell, index[0], index[1]);
     }
 }
 
-/// x[i] frequency + offset as a float, for N positions whose distance from the offset's origin is short.
+/// x[i] frequency + offset for N positions, rounded to float: the sum has to be small.
 template <int N>
 INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double frequency, double offset) {
     if constexpr (N == 1) {
@@ -8202,7 +8199,7 @@ INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double freq
     }
 }
 
-/// Perlin's quintic: 0 to 1 with two derivatives zero at both ends.
+/// Perlin's quintic: from 0 to 1, first and second derivatives 0 at both ends.
 template <class T>
 INSONIFY_INLINE constexpr void fade(T& into, const T& t) {
     into = t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
@@ -8232,8 +8229,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/detail/noise.hpp ----------------------------------------------------------
 // Gradient noise on the world's lattice, and power-law relief made of its octaves.
 //
-// Along a row, the height of a cell's noise is a fixed pair of lines blended by the fade curve, so hashing and the
-// whole y direction are paid for once per cell crossed, not once per sample.
+// Along a row, the noise within a cell is two straight lines blended by the fade curve. Gradients are hashed and
+// blended over y once per cell, not once per sample.
 //
 // Based on: Ken Perlin. Improving Noise. SIGGRAPH, 2002 (gradients on a lattice, quintic fade).
 
@@ -8246,19 +8243,19 @@ namespace seabed::inline INSONIFY_FLAGS {
 /// Gradient noise: mean 0, variance 1, twice differentiable, waves of about one to three cells.
 class gradient_noise {
   public:
-    /// Brings the variance to 1: that of the sum over the corners is 8/3 (181/462) (535/18018) for gradients uniform in
-    /// the square, by integrating the squared weights over the cell.
+    /// Scales the variance to 1. The sum over the corners has a variance of 8/3 (181/462) (535/18018) for gradients
+    /// uniform in a square, the integral of the squared weights over the cell.
     static constexpr float gain = 5.6777169f;
-    /// What it never exceeds. Along each axis the corners weigh fade(t) and 1 - fade(t), and a gradient of 1 gives t or
-    /// 1 - t there: t + fade(t) (1 - 2 t) at most, which is 1/2 in the middle and less elsewhere; both axes make 1.
-    static constexpr double most = 1.00001 * static_cast<double>(gain);
+    /// Upper bound of the absolute value. Along each axis the corners have weights fade(t) and 1 - fade(t), and a
+    /// gradient of 1 contributes t or 1 - t: at most t + fade(t) (1 - 2 t) <= 1/2, so both axes together add up to 1.
+    static constexpr double upper_bound = 1.00001 * static_cast<double>(gain);
     /// Mean square of the gradient, times the square of the cell: 324744/19367, by the same integral.
     static constexpr float mean_square_slope = 16.767904f;
 
     /// @param cell  metres, > 0
     gradient_noise(double cell, detail::cell_hash hash) : lattice_(detail::lattice::shifted(cell, hash)), hash_(hash) {}
 
-    /// The share of it that the grid of a stretch carries; a cell is about half a wave.
+    /// The fraction of the amplitude that the stretch's grid can carry; a cell is about half a wavelength.
     float carried_by(const detail::stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
 
     /// Adds `amplitude` times the noise along a stretch to its values.
@@ -8269,13 +8266,13 @@ class gradient_noise {
                                  amplitude * gain};
         const std::int64_t first = numeric::floor_to_int(lattice_.u(part.x[0]));
         const std::int64_t last = numeric::floor_to_int(lattice_.u(part.x[part.whole() - 1])) + 1;
-        const bool dense = last - first < most_columns;
-        alignas(32) side sides[most_columns + 16];
+        const bool dense = last - first < table_size;
+        alignas(32) side sides[table_size + 16];
         if (dense) line.template tabulate<N>(sides, static_cast<std::uint32_t>(first), static_cast<int>(last - first));
 
         for (std::size_t i = 0; i < part.whole(); i += N) {
             using insonify::detail::lane;
-            lanes<float, N> across, share, sum, corner[4];  // height and slope at both sides of the cell
+            lanes<float, N> across, weight, sum, corner[4];  // height and slope at both sides of the cell
             lanes<std::int32_t, N> cell;
             const auto fetch = [&](const side* from) INSONIFY_INLINE_LAMBDA {
                 if constexpr (N == 1)
@@ -8295,7 +8292,7 @@ class gradient_noise {
                     fetch(sides);
                 }
             } else {
-                // So wide apart that each sample has its own columns.
+                // Samples are so far apart that each has its own columns.
                 for (int k = 0; k < N; ++k) {
                     const detail::lattice_coordinate u(lattice_.u(part.x[i + static_cast<std::size_t>(k)]));
                     line.template tabulate<1>(sides + 2 * k, static_cast<std::uint32_t>(u.cell), 1);
@@ -8306,9 +8303,9 @@ class gradient_noise {
             }
             const lanes<float, N> left = corner[0] + corner[1] * across,
                                   right = corner[2] + corner[3] * (across - 1.0f);
-            detail::fade(share, across);
+            detail::fade(weight, across);
             insonify::detail::load(sum, values + i);
-            sum = sum + (left + share * (right - left));
+            sum = sum + (left + weight * (right - left));
             insonify::detail::store(values + i, sum);
         }
     }
@@ -8323,11 +8320,11 @@ class gradient_noise {
     struct side {
         float height, slope;
     };
-    static constexpr std::int64_t most_columns = 512;  // beyond that, samples lie in cells of their own
+    static constexpr std::int64_t table_size = 512;  // columns; samples of wider rows lie in cells of their own
 
     struct line_of_cells {
         detail::cell_hash::row below, above;
-        float up, rise, gain;  // the row's way up in its cells, its fade, and what to multiply by
+        float up, rise, gain;  // the row's fraction within its cells, the fade of it, and the scale
 
         template <int N>
         INSONIFY_INLINE void sides_of(lanes<float, N>& height, lanes<float, N>& slope, const words<N>& column) const {
@@ -8418,10 +8415,10 @@ class power_law_noise {
     /// Adds the relief along a stretch to its values, metres.
     void add(const detail::stretch& part, detail::stretch_values& values, isa level = best_isa()) const;
 
-    /// What is added is never above this, nor below its negative, metres.
-    double most() const {
+    /// Upper bound of the relief's absolute value, metres.
+    double upper_bound() const {
         double sum = 0;
-        for (const octave& o : octaves_) sum += static_cast<double>(o.amplitude) * gradient_noise::most;
+        for (const octave& o : octaves_) sum += static_cast<double>(o.amplitude) * gradient_noise::upper_bound;
         return sum;
     }
 
@@ -8444,7 +8441,7 @@ class power_law_noise {
         INSONIFY_INLINE void run() const {
             for (const octave& o : noise.octaves_) {
                 const float kept = o.noise.carried_by(part);
-                if (kept == 0) break;  // nor the finer ones
+                if (kept == 0) break;  // finer octaves are not carried either
                 o.noise.template add<N>(part, kept * o.amplitude, values);
             }
         }
@@ -8503,7 +8500,7 @@ class flat_sampler {
         });
     }
 
-    height_range range() const { return {-surface_.most(), surface_.most()}; }
+    height_range range() const { return {-surface_.upper_bound(), surface_.upper_bound()}; }
 
   private:
     power_law_noise surface_;
@@ -8535,7 +8532,7 @@ namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A coordinate in cells, held inside a grid: which of its cells, and how far across, in [0, 1]. NaN counts as 0.
+/// A coordinate in cells, clamped to the grid: the cell's index and the fraction within it, in [0, 1]. NaN counts as 0.
 struct grid_coordinate {
     int cell;
     double across;
@@ -8546,7 +8543,7 @@ struct grid_coordinate {
     }
 };
 
-/// The plane over one point: its height there and how much it rises over a cell in x and in y, metres.
+/// The plane at a point: its height, and its rise per cell in x and in y, metres.
 struct facet {
     double height, rise_x, rise_y;
 };
@@ -8556,7 +8553,7 @@ inline facet facet_at(image_view<const float> heights, double u, double v) {
     const grid_coordinate x(u, heights.width() - 1), y(v, heights.height() - 1);
     const double corner = static_cast<double>(heights(x.cell, y.cell));
     const double opposite = static_cast<double>(heights(x.cell + 1, y.cell + 1));
-    // The diagonal runs from this corner to the opposite one: below it the right vertex counts, above it the upper.
+    // The diagonal runs from this corner to the opposite one, with the right vertex below it and the upper above.
     const bool lower = x.across >= y.across;
     const double side = static_cast<double>(lower ? heights(x.cell + 1, y.cell) : heights(x.cell, y.cell + 1));
     const double rise_x = lower ? side - corner : opposite - side;
@@ -8573,15 +8570,15 @@ class heightfield_sampler;
 
 }  // namespace INSONIFY_FLAGS
 
-/// Heights at the vertices of a square grid; vertex (i, j) stands at origin + spacing * (i, j), so that y, along track,
-/// grows with the row: the array looked at as a picture has forward at the bottom (`from_image` turns it).
+/// Heights at the vertices of a square grid; vertex (i, j) lies at origin + spacing * (i, j), so that y, along track,
+/// grows with the row: viewed as an image, the array has forward at the bottom (`from_image` flips it).
 ///
-/// Between vertices the surface is the one that is drawn: each cell is cut from vertex (i, j) to (i + 1, j + 1) into
-/// two plane triangles. Outside, it goes on as at the nearest edge. A vertex that is NaN or infinite is no data:
-/// queries on its triangles return NaN, and they are left out of the drawn mesh.
+/// The surface is that of the drawn mesh: the diagonal from vertex (i, j) to (i + 1, j + 1) divides each cell into two
+/// plane triangles. Heights outside are those of the nearest edge. A vertex that is NaN or infinite has no data:
+/// queries on its triangles return NaN, and the mesh leaves them out.
 struct heightfield {
     image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
-    image<type> types{};          ///< one per vertex, or none: then everything is `fallback`
+    image<type> types{};          ///< one per vertex; empty: all are `fallback`
     glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
     double spacing = 1;           ///< metres between vertices, > 0
     type fallback = type::sand;
@@ -8646,7 +8643,7 @@ class heightfield_sampler {
         for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
     }
 
-    /// Of all vertices, wherever they are.
+    /// The range of all vertices.
     height_range range() const {
         height_range all;
         for (const float height : field_->heights.pixels()) {
@@ -8677,14 +8674,14 @@ inline std::vector<type_properties> heightfield::legend() const {
 
 inline namespace INSONIFY_FLAGS {
 
-/// A heightfield from a picture of heights: one vertex per pixel, height = scale * pixel, the top row foremost (the
-/// largest y), vertex (0, 0) at the world's origin.
+/// A heightfield from an image of heights: one vertex per pixel, height = scale * pixel, the top row at the largest y,
+/// vertex (0, 0) at the world's origin.
 ///
-/// A picture of 8 bits has 256 heights: over 1 m of relief its steps are 4 mm high, and under a grazing light each
-/// draws a contour line. Take 16 bits or more, or smooth the pixels first.
+/// An image of 8 bits has 256 heights: over 1 m of relief its steps are 4 mm high and show as contour lines at grazing
+/// light. Use 16 bits or more, or smooth the pixels first.
 /// @param spacing  metres between pixels, > 0
 /// @param scale    metres per unit of a pixel
-/// @param no_data  the value of pixels that mean nothing, as 0 often is; NaN pixels always do
+/// @param no_data  the value of pixels without data, often 0; NaN pixels never have data
 /// @throws invalid_input for a picture smaller than 2 x 2, a spacing not above 0 or a scale that is not finite
 inline heightfield from_image(image_view<const float> picture, double spacing, float scale = 1,
                               float no_data = std::numeric_limits<float>::quiet_NaN()) {
@@ -8716,16 +8713,16 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed::detail::inline INSONIFY_FLAGS {
 
-/// Calls `visit(first, count)` for runs of columns of a lattice, which together hold each column from which something
-/// reaches a sample of the stretch once, in rising order.
-/// @param reach  how many columns a thing reaches beyond its own
+/// Calls `visit(first, count)` for runs of lattice columns whose features may reach a sample of the stretch: each such
+/// column once, in rising order.
+/// @param reach  columns that a feature extends beyond its own
 template <class Visit>
 INSONIFY_INLINE void visit_columns(const lattice& l, const stretch& part, std::int64_t reach, Visit&& visit) {
     const std::int64_t first = numeric::floor_to_int(l.u(part.x[0])), last = numeric::floor_to_int(l.u(part.last()));
     const bool sparse = last - first > 4 * static_cast<std::int64_t>(part.count);
     std::int64_t next = first - reach;
     for (std::size_t i = sparse ? 0 : part.count - 1; i < part.count; ++i) {
-        // Columns between samples that are far apart reach none.
+        // Where samples are far apart, columns between them reach none.
         const std::int64_t column = numeric::floor_to_int(l.u(part.x[i]));
         if (sparse) next = (std::max)(next, column - reach);
         const std::int64_t count = column + reach + 1 - next;
@@ -8739,8 +8736,8 @@ class round_marks {
   public:
     round_marks() = default;
     /// @param cell          metres
-    /// @param filled, high  how many cells hold a mark, and how many of those that do a mound, as shares of all cells
-    /// @param mound, pock   metres: of the largest
+    /// @param filled, high  fractions of all cells that hold a mark, and that hold a mound
+    /// @param mound, pock   height and depth of the largest, metres
     round_marks(double cell, float filled, float high, float mound, float pock, cell_hash hash)
         : hash_(hash), filled_(filled), high_(high), mound_(mound), pock_(-pock) {
         lattice_.frequency = 1 / cell;
@@ -8817,13 +8814,13 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/detail/ripple_train.hpp ---------------------------------------------------
 // One system of sand ripples: crests of equal height that meander, end and fork, as wave-made ripples do.
 //
-// A Gaussian random field of ripples fades in and out, which real ones don't. Here the phase of such a field,
+// The amplitude of a Gaussian random field varies; that of real ripples does not. Here the phase of such a field,
 // psi(x) = sum_n exp i(k_n . x + phi_n), drives a profile of constant amplitude: height = (eta / 2) cos arg psi. Crests
 // fork at the zeros of psi, around which the phase winds once.
 //
-// The carrier exp(i k_0 . x) is divided out of psi. What is left varies slowly, so along a row it is summed on a
-// lattice several times coarser than the ripples and interpolated; across rows it is exact. The lattice is the world's:
-// a height depends on seed and position alone.
+// The envelope psi exp(-i k_0 . x) varies slowly. Along a row it is summed on a lattice several times coarser than the
+// ripples and interpolated; across rows it is exact. The lattice is fixed to the world: a height depends on seed and
+// position alone.
 //
 // Based on: Dajun Tang, Frank S. Henyey, Brian T. Hefner, Peter A. Traykovski. Simulating Realistic-Looking Sediment
 // Ripple Fields. IEEE Journal of Oceanic Engineering 34, 2009 (why ripples are not Gaussian).
@@ -8835,16 +8832,17 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// What ripples of one kind are like. Ripples that waves make are 0.05 to 1.5 m long and 0.05 to 0.2 times as high.
+/// Parameters of one system of ripples. Wave ripples are 0.05 to 1.5 m long and 0.05 to 0.2 times as high.
 ///
-/// They fork 2 pi spread bandwidth / wavelength^2 times per square metre.
+/// Crests fork 2 pi spread bandwidth / wavelength^2 times per square metre.
 struct ripple_system {
     float wavelength = 0.8f;  ///< metres, > 0: from crest to crest
     float steepness = 0.11f;  ///< in [0, 0.5]: height from trough to crest, over the wavelength
     float direction = 0;      ///< radians from +x: where the wave vector points, across the crests
-    float spread = 0.09f;     ///< radians, in [0, 0.5]: standard deviation of the direction; more of it, more forks
+    float spread = 0.09f;     ///< radians, in [0, 0.5]: standard deviation of the direction; forks grow with it
     float bandwidth = 0.09f;  ///< in [0, 0.25]: relative standard deviation of the wave number
-    float sharpness = 0.25f;  ///< in [0, 0.9]: 0 is sinusoidal, more is narrower crests and wider troughs: trochoidal
+    float sharpness =
+        0.25f;  ///< in [0, 0.9]: 0 is sinusoidal; larger is trochoidal, with narrow crests and wide troughs
 
     INSONIFY_MEMBER float height() const { return steepness * wavelength; }
     friend bool operator==(const ripple_system&, const ripple_system&) = default;
@@ -8852,24 +8850,7 @@ struct ripple_system {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Cosine and sine of 2 pi x for |x| <= 1/2, absolute error < 2e-6, without a branch.
-template <class Lanes>
-INSONIFY_INLINE void turn(Lanes& cosine, Lanes& sine, const Lanes& x) {
-    // Series of the half angle, which stays below pi / 2, and then its double.
-    const Lanes a = x * static_cast<float>(numeric::pi);
-    const Lanes t = a * a;
-    const Lanes s =
-        a *
-        (1.0f + t * (-1.0f / 6 + t * (1.0f / 120 + t * (-1.0f / 5040 + t * (1.0f / 362880 - t * (1.0f / 39916800))))));
-    const Lanes c =
-        1.0f +
-        t * (-0.5f +
-             t * (1.0f / 24 + t * (-1.0f / 720 + t * (1.0f / 40320 + t * (-1.0f / 3628800 + t * (1.0f / 479001600))))));
-    sine = 2.0f * s * c;
-    cosine = 1.0f - 2.0f * s * s;
-}
-
-/// x[i] frequency + offset less the nearest whole number, for N positions.
+/// x[i] frequency + offset minus the nearest integer, for N positions.
 template <int N>
 INSONIFY_INLINE void turns(lanes<float, N>& into, const double* x, double frequency, double offset) {
     constexpr double whole = 0x1.8p52;  // added, it leaves the nearest integer in the last bits
@@ -8900,8 +8881,8 @@ class ripple_train {
   public:
     static constexpr std::size_t waves = 32;
 
-    /// Softens the zeros of psi, as a share of its rms: the amplitude dips to nothing at the very fork, over a few
-    /// hundredths of a wavelength more than a phase jump would, and slopes stay bounded.
+    /// Regularizes the zeros of psi, relative to its rms: the amplitude falls to zero at a fork within a few hundredths
+    /// of a wavelength, and slopes stay bounded.
     static constexpr float softening = 0.15f;
 
     /// @param name  of the system, for errors
@@ -8919,11 +8900,11 @@ class ripple_train {
     /// Adds the relief along a stretch to its values, metres.
     void add(const stretch& part, stretch_values& values, isa level = best_isa()) const;
 
-    /// What is added is never above this, nor below its negative, metres: the profile is within [-1, 1] of half the
-    /// height, but for the carrier's error of 2e-6, which the sharpest crests multiply by 19.
-    double most() const { return 1.0001 * static_cast<double>(half_height_); }
+    /// Upper bound of the relief's absolute value, metres: the profile is within half the height, up to the carrier's
+    /// error of 2e-6, which the sharpest crests multiply by 19.
+    double upper_bound() const { return 1.0001 * static_cast<double>(half_height_); }
 
-    /// psi at a point, its waves summed in full: mean square 1, phase that of the crests, zeros where they fork.
+    /// psi at a point, summed without interpolation: mean square 1, the phase of the crests, zeros at their forks.
     struct phasor {
         double re, im;
     };
@@ -8941,11 +8922,10 @@ class ripple_train {
 
   private:
     static constexpr std::size_t block = 32;    // lattice points whose rotations are tabulated
-    static constexpr std::size_t points = 256;  // the most that a stretch shares
+    static constexpr std::size_t points = 256;  // size of the table that a stretch shares
 
     void draw_waves(const ripple_system& r, random_sequence draw) {
-        // The k-th direction goes with a wave number from any of as many strata: so few waves have the moments asked
-        // for.
+        // Latin hypercube sampling of direction and wave number: few waves suffice for the moments asked for.
         std::array<double, waves> strata{};
         for (std::uint32_t n = 0; n < waves; ++n) {
             const std::uint32_t other = draw.below(n + 1);
@@ -8968,8 +8948,8 @@ class ripple_train {
             largest = (std::max)(largest, numeric::abs(wave_x_[n]));
         }
 
-        // Space the lattice so that the fastest wave turns by a sixteenth per step: cubic interpolation then errs by
-        // less than 0.0006 of it.
+        // The fastest wave turns by a sixteenth per lattice step: cubic interpolation is then off by less than 0.0006
+        // of its amplitude.
         step_ = (std::min)(static_cast<double>(r.wavelength), 1 / (16 * (std::max)(largest, 1e-6 * frequency)));
         const double scale = numeric::square_root(1.0 / static_cast<double>(waves));
         for (std::size_t n = 0; n < waves; ++n) {
@@ -8985,8 +8965,8 @@ class ripple_train {
         }
     }
 
-    /// Mean 0, standard deviation 1, never beyond 2.45, from a uniform number: the tails of a normal would only widen
-    /// the band.
+    /// A triangular variable of mean 0 and standard deviation 1 from a uniform one. It is bounded by 2.45; the tails of
+    /// a normal one would widen the band.
     static double triangular(double u) {
         const double side = u < 0.5 ? numeric::square_root(2 * u) - 1 : 1 - numeric::square_root(2 - 2 * u);
         return side * 2.449489742783178;
@@ -9005,7 +8985,7 @@ class ripple_train {
         }
     };
 
-    /// psi without its carrier at `count` points of the lattice; writes to whole vectors.
+    /// The envelope at `count` points of the lattice; writes whole vectors.
     template <int N>
     INSONIFY_INLINE void envelope(float* re, float* im, std::int64_t from, double y, std::size_t count) const {
         for (std::size_t done = 0; done < count;) {
@@ -9023,8 +9003,8 @@ class ripple_train {
                 insonify::detail::load(wave_y, &wave_y_[n]);
                 insonify::detail::load(phase, &phase_[n]);
                 phase = wave_x * x + wave_y * y + phase;
-                floor_of(floor, phase);
-                insonify::detail::circle_lanes<wide>(cosine, sine, phase - floor);
+                insonify::detail::floor_lanes<wide>(floor, phase);
+                insonify::detail::cos_sin_turns<wide>(cosine, sine, phase - floor);
                 lanes<float, wide> narrow;
                 insonify::detail::convert(narrow, cosine);
                 insonify::detail::store(start_re + n, narrow);
@@ -9054,7 +9034,7 @@ class ripple_train {
     INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
         using insonify::detail::lane;
         const double frequency = 1 / step_, across_rows = carrier_y_ * part.y;
-        // What sharpens crests has half their wavelength.
+        // The harmonic that sharpens crests has half their wavelength.
         const float half_height = half_height_ * carried(wavelength_, part.grid_spacing);
         const float sharpness = sharpness_ * carried(wavelength_ / 2, part.grid_spacing);
         const std::int64_t first = numeric::floor_to_int(part.x[0] * frequency) - 1;
@@ -9070,7 +9050,7 @@ class ripple_train {
             if (dense) {
                 locate<N>(across, cell, &part.x[i], frequency, 0, static_cast<double>(first));
             } else {
-                // So wide apart that each sample has a stencil of its own.
+                // Samples are so far apart that each has its own stencil.
                 for (int k = 0; k < N; ++k) {
                     const lattice_coordinate u(part.x[i + static_cast<std::size_t>(k)] * frequency);
                     envelope<N>(&table_re[static_cast<std::size_t>(4 * k)], &table_im[static_cast<std::size_t>(4 * k)],
@@ -9093,7 +9073,7 @@ class ripple_train {
 
             lanes<float, N> phase;
             turns<N>(phase, &part.x[i], carrier_x_, across_rows);
-            turn(cosine, sine, phase);
+            insonify::detail::cos_sin_turns<N>(cosine, sine, phase);
             const lanes<float, N> real = a * cosine - b * sine;
             insonify::detail::square_root<N>(magnitude, a * a + b * b + softening * softening);
             // With c = cos arg psi, the profile is (c - s) / (1 - s c): -1 to 1 like c itself, the curvature of its
@@ -9127,8 +9107,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/detail/trawls.hpp ---------------------------------------------------------
 // Furrows of trawl boards: long, nearly straight, in a few directions.
 //
-// Boats of one direction go side by side in lanes that meander a little; a lane holds one furrow, which comes and goes
-// along it. The spoil lies in a low berm on either side.
+// Furrows of one direction run in parallel, slightly meandering strips. A strip holds one furrow with gaps along it.
+// The spoil lies in a low berm on either side.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -9136,13 +9116,13 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// What trawls leave. Doors dig 0.05 to 0.3 m deep and 0.2 to 2 m wide.
+/// Furrows of trawl doors, 0.05 to 0.3 m deep and 0.2 to 2 m wide.
 struct trawl_marks {
     float density = 0;    ///< furrows per metre that one crosses, in [0, 1 / (4 width)]; 0 for none
     float depth = 0.06f;  ///< metres, >= 0
     float width = 0.5f;   ///< metres, > 0: between the tops of the berms
-    int directions = 2;   ///< 1 to 8: in which boats work
-    float length = 150;   ///< metres, > 0: about how long a furrow is
+    int directions = 2;   ///< 1 to 8: number of directions of towing
+    float length = 150;   ///< metres, > 0: typical length of a furrow
 
     friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
 };
@@ -9163,7 +9143,7 @@ class trawl_furrows {
         if (t.density == 0 || t.depth == 0) return;
         random_sequence draw(seed, static_cast<std::uint32_t>(stream::trawls));
         const double turn = draw.uniform();
-        // Half of the places along a lane have a furrow.
+        // A furrow is present along half of its strip.
         const double lane = 0.5 * t.directions / static_cast<double>(t.density);
         for (int n = 0; n < t.directions; ++n) {
             const auto heading = numeric::sin_cos_turns(turn + 0.5 * (n + 0.6 * draw.uniform()) / t.directions);
@@ -9177,12 +9157,12 @@ class trawl_furrows {
         if (!families_.empty()) dispatch(kernel{*this, part, values.data()}, level);
     }
 
-    /// The deepest furrows cross where the highest berms do not, metres.
+    /// Bounds of the relief where furrows, or berms, of all directions cross, metres.
     double lowest() const { return -1.00001 * static_cast<double>(families_.size()) * static_cast<double>(depth_); }
     double highest() const { return -0.3 * lowest(); }
 
   private:
-    /// Boats of one direction.
+    /// Furrows of one direction.
     struct family {
         double cosine, sine, per_lane, per_length, per_bend;  // the last three per metre
     };
@@ -9218,13 +9198,13 @@ class trawl_furrows {
         hash_[static_cast<std::int64_t>(n)].mixed(bits, words(words(cell) + static_cast<std::uint32_t>(first)));
         insonify::detail::convert(lot, ints(ints(bits << 16) >> 16));
         insonify::detail::convert(bends, ints(ints(bits) >> 16));
-        // Each lane's furrow bends by itself and keeps clear of the lane's sides: no neighbour needs to be looked at.
+        // A furrow stays within its strip, so that a sample meets one furrow at most.
         lanes<float, N> turns_along, phase = bends * 0x1p-16f;
         turns<N>(turns_along, &part.x[i], f.cosine * f.per_bend, part.y * f.sine * f.per_bend);
         phase = phase + turns_along;
         phase = phase > 0.5f ? phase - 1.0f : phase;
         phase = phase < -0.5f ? phase + 1.0f : phase;
-        turn(cosine, sine, phase);
+        insonify::detail::cos_sin_turns<N>(cosine, sine, phase);
         off = off - (0.5f + (0.5f - 2 * half_width_) * (0.7f * lot * 0x1p-15f + 0.3f * sine));
         off = (off < 0.0f ? -off : off) * (1 / half_width_);
         if (!insonify::detail::any(ints(off < 2.0f))) return;
@@ -9235,13 +9215,13 @@ class trawl_furrows {
         }
     }
 
-    /// @param lot     random bits of the lane
+    /// @param bits    random bits of the strip
     /// @param off     half widths from the furrow's middle
     /// @param along   metres
-    float depth_at(const family& f, std::size_t n, std::uint32_t lot, float off, double along) const {
-        // The way along a lane is cut at whole lengths; each has a furrow or none, faded where the other begins.
-        const lattice_coordinate u(along * f.per_length + static_cast<double>(lot) * 0x1p-32);
-        const cell_hash::row presence = hash_[static_cast<std::int64_t>((std::uint64_t{lot} << 8) + n + 64)];
+    float depth_at(const family& f, std::size_t n, std::uint32_t bits, float off, double along) const {
+        // A strip is divided into lengths with or without a furrow, faded where they meet.
+        const lattice_coordinate u(along * f.per_length + static_cast<double>(bits) * 0x1p-32);
+        const cell_hash::row presence = hash_[static_cast<std::int64_t>((std::uint64_t{bits} << 8) + n + 64)];
         const auto present = [&](std::int64_t cell) { return (presence(cell) & 1) != 0 ? 1.0f : 0.0f; };
         const float strength = mix(present(u.cell), present(u.cell + 1), fade(clamp01(8 * u.fraction - 7)));
         // A bowl down to -1 that rises to a berm of 0.3, which ends at twice the half width.
@@ -9284,7 +9264,7 @@ struct mud {
     float size = 0.35f;          ///< metres, > 0: radius of the largest; the smallest have 0.4 of it
     float mound_height = 0.04f;  ///< metres, >= 0: of the largest mounds
     float pock_depth = 0.04f;    ///< metres, >= 0: of the largest pock marks
-    float pock_share = 0.4f;     ///< in [0, 1]: how many of them are pock marks
+    float pock_share = 0.4f;     ///< in [0, 1]: fraction of them that are pock marks
     trawl_marks trawls{};        ///< none unless they have a density
     std::uint64_t seed = 1;
     type kind = type::mud;
@@ -9325,8 +9305,8 @@ class mud_sampler {
     }
 
     height_range range() const {
-        return {marks_.lowest() + trawls_.lowest() - surface_.most(),
-                marks_.highest() + trawls_.highest() + surface_.most()};
+        return {marks_.lowest() + trawls_.lowest() - surface_.upper_bound(),
+                marks_.highest() + trawls_.highest() + surface_.upper_bound()};
     }
 
   private:
@@ -9417,8 +9397,8 @@ class ripples_sampler {
     detail::ripple_train::phasor psi(double x, double y) const { return first_.psi(x, y); }
 
     height_range range() const {
-        const double most = first_.most() + second_.most() + surface_.most();
-        return {-most, most};
+        const double highest = first_.upper_bound() + second_.upper_bound() + surface_.upper_bound();
+        return {-highest, highest};
     }
 
   private:
@@ -9460,20 +9440,20 @@ namespace seabed::detail::inline INSONIFY_FLAGS {
 class block_layer {
   public:
     /// @param cell       metres: blocks reach 0.3 to 0.9 of it from their centre
-    /// @param share      in [0, 1]: how many cells hold a block
+    /// @param coverage   in [0, 1]: fraction of the cells that hold a block
     /// @param height     metres: of the highest blocks
     /// @param steepness  slope of the walls
-    block_layer(double cell, float share, float height, float steepness, cell_hash hash)
+    block_layer(double cell, float coverage, float height, float steepness, cell_hash hash)
         : lattice_(lattice::shifted(cell, hash)),
           hash_(hash),
-          share_(static_cast<std::int32_t>(share * 65536)),
+          coverage_(static_cast<std::int32_t>(coverage * 65536)),
           height_(height),
           wall_(steepness * static_cast<float>(cell)) {}
 
-    /// The share of their height that the grid of a stretch carries.
+    /// The fraction of the height that the stretch's grid can carry.
     float carried_by(const stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
 
-    /// Raises the values along a stretch, metres, to those of the blocks: 0 stays 0 between them.
+    /// Raises the values along a stretch, metres, to the tops of the blocks; values between blocks stay.
     template <int N>
     INSONIFY_INLINE void raise(const stretch& part, float* values) const {
         const lattice_coordinate v(lattice_.v(part.y));
@@ -9486,23 +9466,23 @@ class block_layer {
                     if (!some.look(*this, hash, dy, static_cast<std::uint32_t>(column), first + count - column))
                         continue;
                     for (int k = 0; k < N; ++k)
-                        if (some.there[k] != 0) draw<N>(part, values, column + k, block(*this, some, k));
+                        if (some.is_crossed[k] != 0) draw<N>(part, values, column + k, block(*this, some, k));
                 }
             });
         }
     }
 
-    /// No block is higher, metres: the middle of the widest has 0.9 * 1.1 of the height; a top tilts by half the height
-    /// per cell along each axis, and its corners are 0.975 of a cell away.
-    double most() const { return 1.00001 * (0.99 + 0.5 * 1.41422 * 0.975) * static_cast<double>(height_); }
+    /// Upper bound of the heights, metres: the middle of the widest block has 0.9 * 1.1 of the height; a top tilts by
+    /// half the height per cell along each axis, and its corners are 0.975 of a cell away.
+    double upper_bound() const { return 1.00001 * (0.99 + 0.5 * 1.41422 * 0.975) * static_cast<double>(height_); }
 
   private:
-    /// What a row meets of the blocks of N cells side by side: most cells are done with here.
+    /// Which blocks of N adjacent cells a row crosses; rejects most cells.
     template <int N>
     struct found {
         static constexpr std::size_t size = static_cast<std::size_t>(N);
-        alignas(32) std::int32_t there[size];
-        alignas(32) std::uint32_t lots[size];
+        alignas(32) std::int32_t is_crossed[size];
+        alignas(32) std::uint32_t seeds[size];
         alignas(32) float x[size], y[size], radius[size], chord[size];  // in cells, from the block's centre
 
         INSONIFY_INLINE bool look(const block_layer& layer, const cell_hash::row& hash, float dy, std::uint32_t column,
@@ -9525,20 +9505,21 @@ class block_layer {
             number_of(along, second);
             number_of(form, words(second << 16));
             up = dy - up;
-            // Middling sizes are the most common.
+            // Medium sizes are the most frequent.
             const floats reach = 0.6f + 1.2f * form * (form < 0.0f ? -form : form);
-            // The corners of an octagon lie 1 / cos(pi / 8) from its centre, at most 0.975 of a cell: none is missed.
+            // The corners of an octagon lie 1 / cos(pi / 8) from its centre, at most 0.975 of a cell: within one
+            // column.
             floats half = reach * reach * 1.1715729f - up * up;
             const ints zero{}, one = zero + 1;
             const auto limit = static_cast<std::uint32_t>((std::min)(most, std::int64_t{N}));
-            const ints lot = ints(first & 0xFFFFu);
-            const ints met = (half > 0.0f ? one : zero) & (lot < layer.share_ ? one : zero) &
-                             (ints(number) < static_cast<std::int32_t>(limit) ? one : zero);
-            if (!insonify::detail::any(ints(met != 0))) return false;
+            const ints chance = ints(first & 0xFFFFu);
+            const ints crossed = (half > 0.0f ? one : zero) & (chance < layer.coverage_ ? one : zero) &
+                                 (ints(number) < static_cast<std::int32_t>(limit) ? one : zero);
+            if (!insonify::detail::any(ints(crossed != 0))) return false;
             half = half > 0.0f ? half : floats{};
             insonify::detail::square_root<N>(half, half);
-            insonify::detail::store(there, met);
-            insonify::detail::store(lots, words(first ^ second));
+            insonify::detail::store(is_crossed, crossed);
+            insonify::detail::store(seeds, words(first ^ second));
             insonify::detail::store(x, along);
             insonify::detail::store(y, up);
             insonify::detail::store(radius, reach);
@@ -9547,11 +9528,11 @@ class block_layer {
         }
     };
 
-    /// A block as one row sees it: everything that depends on y is already in.
+    /// The cross section of a block along one row; all terms in y are already evaluated.
     struct block {
         template <int N>
         INSONIFY_INLINE block(const block_layer& layer, const found<N>& some, int k) {
-            const std::uint64_t bits = scramble(some.lots[k] * std::uint64_t{0x9E3779B97F4A7C15u});
+            const std::uint64_t bits = scramble(some.seeds[k] * std::uint64_t{0x9E3779B97F4A7C15u});
             const auto part = [&](int shift) {
                 return static_cast<float>(static_cast<std::int16_t>(static_cast<std::uint16_t>(bits >> shift))) *
                        0x1p-15f;
@@ -9560,7 +9541,7 @@ class block_layer {
             x = 0.5f + some.x[k];
             radius = some.radius[k];
             chord = some.chord[k];
-            // An octagon is the same an eighth of a turn on: cosines of 16 headings up to there.
+            // An octagon repeats every eighth of a turn: 16 headings within one.
             constexpr float headings[] = {1.0f,        0.99879546f, 0.99518473f, 0.98917651f, 0.98078528f, 0.97003125f,
                                           0.95694034f, 0.94154407f, 0.92387953f, 0.90398929f, 0.88192126f, 0.85772861f,
                                           0.83146961f, 0.80320753f, 0.77301045f, 0.74095113f};
@@ -9572,17 +9553,17 @@ class block_layer {
             u = y * sine;
             v = y * cosine;
             wall = layer.wall_;
-            // Wide blocks are high ones; a tilted top makes one side a ramp and the other a cliff.
+            // Height grows with width; a tilted top makes one side a ramp and the other a cliff.
             const float middle = layer.height_ * radius * (0.7f + 0.4f * part(48));
             tilt = 0.5f * layer.height_ * part(16);
             top = middle + 0.5f * layer.height_ * part(32) * y;
         }
 
-        float x;             // of the centre, in cells from the side of its own
+        float x;             // of the centre, in cells from the left side of its cell
         float cosine, sine;  // of its heading
-        float u, v;          // what y adds to the coordinates along and across the heading
+        float u, v;          // terms of y in the coordinates along and across the heading
         float radius;        // in cells
-        float chord;         // half of what the row cuts out of the circle around it
+        float chord;         // half the row's chord of the circumscribed circle
         float wall;          // metres per cell
         float top, tilt;     // metres at x, and metres per cell along the row
 
@@ -9616,7 +9597,7 @@ class block_layer {
 
     lattice lattice_;
     cell_hash hash_;
-    std::int32_t share_;  // of 65536
+    std::int32_t coverage_;  // of 65536
     float height_, wall_;
 };
 
@@ -9644,14 +9625,14 @@ class rock_sampler;
 /// Outcrops with steep faces, blocks on and around them, and rough surfaces.
 ///
 /// Blocks come in sizes that halve from one class to the next. Above a size there are N of them per square metre,
-/// N ~ size^-sizes, and each is as high as its size allows.
+/// N ~ size^-sizes; height is proportional to size.
 struct rock {
     float relief = 0.5f;     ///< metres, >= 0: about the height of outcrops with their blocks
-    float outcrop = 6.0f;    ///< metres, > 0: from outcrop to outcrop
+    float outcrop = 6.0f;    ///< metres, > 0: typical distance between outcrops
     float block = 1.4f;      ///< metres, > 0: spacing of the largest blocks, which are 0.6 to 1.8 of it wide
     float smallest = 0.3f;   ///< metres, in (0, block]: spacing of the smallest
-    float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; 2 covers as much by each class
-    float fracture = 0.5f;   ///< in [0, 1]: how many places hold one of the smallest blocks, or of the most frequent
+    float sizes = 2.2f;      ///< in [0, 4]: exponent of the numbers of blocks; at 2 each class covers the same area
+    float fracture = 0.5f;   ///< in [0, 1]: fraction of lattice cells that hold a block of the most frequent size
     float steepness = 2.5f;  ///< > 0: slope of the walls of blocks, 1 is 45 degrees
     roughness surface{.rms = 0.012f, .longest = 0.8f, .shortest = 0.08f};
     std::uint64_t seed = 1;
@@ -9681,7 +9662,7 @@ class rock_sampler {
         for (std::uint32_t k = 0; k < 3; ++k, cell /= 2) {
             outcrops_.push_back(gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
         }
-        // A class of blocks half as large has 2^sizes times as many of them, on four times as many places.
+        // Blocks of half the size are 2^sizes times as many, in four times as many cells.
         const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
         float share = 1, height = 0.8f * r.relief, most = 1;
         float size = r.block;
@@ -9704,10 +9685,10 @@ class rock_sampler {
 
     height_range range() const {
         double blocks = 0;
-        for (const detail::block_layer& layer : blocks_) blocks += layer.most();
-        // See add_relief: an outcrop's top, and the share of its blocks that stand out of it.
+        for (const detail::block_layer& layer : blocks_) blocks += layer.upper_bound();
+        // See add_relief: the top of an outcrop, and the fraction of its blocks' height that rises above it.
         const double top = 1.00001 * (0.4 * static_cast<double>(relief_) + 0.8 * blocks);
-        return {-surface_.most(), surface_.most() + top};
+        return {-surface_.upper_bound(), surface_.upper_bound() + top};
     }
 
   private:
@@ -9729,7 +9710,7 @@ class rock_sampler {
         using lanes = insonify::detail::lanes<float, N>;
         using insonify::detail::load;
         using insonify::detail::store;
-        // Where a noise exceeds a level, the bottom steps up to an outcrop's top, over faces as steep as a bank.
+        // Where a noise exceeds a threshold, the bottom steps up to the top of an outcrop over a steep face.
         detail::stretch_values weights{}, tops;
         float amplitude = 1;
         for (const gradient_noise& octave : outcrops_) {
@@ -9745,13 +9726,13 @@ class rock_sampler {
             load(height, heights + i);
             height = height + (0.4f * relief_) * step;
             store(heights + i, height);
-            // Blocks are whole on an outcrop; around it sediment has buried most of them.
+            // Blocks are exposed on an outcrop and mostly buried by sediment around it.
             step = 0.3f + 0.5f * step;
             store(&weights[i], step);
         }
         for (const detail::block_layer& layer : blocks_) {
             const float kept = layer.carried_by(part);
-            if (kept == 0) break;  // nor the smaller ones
+            if (kept == 0) break;  // smaller blocks are not carried either
             tops.fill(0);
             layer.template raise<N>(part, tops.data());
             for (std::size_t i = 0; i < part.whole(); i += N) {
@@ -9879,7 +9860,7 @@ heightfield sample(const Model& source, const grid& where, Executor&& ex = seria
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/sediment.hpp --------------------------------------------------------------
-// Sediments by name or grain size: one word sets relief, brightness and speckle together (table in registry.hpp).
+// Sediments by name or grain size: one word sets relief, brightness and speckle together (rows in registry.hpp).
 //
 // A sediment is a label too: models of that label get the table's brightness and speckle by default. All values are
 // relative. Levels and roughness are for 10 to 100 kHz; a side-scan sonar's 300 to 900 kHz extrapolates
@@ -9891,33 +9872,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// The rows of `sediments`; each has the value of its label.
-enum class sediment : std::uint8_t {
-    rough_rock = static_cast<std::uint8_t>(type::rough_rock),
-    rock,
-    cobble,
-    sandy_gravel,
-    coarse_sand,
-    medium_sand,
-    fine_sand,
-    very_fine_sand,
-    coarse_silt,
-    medium_silt,
-    sandy_mud,
-    silty_clay,
-};
-
 inline namespace INSONIFY_FLAGS {
-
-/// The label of a sediment.
-constexpr type type_of(sediment s) {
-    return static_cast<type>(s);
-}
-
-/// The row of a sediment in the table above.
-constexpr const sediment_facts& facts_of(sediment s) {
-    return sediments[static_cast<std::size_t>(s) - std::size(relief_types)];
-}
 
 /// A sediment by its name in the table.
 /// @throws invalid_input for a name that isn't there
@@ -14194,9 +14149,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/detail/normals.hpp --------------------------------------------------------
 // Normals of a heightfield, by finite differences of its vertices.
 //
-// Central differences match the mesh of the field: they see the relief that is drawn and nothing finer, whatever the
-// model. Of a wave of n vertices to the length they give sin(2 pi / n) / (2 pi / n) of the slope:
-// 0.90 at 8, 0.97 at 16.
+// Central differences resolve the relief of the drawn mesh and nothing finer, for every model. The slope of a wave of n
+// vertices is reduced by sin(2 pi / n) / (2 pi / n): 0.90 at 8, 0.97 at 16.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -14206,9 +14160,8 @@ namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// How much a surface rises at the vertices of a row, by central differences: twice the rise of a cell. A neighbour
-/// that is missing or beyond the edge leaves the side that is there to count twice; at a vertex without data nothing
-/// rises.
+/// Rises of a surface at the vertices of a row, by central differences: twice the rise per cell. Beside an edge or a
+/// missing neighbour the one-sided difference is doubled; it is 0 at a vertex without data.
 class row_rises {
   public:
     row_rises(const image<float>& heights, int j)
@@ -14247,7 +14200,7 @@ class row_rises {
 /// The normals of one row of vertices.
 class row_normals {
   public:
-    /// @param out  as many as the row has vertices
+    /// @param out  one for each vertex of the row
     row_normals(const heightfield& field, int row, glm::vec3* out)
         : width_(static_cast<std::size_t>(field.heights.width())),
           here_(field.heights.row(row).data()),
@@ -14267,7 +14220,7 @@ class row_normals {
         using insonify::detail::load;
         one(0);
         std::size_t i = 1;
-        const float twice = inner_ ? 1.0f : 2.0f;  // at an edge the side that is there counts twice
+        const float twice = inner_ ? 1.0f : 2.0f;  // one-sided differences at an edge are doubled
         for (; i + N < width_; i += N) {
             floats left, right, back, ahead, here, length, x, y;
             load(left, here_ + i - 1);
@@ -14275,7 +14228,7 @@ class row_normals {
             load(back, back_ + i);
             load(ahead, ahead_ + i);
             load(here, here_ + i);
-            // A neighbour or the vertex itself without data is rare, and left to the slow way.
+            // Missing data is rare and takes the scalar path.
             ints bits;
             const floats known = (left - left) + (right - right) + (back - back) + (ahead - ahead) + (here - here);
             std::memcpy(&bits, &known, sizeof bits);
@@ -14344,7 +14297,7 @@ namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Which triangles of a cell have data at all their corners.
+/// The triangles of a cell that have data at all corners.
 struct cell_facets {
     bool lower, upper;
 
@@ -14357,7 +14310,7 @@ struct cell_facets {
     std::size_t count() const { return std::size_t{lower} + std::size_t{upper}; }
 };
 
-/// A vertex of a heightfield as its mesh has it; one without data lies at z = 0.
+/// Position of a heightfield's vertex in the mesh; z = 0 without data.
 inline glm::vec3 position_at(const heightfield& field, std::size_t i, std::size_t j, glm::ivec2 first) {
     const float height = field.heights(static_cast<int>(i), static_cast<int>(j));
     return {static_cast<float>(field.spacing * (static_cast<double>(first.x) + static_cast<double>(i))),
@@ -14377,7 +14330,7 @@ void tessellate_into(Mesh& result, const heightfield& field, E& ex, glm::ivec2 f
     result.positions.resize(heights.size());
     result.normals.resize(heights.size());
 
-    // Write the vertices, and count the triangles of each row of cells on the way.
+    // Write the vertices and count the triangles of each row of cells.
     std::vector<std::size_t> first_triangle(height, 0);
     ex.bulk(height, [&](std::size_t j) {
         row_normals(field, static_cast<int>(j), &result.normals[j * width]).compute();
@@ -14416,7 +14369,7 @@ inline namespace INSONIFY_FLAGS {
 /// Positions are relative to the heightfield's origin, x in [0, spacing (width - 1)], so that float holds them wherever
 /// the field lies: place the mesh at `field.origin`. Vertex (i, j) is number j width + i. Normals are those that
 /// `normals` gives. Vertices without data lie at z = 0 and belong to no triangle.
-/// @param first  what vertex (0, 0) counts as, in x and y: positions are spacing (first + (i, j)), and meshes of parts
+/// @param first  index of vertex (0, 0) in a larger grid: positions are spacing (first + (i, j)), and meshes of parts
 ///               of one grid share their vertices to the last bit
 /// @throws invalid_input as `validate`, and for 2^32 vertices or more
 template <executor_argument Executor = serial_executor>
@@ -14437,10 +14390,10 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/detail/needed_vertices.hpp ------------------------------------------------
 // Selects the vertices of a heightfield that a mesh needs for a given tolerance.
 //
-// The hierarchy halves right triangles at the middle of their longest side. A middle is a vertex of the grid, and the
-// two triangles on its sides are halved together or not at all: so no vertex ever lies on another triangle's side, and
-// nothing needs stitching. Whether a triangle may stay whole is measured against every height below it, from small
-// triangles to large ones; where one had to be halved, all that contain it are.
+// The hierarchy bisects right triangles at the midpoint of their longest side. The midpoint is a vertex of the grid,
+// and the two triangles that share the side are bisected together: the mesh has no T-junctions. Whether a triangle may
+// stay whole is tested against every height within it, from small triangles to large ones; a bisected triangle forces
+// the bisection of all that contain it.
 //
 // Based on: William Evans, David Kirkpatrick, Gregg Townsend. Right-Triangulated Irregular Networks. Algorithmica 30,
 // 2001.
@@ -14465,9 +14418,9 @@ struct tolerance {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Which vertices of a heightfield a mesh needs. Vertices of the hierarchy are the middles of longest sides: those of a
-/// step s have their lowest set bit at s in one coordinate ("edges", the side lies along an axis) or in both
-/// ("centres", it is a diagonal).
+/// Flags the vertices of a heightfield that a mesh needs. Vertices of the hierarchy are midpoints of longest sides. At
+/// step s, the lowest set bit of one coordinate is s ("edges": the side lies along an axis) or that of both is
+/// ("centres": the side is a diagonal).
 class needed_vertices {
   public:
     template <executor E>
@@ -14491,8 +14444,8 @@ class needed_vertices {
     /// Cells along a side of the hierarchy's square.
     int size() const { return size_; }
 
-    /// Whether the diagonal that the hierarchy gives to the square of a vertex (x, y) of this step runs from its lowest
-    /// to its highest corner. It leads to the middle of the square that this one is a quarter of.
+    /// Whether the hierarchy's diagonal of the square around a centre (x, y) of this step rises from its lower left
+    /// corner. It points to the centre of the parent square.
     static bool rises(int x, int y, int step) { return ((x ^ y) & (2 * step)) == 0; }
 
     /// The step of the hierarchy's vertices, 0 at its corners.
@@ -14533,7 +14486,7 @@ class needed_vertices {
 
     bool is_centre_needed(int x, int y, int s) const {
         if (needed(x - s, y) || needed(x + s, y) || needed(x, y - s) || needed(x, y + s)) return true;
-        if (x + s > columns_ || y + s > rows_) return true;  // a part of it is beyond the field
+        if (x + s > columns_ || y + s > rows_) return true;  // partly outside of the field
         const double height = height_allowed({x - s, y - s}, {x + s, y + s});
         const bool up = rises(x, y, s);
         const point a{x - s, up ? y - s : y + s}, b{x + s, up ? y + s : y - s};
@@ -14546,7 +14499,7 @@ class needed_vertices {
             if (needed(x - h, y - h) || needed(x + h, y - h) || needed(x - h, y + h) || needed(x + h, y + h))
                 return true;
         }
-        // The longest side lies along x or y, a triangle on either side of it.
+        // The longest side lies along x or y, with a triangle on either side.
         const bool along_x = (x & s) != 0;
         const point reach = along_x ? point{s, 0} : point{0, s};
         const point a{x - reach.x, y - reach.y}, b{x + reach.x, y + reach.y};
@@ -14554,14 +14507,14 @@ class needed_vertices {
         for (const int side : {-s, s}) {
             const point tip = along_x ? point{x, y + side} : point{x + side, y};
             if (tip.x < 0 || tip.y < 0 || (along_x ? (side > 0 && y == rows_) : (side > 0 && x == columns_))) continue;
-            if (!inside(b.x, b.y) || !inside(tip.x, tip.y)) return true;  // a part of it is beyond the field
+            if (!inside(b.x, b.y) || !inside(tip.x, tip.y)) return true;  // partly outside of the field
             if (!fits(a, b, tip, height)) return true;
         }
         return false;
     }
 
-    /// A cell whose diagonal falls, drawn as one half of small triangles and one of a larger one: where it matters
-    /// which diagonal it is, both halves have to be small. Then they are cut as the heightfield is.
+    /// Cells with a falling diagonal, of which one half belongs to a larger triangle: where the choice of the diagonal
+    /// exceeds the tolerance, both halves become small triangles, with the heightfield's own diagonal.
     void pair_up_cells() {
         for (bool changed = true; changed;) {
             changed = false;
@@ -14585,7 +14538,7 @@ class needed_vertices {
         return static_cast<double>(off) <= allowed && static_cast<double>(-off) <= allowed;
     }
 
-    /// What a triangle in a box may be off by: the least of its corners.
+    /// Height tolerance of triangles in a box: the least over its corners.
     double height_allowed(const point& low, const point& high) const {
         if (!(allowed_.lean < (std::numeric_limits<double>::infinity)())) return allowed_.height;
         const auto farthest = [](double a, double b) { return (std::max)(a * a, b * b); };
@@ -14596,11 +14549,11 @@ class needed_vertices {
         return allowed_.height * distance > allowed_.lean ? allowed_.lean / distance : allowed_.height;
     }
 
-    /// Whether the triangle (a, b, tip), its longest side from a to b, may stand for all that lies below it.
+    /// Whether the triangle (a, b, tip), with its longest side from a to b, is within tolerance of all samples in it.
     bool fits(const point& a, const point& b, const point& tip, double height) const {
         const double slope = allowed_.slope * field_.spacing;
         const bool check_slopes = !slope_x_.empty();
-        // Most of those that don't fit are off in the middle of a side, and the smallest have no other vertices.
+        // Most rejections are at the midpoint of a side, and the smallest triangles have no other vertices.
         const auto middles_fit = [&](const image<float>& values, double allowed) {
             return fits_middle(values, a, b, allowed) && fits_middle(values, b, tip, allowed) &&
                    fits_middle(values, tip, a, allowed);
@@ -14634,7 +14587,7 @@ class needed_vertices {
     static bool each_row(const point& a, const point& b, const point& c, const Visit& visit) {
         struct side {
             point low;
-            int top, lean;  // to the right, for each row up
+            int top, lean;  // lean: columns to the right per row
             side(const point& p, const point& q) : low(p.y < q.y ? p : q), top((std::max)(p.y, q.y)) {
                 const int across = (p.y < q.y ? q.x : p.x) - low.x;
                 lean = across > 0 ? 1 : across < 0 ? -1 : 0;  // sides are level, upright or diagonal
@@ -14655,11 +14608,11 @@ class needed_vertices {
         return true;
     }
 
-    /// The plane through the values at three vertices, and how far others may be from it.
+    /// The plane through the values at three vertices, with the tolerance of others.
     class plane {
       public:
         plane(const image<float>& values, double allowed, const point& a, const point& b, const point& c)
-            : values_(values), from_(a), most_(static_cast<float>(allowed)) {
+            : values_(values), from_(a), tolerance_(static_cast<float>(allowed)) {
             if (values.empty()) return;
             const auto abx = static_cast<float>(b.x - a.x), aby = static_cast<float>(b.y - a.y);
             const auto acx = static_cast<float>(c.x - a.x), acy = static_cast<float>(c.y - a.y);
@@ -14684,13 +14637,13 @@ class needed_vertices {
                 floats value;
                 load(value, row + x);
                 const floats off = value - (start + dx_ * (across + static_cast<float>(x - from_.x)));
-                const ints fit = (off <= most_) & (-off <= most_);
+                const ints fit = (off <= tolerance_) & (-off <= tolerance_);
                 const ints missed = fit == 0;
                 if (insonify::detail::any(missed)) return false;
             }
             for (; x <= last; ++x) {
                 const float off = row[x] - (start + dx_ * static_cast<float>(x - from_.x));
-                if (!(off <= most_ && -off <= most_)) return false;
+                if (!(off <= tolerance_ && -off <= tolerance_)) return false;
             }
             return true;
         }
@@ -14698,10 +14651,10 @@ class needed_vertices {
       private:
         const image<float>& values_;
         point from_;
-        float most_, at_ = 0, dx_ = 0, dy_ = 0;
+        float tolerance_, at_ = 0, dx_ = 0, dy_ = 0;
     };
 
-    /// A falling side cuts cells in the middle, where the heightfield has its own, rising diagonals.
+    /// A falling side crosses the rising diagonals of the heightfield's cells at their midpoints.
     bool fits_falling(const point& p, const point& q, double allowed) const {
         const int length = q.x - p.x;
         if (length != p.y - q.y || length == 0) return true;
@@ -14754,13 +14707,13 @@ namespace seabed {
 /// A mesh of some vertices of a heightfield.
 struct adaptive_mesh {
     mesh shape;                           ///< as `tessellate` makes it
-    std::vector<std::uint32_t> vertices;  ///< which vertex of the heightfield each is: j width + i
+    std::vector<std::uint32_t> vertices;  ///< index of each in the heightfield: j width + i
 };
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Calls `emit(corner, corner, corner)`, counter-clockwise and each a glm::ivec2, for every triangle that a vertex
-/// brings: those whose right angle it is.
+/// Calls `emit(corner, corner, corner)`, counter-clockwise and each a glm::ivec2, for every triangle whose right angle
+/// is at a vertex.
 template <class Emit>
 void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit) {
     if (!needed(x, y)) return;
@@ -14782,7 +14735,7 @@ void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit)
             if (!needed(middle.x, middle.y)) emit(here, a, b);
             continue;
         }
-        // Half a cell. If the other half is as large, the cell is cut as the heightfield is.
+        // Half a cell. If the other half is one triangle, too, the cell has the heightfield's diagonal.
         const glm::ivec2 opposite = a + b - here;
         const bool rising = (b.x - a.x) == (b.y - a.y);
         if (!rising && needed(opposite.x, opposite.y))
@@ -14802,7 +14755,7 @@ inline namespace INSONIFY_FLAGS {
 /// `tessellate`; a plane takes two, and some more beside an edge whose length is not a power of two cells. Takes
 /// several times as long as `tessellate`.
 ///
-/// No two triangles that share a longest side could be replaced by the one that they are halves of.
+/// The mesh is minimal within its hierarchy: no two halves of a triangle could be merged within the tolerance.
 /// @param first  as for `tessellate`
 /// @throws invalid_input as `tessellate`, and for a negative or NaN tolerance or a nadir that is not finite
 template <executor_argument Executor = serial_executor>
@@ -14820,12 +14773,12 @@ adaptive_mesh tessellate(const heightfield& field, const tolerance& allowed, Exe
 
     const int size = needed.size();
     const auto rows = static_cast<std::size_t>(heights.height()), columns = static_cast<std::size_t>(heights.width());
-    // The corners of the hierarchy's root, which are no triangle's middle vertex.
+    // The corners of the hierarchy's root are not midpoints of any side.
     const auto is_corner = [=](std::size_t x, std::size_t y) {
         const auto end = static_cast<std::size_t>(size);
         return (x == 0 || x == end) && (y == 0 || y == end);
     };
-    // The whole square's two halves, where not even its centre is needed.
+    // The two halves of the root, if not even its centre is needed.
     const bool whole = needed.inside(size, size) && (size == 1 || !needed(size / 2, size / 2));
     const auto each_triangle = [&](std::size_t j, const auto& emit) {
         const auto known = [&](const glm::ivec2& p) { return numeric::is_finite(heights(p.x, p.y)); };
@@ -18497,7 +18450,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Concave polygons with more corners are cut into a fan, which covers too much: the work stays linear for any input.
+/// Concave polygons with more corners become a fan, which covers too much, so that the time stays linear for any input.
 inline constexpr std::size_t ear_clipping_limit = 512;
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -18506,7 +18459,7 @@ namespace detail::inline INSONIFY_FLAGS {
 class flat_polygon {
   public:
     explicit flat_polygon(std::span<const glm::vec3> corners) : corners_(corners) {
-        // Newell's area vector, from the first corner so that a polygon far from the origin keeps its digits.
+        // Newell's area vector, relative to the first corner: precise far from the origin.
         glm::dvec3 area(0);
         const glm::dvec3 origin(corners[0]);
         for (std::size_t i = 2; i < corners.size(); ++i) {
@@ -18548,7 +18501,7 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
         ring[i].reflex = polygon.turn(ring[i].previous, i, ring[i].next) < 0;
     }
 
-    // An ear is cut off by a diagonal inside the polygon; if anything is in the way, some reflex corner is.
+    // The diagonal of an ear lies inside the polygon, which is so if no reflex corner lies in the ear.
     const auto is_ear = [&](std::uint32_t i) {
         const auto [previous, next, reflex, ear] = ring[i];
         if (reflex) return false;
@@ -18561,7 +18514,7 @@ inline void clip_ears(const flat_polygon& polygon, std::uint32_t count, std::vec
 
     std::uint32_t tip = 0;
     for (std::uint32_t left = count; left > 3; --left) {
-        // A simple polygon always has an ear. One that crosses itself may not: then any corner will do.
+        // A simple polygon always has an ear. A self-intersecting one may not: then any corner is cut off.
         for (std::uint32_t walked = 0; !ring[tip].ear && walked < left; ++walked) tip = ring[tip].next;
         const std::uint32_t a = ring[tip].previous, b = ring[tip].next;
         triangles.emplace_back(a, tip, b);
@@ -18613,7 +18566,7 @@ inline namespace INSONIFY_ABI {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// One pass over the text. Words are parted by blanks; a backslash at the end of a line continues it.
+/// Parses the text in one pass. Blanks separate words; a backslash at the end of a line continues it.
 class obj_reader {
   public:
     obj_reader(std::string_view text, std::string_view name) : text_(text), name_(name) {}
@@ -18657,7 +18610,7 @@ class obj_reader {
     }
     static bool blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
-    /// One character on, or over a continuation.
+    /// Skips one character, or a continuation.
     void advance() {
         const std::size_t continued = continuation(at_);
         line_ += continued > 0 ? 1 : 0;
@@ -18717,7 +18670,7 @@ class obj_reader {
         return {x, y, number()};
     }
 
-    /// From the file's count, from 1 up or from -1 back, to a count from 0.
+    /// Converts an index of the file, 1 and up or -1 and down, to one from 0.
     std::uint32_t index(std::string_view digits, std::size_t given, const char* what) {
         std::int64_t value = 0;
         const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -18730,7 +18683,7 @@ class obj_reader {
         return static_cast<std::uint32_t>(value > 0 ? value - 1 : count + value);
     }
 
-    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`; what stands for the texture is passed over.
+    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`; texture coordinates are skipped.
     corner parse_corner(std::string_view text) {
         const std::size_t slash = text.find('/');
         const std::size_t second = slash == text.npos ? text.npos : text.find('/', slash + 1);
@@ -21108,44 +21061,44 @@ namespace seabed {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Patches strewn by a noise that exceeds a threshold.
+/// Random patches: where a noise exceeds a threshold.
 struct patches {
-    float coverage = 0.5f;  ///< in [0, 1]: their share of the area, over many patches
+    float coverage = 0.5f;  ///< in [0, 1]: fraction of the area, over many patches
     float size = 12.0f;     ///< metres, > 0: scale of the patches
 };
 
 }  // namespace INSONIFY_FLAGS
 
-/// What is nearer to a point than a radius.
+/// Points within a radius of a centre.
 struct disc {
     glm::dvec2 centre{0.0, 0.0};
     float radius = 5;  ///< metres, >= 0
 };
 
-/// What is nearer to a path than half a width.
+/// Points within half a width of a path.
 struct band {
     std::vector<glm::dvec2> path;  ///< at least one point
     float width = 4;               ///< metres, >= 0
 };
 
-/// What a polygon encloses, by the even-odd rule.
+/// The inside of a polygon, by the even-odd rule.
 struct polygon {
     std::vector<glm::dvec2> corners;  ///< at least three
 };
 
 inline namespace INSONIFY_FLAGS {
 
-/// Where a picture, laid over the world like a heightfield, is above 1/2; interpolated between its pixels, outside as
-/// at its nearest edge. A step from 0 to 1 between two pixels is taken for a border across the spacing.
+/// Where an image, placed in the world like a heightfield, is above 1/2; interpolated between pixels and extended from
+/// its edges. A step from 0 to 1 between two pixels counts as a border of one spacing in width.
 struct stencil {
-    image<float> shares;
+    image<float> coverage;
     glm::dvec2 origin{0.0, 0.0};  ///< of pixel (0, 0), metres
     double spacing = 1;           ///< metres, > 0
 };
 
 }  // namespace INSONIFY_FLAGS
 
-/// Where an edit or a seabed is in force.
+/// Where a layer of `mixed` applies.
 using area = std::variant<patches, disc, band, polygon, stencil>;
 
 namespace detail::inline INSONIFY_FLAGS {
@@ -21202,11 +21155,11 @@ inline double inside(const stencil& s, const glm::dvec2& p) {
         const int cell = (std::min)(static_cast<int>(held), (std::max)(pixels - 2, 0));
         return place{cell, (std::min)(cell + 1, pixels - 1), held - cell};
     };
-    const auto [x, right, u] = axis((p.x - s.origin.x) / s.spacing, s.shares.width());
-    const auto [y, up, v] = axis((p.y - s.origin.y) / s.spacing, s.shares.height());
-    const auto share = [&](int i, int j) { return static_cast<double>(s.shares(i, j)); };
-    const double low = share(x, y) + u * (share(right, y) - share(x, y));
-    const double high = share(x, up) + u * (share(right, up) - share(x, up));
+    const auto [x, right, u] = axis((p.x - s.origin.x) / s.spacing, s.coverage.width());
+    const auto [y, up, v] = axis((p.y - s.origin.y) / s.spacing, s.coverage.height());
+    const auto value = [&](int i, int j) { return static_cast<double>(s.coverage(i, j)); };
+    const double low = value(x, y) + u * (value(right, y) - value(x, y));
+    const double high = value(x, up) + u * (value(right, up) - value(x, up));
     return (low + v * (high - low) - 0.5) * s.spacing;
 }
 
@@ -21230,25 +21183,25 @@ inline void validate(const polygon& p) {
     validate_points(p.corners, "polygon.corners", 3);
 }
 inline void validate(const stencil& s) {
-    require(!s.shares.empty(), "stencil.shares.size()", s.shares.size(), "at least 1");
+    require(!s.coverage.empty(), "stencil.coverage.size()", s.coverage.size(), "at least 1");
     require(s.spacing > 0 && s.spacing < 1e6, "stencil.spacing", s.spacing, "metres above 0");
     require(s.origin.x >= -1e9 && s.origin.x <= 1e9, "stencil.origin.x", s.origin.x, "within 1e9 metres");
     require(s.origin.y >= -1e9 && s.origin.y <= 1e9, "stencil.origin.y", s.origin.y, "within 1e9 metres");
-    for (const float share : s.shares.pixels())
-        require(numeric::is_finite(share), "stencil.shares", share, "finite numbers");
+    for (const float value : s.coverage.pixels())
+        require(numeric::is_finite(value), "stencil.coverage", value, "finite numbers");
 }
 
 /// Evaluates an `area` along rows.
 class outline {
   public:
     /// @param border  metres, > 0: the finest detail of the outline
-    /// @param ragged  metres: how far a shape's outline strays
+    /// @param ragged  metres: rms deviation of the outline from the shape
     /// @param layer   selects the random stream, so that outlines of one seed differ
     outline(area where, float border, float ragged, std::uint64_t seed, std::uint32_t layer)
         : shape_(std::move(where)), noise_(roughness_of(shape_, border, ragged), seed, stream::mask, layer) {
         if (const auto* p = std::get_if<patches>(&shape_)) {
             require(p->coverage >= 0 && p->coverage <= 1, "patches.coverage", p->coverage, "0 to 1");
-            // The noise falls by its slope per metre across a border: scaled so, it is about the distance.
+            // Divided by its rms slope, the noise approximates the distance to the border.
             scale_ = static_cast<float>(1 / noise_.rms_slope());
             offset_ = p->coverage <= 0 ? -never
                       : p->coverage >= 1
@@ -21279,7 +21232,7 @@ class outline {
     }
 
   private:
-    static constexpr float never = 1e30f;  // beyond any value of the noise
+    static constexpr float never = 1e30f;  // above every value of the noise
 
     static roughness roughness_of(const area& where, float border, float ragged) {
         require(border >= 1e-3f && border < 1e6f, "layer.border", border, "metres from 0.001");
@@ -21307,9 +21260,9 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/bathymetry.hpp ------------------------------------------------------------
 // Readers of surveyed bathymetry: heightfields from Esri ASCII grids and lists of soundings.
 //
-// Pictures of heights (16-bit PGM, PFM) come by `read_netpbm` and `from_image`; text by the parsers here, from whatever
-// `read_file` gives: `parse_esri_grid(read_file("bottom.asc"))`. Cells without data are NaN, which a heightfield leaves
-// out; `fill_gaps` closes them.
+// The parsers take text: `parse_esri_grid(read_file("bottom.asc"))`. For images of heights (16-bit PGM, PFM) use
+// `read_netpbm` and `from_image`. Cells without data are NaN, which are holes of a heightfield; `fill_gaps` closes
+// them.
 //
 // Source: Esri. ASCII Raster Format (ArcGIS documentation, "Esri ASCII raster format").
 
@@ -21328,7 +21281,7 @@ class survey_reader {
         if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;  // byte order mark
     }
 
-    /// The next word, of lines further down too; empty at the end. Commas and semicolons part words like blanks.
+    /// The next word, on this line or a later one; empty at the end. Commas and semicolons separate words like blanks.
     std::string_view word() {
         for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) line_ += ends_line(at_) ? 1u : 0u;
         return word_here();
@@ -21390,12 +21343,12 @@ class survey_reader {
     std::size_t at_ = 0, line_ = 1;
 };
 
-/// Heights that a float can hold; everything else is no data.
+/// A height within 1000 km; NaN for anything else, such as codes for missing data.
 inline float height_or_nothing(double metres) {
     return metres > -1e6 && metres < 1e6 ? static_cast<float>(metres) : (std::numeric_limits<float>::quiet_NaN)();
 }
 
-inline void require_place(const survey_reader& text, double x, double y) {
+inline void require_position(const survey_reader& text, double x, double y) {
     if (!(x >= -1e9 && x <= 1e9 && y >= -1e9 && y <= 1e9)) text.fail("a position is not within 1e9 metres");
 }
 
@@ -21438,20 +21391,20 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
         else if (is("nodata_value"))
             no_data = in.number("nodata_value");
         else
-            in.fail("'" + std::string(key.substr(0, 40)) + "' is no word of a grid's head");
+            in.fail("'" + std::string(key.substr(0, 40)) + "' is not a keyword of a grid's header");
     }
     const auto whole = [](double n) {
         return n >= 2 && n <= (1 << 24) && n == static_cast<double>(static_cast<int>(n));
     };
-    if (!whole(columns)) in.fail("ncols is missing or no whole number from 2 to 2^24");
-    if (!whole(rows)) in.fail("nrows is missing or no whole number from 2 to 2^24");
+    if (!whole(columns)) in.fail("ncols is missing or not an integer from 2 to 2^24");
+    if (!whole(rows)) in.fail("nrows is missing or not an integer from 2 to 2^24");
     if (!has_x || !has_y) in.fail("xllcorner or yllcorner is missing");
     if (!(cell > 0 && cell < 1e6)) in.fail("cellsize is missing or not above 0");
-    // A height takes a digit and a blank: a head that promises more than the text can hold costs no memory.
+    // A height takes two characters at least: refuse headers of grids larger than the text before allocating.
     if (columns * rows > static_cast<double>(in.left() / 2 + 1))
         in.fail("the text is too short for ncols x nrows heights");
     const glm::dvec2 origin(x + (corner_x ? 0.5 * cell : 0), y + (corner_y ? 0.5 * cell : 0));
-    detail::require_place(in, origin.x, origin.y);
+    detail::require_position(in, origin.x, origin.y);
 
     heightfield field{
         .heights = image<float>(static_cast<int>(columns), static_cast<int>(rows)), .origin = origin, .spacing = cell};
@@ -21466,8 +21419,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 }
 
 /// Reads soundings, an `x y z` on each line, onto a grid: each vertex has the mean of the soundings that are nearest to
-/// it, or NaN if there is none. Lines end with LF, CR LF or CR. Lines that don't begin with a number are passed over,
-/// and so is what follows the z.
+/// it, or NaN if there is none. Lines end with LF, CR LF or CR. Lines that do not begin with a number are skipped, and
+/// so is the rest of a line after z.
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
@@ -21489,7 +21442,7 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
         if (!is_number) continue;
         const double x = in.number(first, "an x"), y = in.number(in.word_of_line(), "a y"),
                      z = in.number(in.word_of_line(), "a z");
-        detail::require_place(in, x, y);
+        detail::require_position(in, x, y);
         const std::int64_t column = numeric::floor_to_int(x / spacing + 0.5),
                            row = numeric::floor_to_int(y / spacing + 0.5);
         left = (std::min)(left, column), right = (std::max)(right, column);
@@ -21499,7 +21452,7 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     if (soundings.empty()) in.fail("there are no soundings");
     const std::int64_t width = (std::max)(right - left + 1, std::int64_t{2}),
                        height = (std::max)(high - low + 1, std::int64_t{2});
-    // Two soundings at the ends of the world must not cost the world's memory.
+    // Bounds the memory that two distant soundings may cost.
     const double most = (std::min)(1024.0 * static_cast<double>(soundings.size()), 67108864.0);
     if (static_cast<double>(width) * static_cast<double>(height) > most)
         in.fail("the soundings are too far apart, more than 1024 vertices for each or 2^26: take a larger spacing");
@@ -21522,9 +21475,9 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     return field;
 }
 
-/// Closes gaps from their edges inwards: each missing vertex becomes the mean of those of its eight neighbours that
-/// were known a step before.
-/// @param reach  how many steps, so how many vertices a gap is closed from each side; what is further in stays missing
+/// Closes gaps from their edges inwards: in each step, a missing vertex becomes the mean of those of its eight
+/// neighbours that were known before.
+/// @param reach  number of steps: vertices that a gap is closed by from each side; the rest stays NaN
 /// @throws invalid_input as `validate`, and for a reach below 0
 inline heightfield fill_gaps(heightfield field, int reach = 1 << 30) {
     validate(field);
@@ -21569,8 +21522,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/cover.hpp -----------------------------------------------------------------
 // Composites one seabed over another with a natural border: high ground is buried last.
 //
-// Across a border the layer rises from beneath: its crests come out first, as narrow tips, while its troughs are still
-// filled; further in, the highest of what lies below looks out of it last. Types follow the surface that is on top.
+// Across a border the layer rises through the ground below: its crests emerge first, as narrow tips, while its troughs
+// are still filled; the highest parts of the ground disappear last. Labels are those of the upper surface.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -21584,17 +21537,17 @@ namespace detail::inline INSONIFY_FLAGS {
 class border {
   public:
     /// @param width   metres, > 0
-    /// @param relief  metres: that of the layer and of what lies below it, the larger
+    /// @param relief  metres: the larger of the layer's and the lower ground's
     border(float width, float relief) : per_metre_(1 / width), relief_(relief + 1e-6f) {}
 
-    /// From 0, where there is no layer, to 1, where there is nothing else.
+    /// Progress across the border: 0 outside of the layer, 1 where it hides the ground below.
     float across(float margin) const { return clamp01(0.5f + margin * per_metre_); }
 
     struct meeting {
         float height;
         bool is_layer;
     };
-    /// What is on top at `t` of the way across; at 0 and 1 the very heights of the one and the other.
+    /// The upper surface at progress `t`; at 0 and 1 exactly the heights of either.
     meeting at(float t, float below, float layer) const {
         const float rise = layer - below;
         if (t <= 0) return {below, false};
@@ -21613,7 +21566,7 @@ class border {
 };
 
 /// The range of samples of a row that have to be evaluated.
-struct extent {
+struct sample_range {
     std::size_t begin, end = 0;
 
     void include(std::size_t i) {
@@ -21627,7 +21580,7 @@ struct extent {
     }
 };
 
-/// Composites a layer over what lies below it. `below(line, heights, types)` evaluates the latter where the layer does
+/// Composites a layer over the ground below. `below(line, heights, types)` evaluates the ground where the layer does
 /// not hide it.
 template <class Below, typed_sampler Layer>
 void lay_over(const outline& where, const border& edge, const Layer& layer, const scanline& line,
@@ -21636,8 +21589,8 @@ void lay_over(const outline& where, const border& edge, const Layer& layer, cons
     const stretch part(line, count);
     stretch_values across;
     where.margins(part, across);
-    // Away from borders one of the two is all there is to evaluate.
-    extent above{count}, under{count};
+    // Away from borders only one of the two is evaluated.
+    sample_range above{count}, under{count};
     for (std::size_t i = 0; i < count; ++i) {
         across[i] = edge.across(across[i]);
         if (across[i] > 0) above.include(i);
@@ -21689,12 +21642,12 @@ class blend_sampler;
 
 }  // namespace INSONIFY_FLAGS
 
-/// Patches of `first` in `second`: where a noise exceeds a threshold there is one, else the other. Across the border
-/// one relief sinks beneath the other, so ripples end in tips within about a border's width.
+/// Patches of `first` in `second`, placed by a noise that exceeds a threshold. Across the border one relief sinks below
+/// the other, so that ripples end in tips within about a border's width.
 struct blend {
     any first = ripples{};
     any second = flat{};
-    float coverage = 0.5f;  ///< in [0, 1]: share of the area that is `first`, over many patches
+    float coverage = 0.5f;  ///< in [0, 1]: fraction of the area that is `first`, over many patches
     float patch = 12.0f;    ///< metres, > 0: scale of the patches
     float border = 0.6f;    ///< metres, in (0, patch]: typical width of borders, about a ripple or two
     std::uint64_t seed = 1;
@@ -21778,10 +21731,10 @@ class detailed_sampler;
 
 }  // namespace INSONIFY_FLAGS
 
-/// A heightfield, smooth between its vertices instead of in facets, and roughness on top.
+/// A heightfield with cubic interpolation between its vertices, plus roughness.
 ///
-/// To go on where the survey's spectrum ends, take its spacing for the longest cell: of a sediment's relief all that is
-/// shorter than L metres has an rms of facts_of(sediment).rms() L^0.625.
+/// To continue the survey's spectrum, set the roughness's longest cell to the survey's spacing: a sediment's relief of
+/// wavelengths below L metres has an rms of facts_of(sediment).rms() L^0.625.
 struct detailed {
     heightfield field{};
     roughness surface{.rms = 0.01f, .longest = 1, .shortest = 0.06f};
@@ -21814,16 +21767,16 @@ class detailed_sampler {
         for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
     }
 
-    /// Catmull-Rom's negative shares sum to 1/8 at most: a row overshoots by as much of the range, and a column of rows
-    /// by 1/8 of five quarters more.
+    /// Catmull-Rom's negative weights add up to 1/8 at most: rows overshoot the range by 1/8 at either end, and columns
+    /// of rows by 1/8 of the resulting five quarters more.
     height_range range() const {
         const height_range field = field_->prepare().range();
-        const double over = 0.2813 * (field.highest - field.lowest) + surface_.most();
+        const double over = 0.2813 * (field.highest - field.lowest) + surface_.upper_bound();
         return field.empty() ? field : height_range{field.lowest - over, field.highest + over};
     }
 
   private:
-    /// Catmull-Rom in both directions; beside missing vertices, and where there is none, the drawn facets.
+    /// Catmull-Rom interpolation in both directions; beside missing vertices, the facets of the mesh.
     float smooth_at(double x, double y) const {
         const image<float>& h = field_->heights;
         const detail::grid_coordinate u((x - field_->origin.x) / field_->spacing, h.width() - 1),
@@ -21865,7 +21818,7 @@ inline float detailed::operator()(double x, double y) const {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/moat.hpp ------------------------------------------------------------------
-// Scour around an object that has lain for long: a moat along its outline and a mound of sediment down-current.
+// Scour around an object: a moat along its outline and a mound of sediment down-current.
 //
 // Sources: Richard J. S. Whitehouse. Scour at Marine Structures: A Manual for Practical Applications, 1998 (scour is
 // deepest up-current, and half of that in the lee). G. F. Caston. Wreck marks: indicators of net sand transport. Marine
@@ -21879,13 +21832,13 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// Scour around a footprint of any outline; `scour` is the same around a round one. The ground below the middle of the
-/// footprint stays, so that what lies on it keeps standing on it.
+/// Scour around a footprint of any outline; see `scour` for round ones. The ground below the middle of the footprint
+/// keeps its height, so that the target still rests on it.
 struct moat {
     std::vector<glm::dvec2> outline{
         {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  ///< of the target on the ground, 3 to 4096 corners
-    float depth = 0.3f;                       ///< metres, >= 0, where the current arrives; half of it in the lee
-    float width = 1.5f;                       ///< metres, > 0: from the outline to where the moat ends
+    float depth = 0.3f;                       ///< metres, >= 0, on the upstream side; half of it in the lee
+    float width = 1.5f;                       ///< metres, > 0: from the outline to the end of the moat
     float current = 0;                        ///< radians from +x: where it flows to
     float mound = 0.15f;                      ///< height of the deposit down-current, metres, >= 0
     float tail = 6;                           ///< its length, metres, >= 0; 0: none
@@ -21913,7 +21866,7 @@ constexpr double soft_edge(double t) {
     return inside * inside;
 }
 
-/// How far from its outline's corners a moat reaches, at most.
+/// Upper bound of a moat's distance from the corners of its outline.
 inline double moat_reach(const moat& m) {
     // The tail is as wide as the outline, whose corners may all lie to one side of it.
     double square = 0;
@@ -21924,7 +21877,7 @@ inline double moat_reach(const moat& m) {
     return numeric::square_root(square) + static_cast<double>(m.width) + static_cast<double>(m.tail);
 }
 
-/// How much a moat raises (or, negative, lowers) the ground at a position.
+/// Change of the ground's height at a position, metres.
 inline double moat_change(const moat& m, const glm::dvec2& p) {
     const numeric::sine_cosine flow = numeric::sin_cos(static_cast<double>(m.current));
     // Along the current and across it, of the outline and of the position, from the outline's mean corner.
@@ -21968,7 +21921,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
 INSONIFY_ARITHMETIC_END
 
 // ------------ insonify/seabed/edit.hpp ------------------------------------------------------------------
-// Edits of a seabed, by hand, plow or current; sculpt.hpp applies them.
+// Edits of a seabed: hills, furrows, ramps, scour, deposits. sculpt.hpp applies them.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -21983,10 +21936,10 @@ struct raise {
     float height = 0.1f;  ///< metres, in the middle
 };
 
-/// Pulls the ground to a level.
+/// Levels the ground.
 struct flatten {
     glm::dvec2 centre{0.0, 0.0};
-    float radius = 1;  ///< metres, > 0: of the plain with its edge, which is a quarter of it wide
+    float radius = 1;  ///< metres, > 0: of the plain, whose outer quarter is its edge
     float level = 0;   ///< metres above the datum
 };
 
@@ -21997,19 +21950,19 @@ struct smooth {
     float length = 0.25f;  ///< metres, > 0; to eight bits, so that its multiples are exact
 };
 
-/// A straight slope between two points, as a slipway.
+/// A straight slope between two points, like a slipway.
 struct ramp {
     glm::dvec2 from{0.0, 0.0}, to{1.0, 0.0};
-    float width = 1;                          ///< metres, > 0: with its edges, each a quarter of it wide
+    float width = 1;                          ///< metres, > 0: with its edges, a quarter of it each
     float from_height = 0, to_height = 0.5f;  ///< metres above the datum
 };
 
-/// A furrow or ridge along a path, or the same mark again and again.
+/// A furrow or ridge along a path, or a row of marks.
 struct stamp {
     std::vector<glm::dvec2> path;  ///< at least one point
     float radius = 0.3f;           ///< metres, > 0: half the width of a furrow, with its edges
     float height = -0.1f;          ///< metres, in the middle; negative to dig
-    float every = 0;               ///< metres along the path from mark to mark; 0: without end
+    float every = 0;               ///< metres along the path from mark to mark; 0: a continuous furrow
 };
 
 /// Scour by a current around a target: a moat, deepest upstream, and two tails of deposited sediment.
@@ -22054,20 +22007,20 @@ inline float length(double x, double y) {
     return static_cast<float>(numeric::square_root(x * x + y * y));
 }
 
-/// A box around everything that an edit changes.
-struct box {
+/// Bounding rectangle of the ground that an edit changes, metres.
+struct extent {
     glm::dvec2 low, high;
 };
-inline box box_around(const glm::dvec2& centre, double reach) {
+inline extent extent_around(const glm::dvec2& centre, double reach) {
     return {centre - glm::dvec2(reach), centre + glm::dvec2(reach)};
 }
-inline box box_around(const std::vector<glm::dvec2>& points, double reach) {
-    box b = box_around(points.front(), reach);
+inline extent extent_around(const std::vector<glm::dvec2>& points, double reach) {
+    extent all = extent_around(points.front(), reach);
     for (const glm::dvec2& p : points) {
-        b.low = {(std::min)(b.low.x, p.x - reach), (std::min)(b.low.y, p.y - reach)};
-        b.high = {(std::max)(b.high.x, p.x + reach), (std::max)(b.high.y, p.y + reach)};
+        all.low = {(std::min)(all.low.x, p.x - reach), (std::min)(all.low.y, p.y - reach)};
+        all.high = {(std::max)(all.high.x, p.x + reach), (std::max)(all.high.y, p.y + reach)};
     }
-    return b;
+    return all;
 }
 
 inline void require_position(const char* name, const glm::dvec2& p) {
@@ -22082,62 +22035,62 @@ inline void require_height(const char* name, float value) {
     require(value > -1e6f && value < 1e6f, name, value, "a finite height");
 }
 
-inline box box_of(const raise& e) {
+inline extent extent_of(const raise& e) {
     require_position("raise.centre", e.centre);
     require_metres("raise.radius", e.radius, true);
     require_height("raise.height", e.height);
-    return box_around(e.centre, static_cast<double>(e.radius));
+    return extent_around(e.centre, static_cast<double>(e.radius));
 }
-inline box box_of(const flatten& e) {
+inline extent extent_of(const flatten& e) {
     require_position("flatten.centre", e.centre);
     require_metres("flatten.radius", e.radius, true);
     require_height("flatten.level", e.level);
-    return box_around(e.centre, static_cast<double>(e.radius));
+    return extent_around(e.centre, static_cast<double>(e.radius));
 }
-inline box box_of(const smooth& e) {
+inline extent extent_of(const smooth& e) {
     require_position("smooth.centre", e.centre);
     require_metres("smooth.radius", e.radius, true);
     require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres from 0.001");
-    return box_around(e.centre, static_cast<double>(e.radius));
+    return extent_around(e.centre, static_cast<double>(e.radius));
 }
-inline box box_of(const ramp& e) {
+inline extent extent_of(const ramp& e) {
     require_position("ramp.from", e.from);
     require_position("ramp.to", e.to);
     require_metres("ramp.width", e.width, true);
     require_height("ramp.from_height", e.from_height);
     require_height("ramp.to_height", e.to_height);
     require(e.from != e.to, "ramp.to", e.to.x, "another point than ramp.from");
-    return box_around(std::vector<glm::dvec2>{e.from, e.to}, static_cast<double>(e.width));
+    return extent_around(std::vector<glm::dvec2>{e.from, e.to}, static_cast<double>(e.width));
 }
-inline box box_of(const stamp& e) {
+inline extent extent_of(const stamp& e) {
     require(!e.path.empty(), "stamp.path.size()", e.path.size(), "at least 1");
     for (const glm::dvec2& p : e.path) require_position("stamp.path", p);
     require_metres("stamp.radius", e.radius, true);
     require_height("stamp.height", e.height);
     require_metres("stamp.every", e.every, false);
-    return box_around(e.path, static_cast<double>(e.radius));
+    return extent_around(e.path, static_cast<double>(e.radius));
 }
-inline box box_of(const scour& e) {
+inline extent extent_of(const scour& e) {
     require_position("scour.centre", e.centre);
     require_metres("scour.radius", e.radius, true);
     require_metres("scour.depth", e.depth, false);
     require_metres("scour.width", e.width, true);
     require_metres("scour.tail", e.tail, false);
     require(numeric::is_finite(e.current), "scour.current", e.current, "a finite angle");
-    return box_around(e.centre, static_cast<double>(e.radius) + static_cast<double>(e.width + e.tail));
+    return extent_around(e.centre, static_cast<double>(e.radius) + static_cast<double>(e.width + e.tail));
 }
-inline box box_of(const heap& e) {
+inline extent extent_of(const heap& e) {
     require_position("heap.centre", e.centre);
     require_metres("heap.radius", e.radius, false);
     require_height("heap.level", e.level);
     require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope from 0.001");
-    // The ground may be anywhere; a hundred metres below the top it is not looked for.
-    return box_around(e.centre, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
+    // The ground may be at any height; the search ends a hundred metres below the top.
+    return extent_around(e.centre, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
 }
 
-inline box box_of(const moat& e) {
+inline extent extent_of(const moat& e) {
     validate(e);
-    return box_around(e.outline, moat_reach(e));
+    return extent_around(e.outline, moat_reach(e));
 }
 
 /// The height at a position after an edit.
@@ -22233,8 +22186,8 @@ inline height_range range_after(const heap& e, const height_range& ground) {
     return {ground.lowest, (std::max)(ground.highest, static_cast<double>(e.level))};
 }
 
-/// Shares that the 16 places around a coordinate, four to a length, have in its smoothed value: a cubic B-spline, which
-/// leaves slopes as they are.
+/// Weights of the 16 nodes around a coordinate, four to a length, in the smoothed value: a cubic B-spline, which
+/// preserves slopes.
 inline std::array<float, 16> smooth_shares(float fraction) {
     std::array<float, 16> shares;
     for (std::size_t n = 0; n < 16; ++n) {
@@ -22245,7 +22198,7 @@ inline std::array<float, 16> smooth_shares(float fraction) {
     return shares;
 }
 
-/// A row of the ground smoothed.
+/// Smooths a row of the ground.
 /// @param ground  fills the heights of rows
 template <class Ground>
 void smooth_row(const smooth& e, const scanline& line, std::span<float> heights, Ground&& ground) {
@@ -22299,10 +22252,10 @@ struct layer {
     any bottom = ripples{};
     area where = patches{};
     float border = 0.6f;  ///< metres, from 0.001: width of the border, about a ripple or two
-    float ragged = 0.5f;  ///< metres, >= 0: how far the outline of a shape strays; patches are ragged by themselves
+    float ragged = 0.5f;  ///< metres, >= 0: rms deviation of a shape's outline; patches ignore it
 };
 
-/// Bottoms on a base, in order: a later layer hides the earlier where it lies.
+/// Layers on a base, from the lowest to the highest.
 ///
 ///     mixed{.base = flat{}, .layers = {{ripples{}, patches{.coverage = 0.4f}}, {rock{}, disc{{10, 5}, 8}}}}
 struct mixed {
@@ -22349,7 +22302,7 @@ class mixed_sampler {
     }
 
   private:
-    /// What the base and the first `count` layers make.
+    /// The base with the first `count` layers.
     void fill(std::size_t count, const scanline& line, std::span<float> heights, std::span<type> types) const {
         if (count == 0) return base_.row(line, heights, types);
         const prepared_layer& top = layers_[count - 1];
@@ -22405,7 +22358,7 @@ class sculpt_sampler;
 /// A seabed and a list of edits. Labels are those of the seabed.
 struct sculpted {
     any ground = flat{};
-    std::vector<edit> edits;  ///< the first is done first
+    std::vector<edit> edits;  ///< applied in this order
 
     /// @throws invalid_input for parameters out of their range
     INSONIFY_TAGGED sculpt_sampler prepare() const;
@@ -22422,7 +22375,7 @@ class sculpt_sampler {
   public:
     explicit sculpt_sampler(const sculpted& s) : ground_(s.ground.prepare()) {
         for (const edit& e : s.edits)
-            edits_.push_back({e, std::visit([](const auto& held) { return detail::box_of(held); }, e)});
+            edits_.push_back({e, std::visit([](const auto& held) { return detail::extent_of(held); }, e)});
     }
 
     void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
@@ -22432,7 +22385,7 @@ class sculpt_sampler {
     height_range range() const {
         height_range all = ground_.range();
         for (const bounded_edit& e : edits_)
-            all = std::visit([&](const auto& held) { return detail::range_after(held, all); }, e.done);
+            all = std::visit([&](const auto& held) { return detail::range_after(held, all); }, e.applied);
         return all;
     }
 
@@ -22441,10 +22394,10 @@ class sculpt_sampler {
     void fill(std::size_t count, const scanline& line, std::span<float> heights, std::span<type> types) const {
         if (count == 0) return ground_.row(line, heights, types);
         fill(count - 1, line, heights, types);
-        const edit& done = edits_[count - 1].done;
-        const detail::box& bounds = edits_[count - 1].bounds;
+        const edit& current = edits_[count - 1].applied;
+        const detail::extent& bounds = edits_[count - 1].bounds;
         if (line.y < bounds.low.y || line.y > bounds.high.y || heights.empty()) return;
-        // Which samples it reaches.
+        // The samples within its bounds.
         std::size_t begin = 0, end = heights.size();
         const auto reached = [&](std::size_t i) { return line.x(i) >= bounds.low.x && line.x(i) <= bounds.high.x; };
         if (line.spacing > 0) {
@@ -22470,12 +22423,12 @@ class sculpt_sampler {
                         part[i] = detail::height_after(e, {there.x(i), there.y}, part[i]);
                 }
             },
-            done);
+            current);
     }
 
     struct bounded_edit {
-        edit done;
-        detail::box bounds;
+        edit applied;
+        detail::extent bounds;
     };
     any_sampler ground_;
     std::vector<bounded_edit> edits_;
@@ -23607,8 +23560,8 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/geometry/detail/plane_tree.hpp ---------------------------------------------------
 // Bounding-volume tree that finds the triangles of a mesh that a plane may cut.
 //
-// Boxes around runs of eight triangles, boxes around eight of those, and so on: an implicit tree over the triangles in
-// their own order, which shared_mesh keeps coherent. Building it is one pass, and triangles are visited in order.
+// An implicit tree of bounding boxes, eight triangles to a leaf and eight children to a node, over the triangles in
+// their own order, which shared_mesh keeps coherent. It is built in one pass, and triangles are visited in order.
 
 INSONIFY_ARITHMETIC_BEGIN
 
