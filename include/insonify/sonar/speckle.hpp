@@ -21,11 +21,6 @@ inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
 
-/// The speckle law of a sediment, from the registry.
-constexpr speckle_law speckle_of(seabed::sediment s) {
-    return seabed::properties_of(seabed::type_of(s)).speckle;
-}
-
 /// Laws by label.
 using speckle_laws = std::array<speckle_law, seabed::label_count>;
 

@@ -270,24 +270,6 @@ INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* r
 }
 #endif
 
-/// Stores lane k of both vectors side by side: the inverse of gather_pairs.
-template <int N>
-INSONIFY_INLINE void store_pairs(float* into, const lanes<float, N>& first, const lanes<float, N>& second) {
-#if INSONIFY_SIMD
-    if constexpr (N > 1) {
-        lanes<float, N> low, high;
-        shuffle<N>(low, first, second, [](int i) { return i / 2 + i % 2 * N; });
-        shuffle<N>(high, first, second, [](int i) { return N / 2 + i / 2 + i % 2 * N; });
-        store(into, low);
-        store(into + N, high);
-    } else
-#endif
-    {
-        into[0] = first;
-        into[1] = second;
-    }
-}
-
 /// Transposes N rows of four floats: lane k of into[i] is rows(k)[i]; N is 1, 4, 8 or 16.
 template <int N, class Rows>
 INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {

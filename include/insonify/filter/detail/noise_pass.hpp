@@ -155,12 +155,6 @@ struct unit_draws {
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { unit_lanes<N>(into[i], word[i]); });
     }
 };
-struct radius_draws {
-    template <int N>
-    static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
-        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { radius_lanes<N>(into[i], word[i]); });
-    }
-};
 
 /// The draws of a run of a row; four pixels in a row share a block of Philox.
 template <class Draws>

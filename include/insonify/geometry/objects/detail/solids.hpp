@@ -31,10 +31,6 @@ using section = std::vector<glm::dvec3>;
 inline void require_size(const char* name, float metres) {
     require(metres >= 1e-4f && metres <= 1e5f, name, metres, "0.0001 to 100000 metres");
 }
-/// A size that may be absent.
-inline void require_size_or_none(const char* name, float metres) {
-    require(metres == 0 || (metres >= 1e-4f && metres <= 1e5f), name, metres, "0, or 0.0001 to 100000 metres");
-}
 /// A thickness that float positions resolve on an object of the given size.
 inline void require_thickness(const char* name, float metres, float object_size) {
     require(metres >= 1e-4f * object_size && metres <= object_size, name, metres,
