@@ -1583,24 +1583,6 @@ INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* r
 }
 #endif
 
-/// Stores lane k of both vectors side by side: the inverse of gather_pairs.
-template <int N>
-INSONIFY_INLINE void store_pairs(float* into, const lanes<float, N>& first, const lanes<float, N>& second) {
-#if INSONIFY_SIMD
-    if constexpr (N > 1) {
-        lanes<float, N> low, high;
-        shuffle<N>(low, first, second, [](int i) { return i / 2 + i % 2 * N; });
-        shuffle<N>(high, first, second, [](int i) { return N / 2 + i / 2 + i % 2 * N; });
-        store(into, low);
-        store(into + N, high);
-    } else
-#endif
-    {
-        into[0] = first;
-        into[1] = second;
-    }
-}
-
 /// Transposes N rows of four floats: lane k of into[i] is rows(k)[i]; N is 1, 4, 8 or 16.
 template <int N, class Rows>
 INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
@@ -2810,12 +2792,6 @@ struct unit_draws {
     template <int N>
     static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { unit_lanes<N>(into[i], word[i]); });
-    }
-};
-struct radius_draws {
-    template <int N>
-    static INSONIFY_INLINE void draw(lanes<float, N> (&into)[4], const lanes<std::uint32_t, N> (&word)[4]) {
-        unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { radius_lanes<N>(into[i], word[i]); });
     }
 };
 
@@ -18830,10 +18806,6 @@ using section = std::vector<glm::dvec3>;
 inline void require_size(const char* name, float metres) {
     require(metres >= 1e-4f && metres <= 1e5f, name, metres, "0.0001 to 100000 metres");
 }
-/// A size that may be absent.
-inline void require_size_or_none(const char* name, float metres) {
-    require(metres == 0 || (metres >= 1e-4f && metres <= 1e5f), name, metres, "0, or 0.0001 to 100000 metres");
-}
 /// A thickness that float positions resolve on an object of the given size.
 inline void require_thickness(const char* name, float metres, float object_size) {
     require(metres >= 1e-4f * object_size && metres <= object_size, name, metres,
@@ -25113,11 +25085,6 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 
 inline namespace INSONIFY_FLAGS {
-
-/// The speckle law of a sediment, from the registry.
-constexpr speckle_law speckle_of(seabed::sediment s) {
-    return seabed::properties_of(seabed::type_of(s)).speckle;
-}
 
 /// Laws by label.
 using speckle_laws = std::array<speckle_law, seabed::label_count>;
