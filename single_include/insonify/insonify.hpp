@@ -15540,7 +15540,7 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// The largest u of square blocks of cells.
 class block_heights {
   public:
-    static constexpr int side = 8;  ///< cells
+    static constexpr int side = 4;  ///< cells
 
     template <executor E>
     block_heights(const lit_grid& grid, const grid_heights& heights, isa level, E& ex)
@@ -15674,9 +15674,11 @@ class horizon_walk {
             // The ray passes these rows of cells here.
             const double low = row_at(column), high = low + grid_.slope;
             if (high < -beside_ || column + 1 + grid_.drop * greatest < doubt) return false;
-            if (!is_first && column % block_heights::side == block_heights::side - 1) {
-                const known rest = is_above ? known_before(column) : known::nothing;
+            if (!is_first && is_above) {
+                const known rest = known_before(column);
                 if (rest != known::nothing) return rest == known::dark;
+            }
+            if (!is_first && column % block_heights::side == block_heights::side - 1) {
                 const int before = column - (block_heights::side - 1);
                 const float highest_before = blocks_.highest(
                     before / block_heights::side, held_row(row_at(before) - beside_), held_row(high + beside_));
