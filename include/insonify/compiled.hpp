@@ -15,6 +15,7 @@
 #if defined(INSONIFY_COMPILED)
 
 #include <insonify/filter/colormap.hpp>
+#include <insonify/filter/echo_noise.hpp>
 #include <insonify/filter/histogram.hpp>
 #include <insonify/filter/match.hpp>
 #include <insonify/filter/noise.hpp>
@@ -23,6 +24,7 @@
 #include <insonify/seabed/mud.hpp>
 #include <insonify/seabed/ripples.hpp>
 #include <insonify/seabed/rock.hpp>
+#include <insonify/sonar/display.hpp>
 #include <insonify/sonar/overhead/picture.hpp>
 
 #if defined(INSONIFY_IMPLEMENTATION)
@@ -46,12 +48,14 @@ inline namespace INSONIFY_ONCE {
 using matched_speckle = filter_chain<match_histogram, speckle>;
 using matched_gaussian = filter_chain<match_histogram, gaussian>;
 using equalized_speckle = filter_chain<equalize, speckle>;
+using displayed_looks = filter_chain<gamma_speckle, display>;
 
 // Filters of what `render` draws. Others are compiled where they are used.
 #define INSONIFY_FILTERS(each)                                                                                       \
     each(float, equalize) each(float, match_histogram) each(float, match_binned) each(float, gaussian)               \
         each(float, speckle) each(float, salt_and_pepper) each(float, matched_speckle) each(float, matched_gaussian) \
-            each(float, equalized_speckle) each(rgb8, color_table)
+            each(float, equalized_speckle) each(float, gamma_speckle) each(float, display)                           \
+                each(float, displayed_looks) each(rgb8, color_table)
 #define INSONIFY_FILTER(Result, Filter)                               \
     image<Result> operator|(const image<float>& in, const Filter& f); \
     image<Result> operator|(image<float>&& in, const Filter& f);

@@ -202,13 +202,15 @@
 #endif
 
 // Members of public types: those of a line are inlined, in builds without optimization as well; longer ones carry the
-// unit's flags in their own name.
+// unit's flags in their own name, or that of the compiled form.
 #if defined(__GNUC__)
 #define INSONIFY_MEMBER inline __attribute__((always_inline))
 #define INSONIFY_TAGGED __attribute__((abi_tag(INSONIFY_TEXT(INSONIFY_FLAGS))))
+#define INSONIFY_TAGGED_ONCE __attribute__((abi_tag(INSONIFY_TEXT(INSONIFY_ONCE))))
 #else
 #define INSONIFY_MEMBER
 #define INSONIFY_TAGGED
+#define INSONIFY_TAGGED_ONCE
 #endif
 #define INSONIFY_TEXT_RAW(x) #x
 #define INSONIFY_TEXT(x) INSONIFY_TEXT_RAW(x)

@@ -25,7 +25,6 @@
 #include <insonify/filter/noise.hpp>
 #include <insonify/filter/parameter.hpp>
 #include <insonify/filter/pipe.hpp>
-#include <insonify/filter/poisson.hpp>
 #include <insonify/filter/where.hpp>
 #include <insonify/fwd.hpp>
 #include <insonify/geometry/camera.hpp>
@@ -42,15 +41,16 @@
 #include <insonify/raster/draw_options.hpp>
 #include <insonify/seabed/any.hpp>
 #include <insonify/seabed/flat.hpp>
-#include <insonify/seabed/heightfield.hpp>
 #include <insonify/seabed/model.hpp>
 #include <insonify/seabed/mud.hpp>
 #include <insonify/seabed/none.hpp>
 #include <insonify/seabed/registry.hpp>
+#include <insonify/seabed/ripple_system.hpp>
 #include <insonify/seabed/ripples.hpp>
 #include <insonify/seabed/rock.hpp>
-#include <insonify/seabed/sample.hpp>
+#include <insonify/seabed/roughness.hpp>
 #include <insonify/seabed/sediment.hpp>
+#include <insonify/seabed/trawl_marks.hpp>
 #include <insonify/shadow/light.hpp>
 #include <insonify/shadow/policy.hpp>
 #include <insonify/sonar/backscatter.hpp>
@@ -71,6 +71,7 @@
 #include <insonify/core/simd/elementary.hpp>
 #include <insonify/core/simd/lanes.hpp>
 #include <insonify/core/simd/random_lanes.hpp>
+#include <insonify/filter/poisson.hpp>
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/normals.hpp>
 #include <insonify/geometry/obj.hpp>
@@ -102,9 +103,11 @@
 #include <insonify/seabed/cover.hpp>
 #include <insonify/seabed/detailed.hpp>
 #include <insonify/seabed/edit.hpp>
+#include <insonify/seabed/heightfield.hpp>
 #include <insonify/seabed/mixed.hpp>
 #include <insonify/seabed/moat.hpp>
 #include <insonify/seabed/models.hpp>
+#include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/sculpt.hpp>
 #include <insonify/seabed/tessellate.hpp>
 #include <insonify/shadow/exact.hpp>

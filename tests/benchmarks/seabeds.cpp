@@ -28,7 +28,7 @@ double least_ms(const Fn& work) {
 /// Ripples as a user would write them: a model of one's own around the same rows.
 struct own_ripples {
     static constexpr sb::type_properties kind{sb::own_type(0), "own ripples", 0.5f, {}};
-    sb::ripples_sampler prepare() const { return sb::ripples{}.prepare(); }
+    sb::any_sampler prepare() const { return sb::ripples{}.prepare(); }
 };
 
 }  // namespace

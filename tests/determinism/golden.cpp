@@ -6,6 +6,7 @@
 #include <insonify/core/thread_pool.hpp>
 #endif
 
+#include <bit>
 #include <cstdio>
 #include <limits>
 
@@ -26,20 +27,25 @@ using in::thread_pool;
 struct hash {
     std::uint64_t value = 0xcbf29ce484222325u;
 
-    void bytes(const void* data, std::size_t size) {
-        for (std::size_t i = 0; i < size; ++i) {
-            value ^= static_cast<const unsigned char*>(data)[i];
+    /// Every number by its lowest byte first, whatever the machine's order.
+    template <class T>
+    void bytes(const T* data, std::size_t count) {
+        constexpr std::size_t number = alignof(T);
+        for (std::size_t i = 0; i < count * sizeof(T); ++i) {
+            const std::size_t reversed = i - i % number + (number - 1 - i % number);
+            const std::size_t at = std::endian::native == std::endian::big ? reversed : i;
+            value ^= reinterpret_cast<const unsigned char*>(data)[at];
             value *= 0x100000001b3u;
         }
     }
     template <class T>
     void add(const in::image<T>& image) {
-        bytes(image.pixels().data(), image.pixels().size_bytes());
+        bytes(image.pixels().data(), image.size());
     }
     void add(const in::mesh& m) {
-        bytes(m.positions.data(), m.positions.size() * sizeof(glm::vec3));
-        bytes(m.normals.data(), m.normals.size() * sizeof(glm::vec3));
-        bytes(m.triangles.data(), m.triangles.size() * sizeof(glm::uvec3));
+        bytes(m.positions.data(), m.positions.size());
+        bytes(m.normals.data(), m.normals.size());
+        bytes(m.triangles.data(), m.triangles.size());
     }
 };
 

@@ -37,6 +37,7 @@ class any_sampler {
         std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
         std::fill(types.begin(), types.end(), type::sand);
     }
+    INSONIFY_TAGGED void row(const scanline& line, std::span<float> heights) const { row(line, heights, {}); }
     INSONIFY_MEMBER height_range range() const { return held_ != nullptr ? held_->range() : height_range{}; }
 
   private:
@@ -62,18 +63,23 @@ struct model_interface {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-template <class M>
+template <typed_sampler S>
 struct held_sampler final : sampler_interface {
-    using sampler_type = decltype(seabed::prepare(std::declval<const M&>()));
-    sampler_type sampler;
+    S sampler;
     std::shared_ptr<const void> owner;
 
-    held_sampler(sampler_type s, std::shared_ptr<const void> o) : sampler(std::move(s)), owner(std::move(o)) {}
+    held_sampler(S s, std::shared_ptr<const void> o) : sampler(std::move(s)), owner(std::move(o)) {}
     void row(const scanline& line, std::span<float> heights, std::span<type> types) const override {
         sampler.row(line, heights, types);
     }
     height_range range() const override { return range_of(sampler); }
 };
+
+/// @param owner  of what the sampler refers to
+template <typed_sampler S>
+any_sampler hold_sampler(S sampler, std::shared_ptr<const void> owner = nullptr) {
+    return any_sampler(std::make_shared<const held_sampler<S>>(std::move(sampler), std::move(owner)));
+}
 
 template <class M>
 struct held_model final : model_interface {
@@ -82,7 +88,7 @@ struct held_model final : model_interface {
     explicit held_model(M m) : value(std::move(m)) {}
     const void* get(const void* tag) const override { return tag == &tag_of<M> ? &value : nullptr; }
     any_sampler prepare(const std::shared_ptr<const model_interface>& self) const override {
-        return any_sampler(std::make_shared<const held_sampler<M>>(seabed::prepare(value), self));
+        return hold_sampler(seabed::prepare(value), self);
     }
     std::optional<type> only_type() const override { return seabed::only_type(value); }
     std::vector<type_properties> legend() const override { return legend_of(value); }

@@ -1,19 +1,18 @@
 // Flat sand with power-law roughness.
 #pragma once
 
+#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/roughness.hpp>
+
+#if INSONIFY_BODIES
 #include <insonify/seabed/detail/noise.hpp>
+#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
-
-inline namespace INSONIFY_FLAGS {
-
-class flat_sampler;
-
-}  // namespace INSONIFY_FLAGS
 
 /// Level sand with power-law roughness; `{.surface = {.rms = 0}}` is a plane.
 struct flat {
@@ -22,10 +21,12 @@ struct flat {
     type kind = type::sand;
 
     /// @throws invalid_input for parameters out of the ranges of `roughness`
-    INSONIFY_TAGGED flat_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED_ONCE any_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     INSONIFY_MEMBER float sink_depth() const { return 2 * surface.rms; }
 };
+
+#if INSONIFY_BODIES
 
 inline namespace INSONIFY_FLAGS {
 
@@ -48,12 +49,11 @@ class flat_sampler {
 
 }  // namespace INSONIFY_FLAGS
 
-inline flat_sampler flat::prepare() const {
-    return flat_sampler(*this);
+INSONIFY_FUNCTION any_sampler flat::prepare() const {
+    return detail::hold_sampler(detail::with_kind<flat_sampler>{flat_sampler(*this), kind});
 }
-inline float flat::operator()(double x, double y) const {
-    return height_at(prepare(), x, y);
-}
+
+#endif
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

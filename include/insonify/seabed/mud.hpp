@@ -1,21 +1,21 @@
 // Mud: gentle relief with mounds by burrowing animals, pock marks of seeps, and trawl tracks.
 #pragma once
 
+#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/roughness.hpp>
+#include <insonify/seabed/trawl_marks.hpp>
+
+#if INSONIFY_BODIES
 #include <insonify/seabed/detail/noise.hpp>
 #include <insonify/seabed/detail/strewn.hpp>
 #include <insonify/seabed/detail/trawls.hpp>
+#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
-
-inline namespace INSONIFY_FLAGS {
-
-class mud_sampler;
-
-}  // namespace INSONIFY_FLAGS
 
 /// Fine sediment: low, smooth relief; scattered mounds and pock marks, each a round bump or dent; furrows, if any.
 struct mud {
@@ -30,12 +30,14 @@ struct mud {
     type kind = type::mud;
 
     /// @throws invalid_input for parameters out of their range
-    INSONIFY_TAGGED mud_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED_ONCE any_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     INSONIFY_MEMBER float sink_depth() const {
         return (std::max)((std::max)(mound_height, pock_depth), 2 * surface.rms);
     }
 };
+
+#if INSONIFY_BODIES
 
 inline namespace INSONIFY_FLAGS {
 
@@ -77,12 +79,11 @@ class mud_sampler {
 
 }  // namespace INSONIFY_FLAGS
 
-inline mud_sampler mud::prepare() const {
-    return mud_sampler(*this);
+INSONIFY_FUNCTION any_sampler mud::prepare() const {
+    return detail::hold_sampler(detail::with_kind<mud_sampler>{mud_sampler(*this), kind});
 }
-inline float mud::operator()(double x, double y) const {
-    return height_at(prepare(), x, y);
-}
+
+#endif
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

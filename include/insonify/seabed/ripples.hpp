@@ -1,20 +1,20 @@
 // Sand ripples: one system of crests or two that cross, with fine roughness.
 #pragma once
 
+#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/ripple_system.hpp>
+#include <insonify/seabed/roughness.hpp>
+
+#if INSONIFY_BODIES
 #include <insonify/seabed/detail/noise.hpp>
 #include <insonify/seabed/detail/ripple_train.hpp>
+#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
-
-inline namespace INSONIFY_FLAGS {
-
-class ripples_sampler;
-
-}  // namespace INSONIFY_FLAGS
 
 /// Rippled sand. The first six parameters are those of `ripple_system`.
 struct ripples {
@@ -30,8 +30,8 @@ struct ripples {
     type kind = type::ripples;
 
     /// @throws invalid_input for parameters out of their range
-    INSONIFY_TAGGED ripples_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED_ONCE any_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
 
     INSONIFY_MEMBER ripple_system first() const {
         return {wavelength, steepness, direction, spread, bandwidth, sharpness};
@@ -45,6 +45,8 @@ struct ripples {
                (static_cast<double>(wavelength) * static_cast<double>(wavelength));
     }
 };
+
+#if INSONIFY_BODIES
 
 inline namespace INSONIFY_FLAGS {
 
@@ -79,12 +81,11 @@ class ripples_sampler {
 
 }  // namespace INSONIFY_FLAGS
 
-inline ripples_sampler ripples::prepare() const {
-    return ripples_sampler(*this);
+INSONIFY_FUNCTION any_sampler ripples::prepare() const {
+    return detail::hold_sampler(detail::with_kind<ripples_sampler>{ripples_sampler(*this), kind});
 }
-inline float ripples::operator()(double x, double y) const {
-    return height_at(prepare(), x, y);
-}
+
+#endif
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

@@ -1,20 +1,19 @@
 // Rock: outcrops that step up from the bottom, broken into blocks, boulders and rubble.
 #pragma once
 
+#include <insonify/seabed/any.hpp>
+#include <insonify/seabed/roughness.hpp>
+
+#if INSONIFY_BODIES
 #include <insonify/seabed/detail/blocks.hpp>
 #include <insonify/seabed/detail/noise.hpp>
+#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
-
-inline namespace INSONIFY_FLAGS {
-
-class rock_sampler;
-
-}  // namespace INSONIFY_FLAGS
 
 /// Outcrops with steep faces, blocks on and around them, and rough surfaces.
 ///
@@ -33,10 +32,12 @@ struct rock {
     type kind = type::rock;
 
     /// @throws invalid_input for parameters out of their range
-    INSONIFY_TAGGED rock_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED_ONCE any_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     INSONIFY_MEMBER float sink_depth() const { return 0.5f * relief + 2 * surface.rms; }
 };
+
+#if INSONIFY_BODIES
 
 inline namespace INSONIFY_FLAGS {
 
@@ -148,11 +149,8 @@ class rock_sampler {
 
 }  // namespace INSONIFY_FLAGS
 
-inline rock_sampler rock::prepare() const {
-    return rock_sampler(*this);
-}
-inline float rock::operator()(double x, double y) const {
-    return height_at(prepare(), x, y);
+INSONIFY_FUNCTION any_sampler rock::prepare() const {
+    return detail::hold_sampler(detail::with_kind<rock_sampler>{rock_sampler(*this), kind});
 }
 
 inline namespace INSONIFY_FLAGS {
@@ -165,6 +163,8 @@ inline void rock_sampler::row(const scanline& line, std::span<float> heights) co
 }
 
 }  // namespace INSONIFY_FLAGS
+
+#endif
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI

@@ -55,7 +55,7 @@ struct stripes {
 struct own_ripples {
     sb::ripples as;
     sb::type kind = sb::type::ripples;
-    sb::ripples_sampler prepare() const { return as.prepare(); }
+    sb::any_sampler prepare() const { return as.prepare(); }
 };
 
 /// A plane that rises without end and states no range.

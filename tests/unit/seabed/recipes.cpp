@@ -294,7 +294,7 @@ TEST_CASE("interpolating the envelope of ripples costs less than a hundredth of 
     const sb::ripples recipe{.wavelength = 0.8f, .steepness = 0.5f, .spread = spread, .surface = smooth, .seed = 9};
     const double s = static_cast<double>(recipe.sharpness),
                  soft = static_cast<double>(sb::detail::ripple_train::softening);
-    const auto prepared = recipe.prepare();
+    const sb::ripples_sampler prepared(recipe);
     const sb::grid area{.origin = {origin, -origin}, .spacing = 0.137, .width = 150, .height = 150};
     const auto field = sb::sample(recipe, area);
     double worst = 0, square = 0;

@@ -108,7 +108,7 @@ waves waves_of(const sb::ripples& recipe) {
 
 /// Zeros of psi in a square: plaquettes around which its phase winds.
 int forks(const sb::ripples& recipe, double side) {
-    const auto sampler = recipe.prepare();
+    const sb::ripples_sampler sampler(recipe);
     const double step = static_cast<double>(recipe.wavelength) / 8;
     const int n = static_cast<int>(side / step);
     const auto turns = [](double from, double to) {

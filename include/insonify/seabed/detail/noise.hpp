@@ -7,6 +7,7 @@
 #pragma once
 
 #include <insonify/seabed/detail/lattice.hpp>
+#include <insonify/seabed/roughness.hpp>
 
 #include <vector>
 
@@ -143,19 +144,6 @@ class gradient_noise {
 
     detail::lattice lattice_;
     detail::cell_hash hash_;
-};
-
-/// Random relief whose 2-D spectrum falls as a power of the wave number, W(K) ~ K^-exponent between two wavelengths.
-///
-/// Measured exponents of sea floors are 2.4 to 3.9, 3.25 where nothing is known: APL-UW High-Frequency Ocean
-/// Environmental Acoustic Models Handbook. TR 9407, 1994 (eqs. 7-8).
-struct roughness {
-    float rms = 0.01f;       ///< metres, >= 0; 0 costs nothing
-    float longest = 1.0f;    ///< metres, > 0: cell of the coarsest octave
-    float shortest = 0.04f;  ///< metres, in (0, longest]: no octave has smaller cells
-    float exponent = 3.25f;  ///< in [2, 4]
-
-    friend bool operator==(const roughness&, const roughness&) = default;
 };
 
 /// Octaves of gradient noise, cells halved from one to the next, that make up a `roughness`.

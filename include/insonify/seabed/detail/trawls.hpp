@@ -6,6 +6,7 @@
 
 #include <insonify/seabed/detail/lattice.hpp>
 #include <insonify/seabed/detail/ripple_train.hpp>
+#include <insonify/seabed/trawl_marks.hpp>
 
 #include <vector>
 
@@ -13,20 +14,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace seabed {
-
-/// Furrows of trawl doors, 0.05 to 0.3 m deep and 0.2 to 2 m wide.
-struct trawl_marks {
-    float density = 0;    ///< furrows per metre that one crosses, in [0, 1 / (4 width)]; 0 for none
-    float depth = 0.06f;  ///< metres, >= 0
-    float width = 0.5f;   ///< metres, > 0: between the tops of the berms
-    int directions = 2;   ///< 1 to 8: number of directions of towing
-    float length = 150;   ///< metres, > 0: typical length of a furrow
-
-    friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
-};
-
-namespace detail::inline INSONIFY_FLAGS {
+namespace seabed::detail::inline INSONIFY_FLAGS {
 
 /// Evaluates `trawl_marks`.
 class trawl_furrows {
@@ -134,8 +122,7 @@ class trawl_furrows {
     cell_hash hash_;
 };
 
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace seabed
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

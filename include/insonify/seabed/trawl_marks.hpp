@@ -1,0 +1,27 @@
+// Furrows that bottom trawls leave in mud.
+#pragma once
+
+#include <insonify/config.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+/// Furrows of trawl doors, 0.05 to 0.3 m deep and 0.2 to 2 m wide.
+struct trawl_marks {
+    float density = 0;    ///< furrows per metre that one crosses, in [0, 1 / (4 width)]; 0 for none
+    float depth = 0.06f;  ///< metres, >= 0
+    float width = 0.5f;   ///< metres, > 0: between the tops of the berms
+    int directions = 2;   ///< 1 to 8: number of directions of towing
+    float length = 150;   ///< metres, > 0: typical length of a furrow
+
+    friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
+};
+
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
