@@ -233,13 +233,15 @@
 #endif
 
 // Members of public types: those of a line are inlined, in builds without optimization as well; longer ones carry the
-// unit's flags in their own name.
+// unit's flags in their own name, or that of the compiled form.
 #if defined(__GNUC__)
 #define INSONIFY_MEMBER inline __attribute__((always_inline))
 #define INSONIFY_TAGGED __attribute__((abi_tag(INSONIFY_TEXT(INSONIFY_FLAGS))))
+#define INSONIFY_TAGGED_ONCE __attribute__((abi_tag(INSONIFY_TEXT(INSONIFY_ONCE))))
 #else
 #define INSONIFY_MEMBER
 #define INSONIFY_TAGGED
+#define INSONIFY_TAGGED_ONCE
 #endif
 #define INSONIFY_TEXT_RAW(x) #x
 #define INSONIFY_TEXT(x) INSONIFY_TEXT_RAW(x)
@@ -4815,162 +4817,6 @@ auto operator|(F&& f, G&& g) {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/filter/poisson.hpp ---------------------------------------------------------------
-// Shot noise: each pixel becomes a Poisson count whose mean it was.
-//
-// Counts of means below 10 are found by inversion, larger ones by transformed rejection with squeeze, in 1.1 to 1.2
-// trials. Both follow the Poisson law to the 2^-32 of their uniform numbers.
-//
-// Based on: Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random Variables. Insurance:
-// Mathematics and Economics 12, 1993 (algorithm PTRS).
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-
-namespace detail::inline INSONIFY_FLAGS {
-
-/// ln k! less Stirling's (k + 1/2) ln(k + 1) - (k + 1) + ln(2 pi) / 2, for k from 0 to 9.
-inline constexpr std::array<double, 10> stirling_error = [] {
-    std::array<double, 10> error{};
-    double log_factorial = 0;
-    for (std::size_t k = 0; k < error.size(); ++k) {
-        const double n = static_cast<double>(k + 1);
-        error[k] = log_factorial - ((n - 0.5) * numeric::log(n) - n + 0.91893853320467274);
-        log_factorial += numeric::log(n);
-    }
-    return error;
-}();
-
-/// ln k! - k ln m + m - ln(k + 1) / 2 for whole k >= 0 and m > 0: minus the logarithm of a Poisson probability, without
-/// the large terms that cancel. To 1e-11.
-template <int N>
-INSONIFY_INLINE void poisson_deficit(lanes<double, N>& into, const lanes<double, N>& k, const lanes<double, N>& m) {
-    using doubles = lanes<double, N>;
-    constexpr double half_log_two_pi = 0.91893853320467274;
-    const doubles n = k + 1.0, r = 1.0 / n, s = r * r;
-    doubles error = (1.0 / 12 - (1.0 / 360 - (1.0 / 1260 - s * (1.0 / 1680)) * s) * s) * r;
-    if (any(lanes<std::int64_t, N>(k < 10.0))) {
-        for (int i = 0; i < N; ++i)
-            if (lane(k, i) < 10) set_lane(error, i, stirling_error[static_cast<std::size_t>(lane(k, i))]);
-    }
-    doubles log_ratio;
-    log_lanes<N>(log_ratio, m * r);
-    into = (m - n) - k * log_ratio + (half_log_two_pi + error);
-}
-
-/// Draws Poisson counts for rejection_kernel, two trials a block.
-struct poisson_counts {
-    static constexpr double min_rejection_mean = 10;
-
-    static std::uint32_t block(std::uint32_t trial) { return trial / 2; }
-
-    template <int N>
-    INSONIFY_INLINE void attempt(lanes<double, N>& count, lanes<std::int64_t, N>& settled,
-                                 const lanes<std::uint64_t, N> (&word)[4], const lanes<double, N>& mean,
-                                 std::uint32_t trial) const {
-        using flags = lanes<std::int64_t, N>;
-        lanes<double, N> u, v;
-        uniform_lanes<N>(u, word[2 * (trial & 1)]);
-        uniform_lanes<N>(v, word[2 * (trial & 1) + 1]);
-        const flags is_small = flags(mean < min_rejection_mean);
-        count = lanes<double, N>{};
-        settled = is_small;
-        if (any(flags(is_small == 0))) reject<N>(count, settled, u, v, mean);
-        if (any(is_small)) invert<N>(count, u, mean);
-    }
-
-  private:
-    /// The smallest count whose cumulative probability reaches u, where the mean is small.
-    template <int N>
-    INSONIFY_INLINE static void invert(lanes<double, N>& count, const lanes<double, N>& u,
-                                       const lanes<double, N>& mean) {
-        for (int i = 0; i < N; ++i) {
-            const double m = lane(mean, i);
-            if (!(m < min_rejection_mean)) continue;
-            double k = 0, p = numeric::exp(-m), sum = p;
-            while (sum < lane(u, i) && k < 100) {
-                k += 1;
-                p *= m / k;
-                sum += p;
-            }
-            set_lane(count, i, k);
-        }
-    }
-
-    template <int N>
-    INSONIFY_INLINE static void reject(lanes<double, N>& count, lanes<std::int64_t, N>& settled,
-                                       const lanes<double, N>& uniform, const lanes<double, N>& v,
-                                       const lanes<double, N>& mean) {
-        using doubles = lanes<double, N>;
-        using flags = lanes<std::int64_t, N>;
-        const doubles u = uniform - 0.5;
-        doubles root;
-        square_root<N>(root, mean);
-        const doubles b = 0.931 + 2.53 * root, a = -0.059 + 0.02483 * b;
-        const doubles edge = 0.5 - (u < 0.0 ? 0.0 - u : u);
-        floor_lanes<N>(count, (2.0 * a / edge + b) * u + mean + 0.43);
-        const flags squeezed = flags(edge >= 0.07) & flags((0.9277 - v) * (b - 2.0) >= 3.6224);
-        // Hormann's ln(v / (alpha (a / edge^2 + b))) <= k ln m - m - ln k!, in fewer logarithms and quotients.
-        const doubles square = edge * edge;
-        const doubles height = v * (1.1239 * b - (1.1239 * 3.4 - 1.1328)) * square / ((b - 3.4) * (a + b * square));
-        const doubles k = count > 0.0 ? count : doubles{};
-        doubles log_height, deficit;
-        log_lanes<N>(log_height, height * height * (k + 1.0));
-        poisson_deficit<N>(deficit, k, mean);
-        settled = settled | squeezed |
-                  (flags(count >= 0.0) & (flags(edge >= 0.013) | flags(v <= edge)) &
-                   flags(0.5 * log_height + deficit <= 0.0));
-    }
-};
-
-class poisson_law {
-  public:
-    poisson_law(float photons, noise_key noise) : photons_(photons), noise_(noise) {}
-
-    void row(const float* from, float* to, const noise_run& run) const {
-        double mean[run_length], count[run_length];
-        pixel_list open;
-        for (int i = 0; i < run.count; ++i) {
-            count[i] = mean[i] = static_cast<double>(clip_to_unit(from[i]) * photons_);
-            add_if(mean[i] == mean[i], i, open.places, open.count);
-        }
-        dispatch(rejection_kernel<poisson_counts>{{}, mean, count, &open, run, noise_}, best_isa());
-        for (int i = 0; i < run.count; ++i)
-            to[i] = clip_to_unit(static_cast<float>(count[i] / static_cast<double>(photons_)));
-    }
-    void prepare(const pixel_area&) {}
-
-  private:
-    float photons_;
-    noise_key noise_;
-};
-
-}  // namespace detail::inline INSONIFY_FLAGS
-
-/// Poisson counts: J = k / photons, k drawn with the mean I photons. The default is what MATLAB's
-/// imnoise(I, "poisson") does to uint8 images; for its other classes, photons is 65535 (uint16), 1e6 (single) or 1e12
-/// (double), which is no visible noise at all.
-struct poisson {
-    float photons = 255;  ///< mean count of a white pixel, in (0, 1e9]
-    std::uint64_t seed = 0;
-    std::uint32_t frame = 0;  ///< which image of a set
-
-    using is_filter = std::true_type;
-
-    /// @throws invalid_input for photons outside (0, 1e9]
-    INSONIFY_TAGGED auto pass() const {
-        detail::require(photons > 0 && photons <= 1e9f, "poisson.photons", photons, "above 0 and at most 1e9");
-        return detail::noise_pass(detail::poisson_law(photons, {seed, detail::noise_stream::poisson, frame}));
-    }
-};
-
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/filter/where.hpp -----------------------------------------------------------------
 // Masked filters: `image | where(labels.shadow, match)` measures and changes the pixels of the mask alone.
 
@@ -7689,10 +7535,10 @@ inline namespace INSONIFY_FLAGS {
 template <model M>
 auto prepare(const M& m) {
     using sampler_type = decltype(detail::sampler_of(m));
-    if constexpr (typed_sampler<sampler_type>)
-        return detail::sampler_of(m);
-    else
+    if constexpr (single_typed<M> && sampler<sampler_type>)
         return detail::with_kind<sampler_type>{detail::sampler_of(m), label_of(m.kind)};
+    else
+        return detail::sampler_of(m);
 }
 
 /// The label of the whole seabed, if it has but one.
@@ -7837,6 +7683,7 @@ class any_sampler {
         std::fill(heights.begin(), heights.end(), std::numeric_limits<float>::quiet_NaN());
         std::fill(types.begin(), types.end(), type::sand);
     }
+    INSONIFY_TAGGED void row(const scanline& line, std::span<float> heights) const { row(line, heights, {}); }
     INSONIFY_MEMBER height_range range() const { return held_ != nullptr ? held_->range() : height_range{}; }
 
   private:
@@ -7862,18 +7709,23 @@ struct model_interface {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-template <class M>
+template <typed_sampler S>
 struct held_sampler final : sampler_interface {
-    using sampler_type = decltype(seabed::prepare(std::declval<const M&>()));
-    sampler_type sampler;
+    S sampler;
     std::shared_ptr<const void> owner;
 
-    held_sampler(sampler_type s, std::shared_ptr<const void> o) : sampler(std::move(s)), owner(std::move(o)) {}
+    held_sampler(S s, std::shared_ptr<const void> o) : sampler(std::move(s)), owner(std::move(o)) {}
     void row(const scanline& line, std::span<float> heights, std::span<type> types) const override {
         sampler.row(line, heights, types);
     }
     height_range range() const override { return range_of(sampler); }
 };
+
+/// @param owner  of what the sampler refers to
+template <typed_sampler S>
+any_sampler hold_sampler(S sampler, std::shared_ptr<const void> owner = nullptr) {
+    return any_sampler(std::make_shared<const held_sampler<S>>(std::move(sampler), std::move(owner)));
+}
 
 template <class M>
 struct held_model final : model_interface {
@@ -7882,7 +7734,7 @@ struct held_model final : model_interface {
     explicit held_model(M m) : value(std::move(m)) {}
     const void* get(const void* tag) const override { return tag == &tag_of<M> ? &value : nullptr; }
     any_sampler prepare(const std::shared_ptr<const model_interface>& self) const override {
-        return any_sampler(std::make_shared<const held_sampler<M>>(seabed::prepare(value), self));
+        return hold_sampler(seabed::prepare(value), self);
     }
     std::optional<type> only_type() const override { return seabed::only_type(value); }
     std::vector<type_properties> legend() const override { return legend_of(value); }
@@ -7937,6 +7789,34 @@ class any {
 
   private:
     std::shared_ptr<const detail::model_interface> held_;
+};
+
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/roughness.hpp -------------------------------------------------------------
+// Power-law roughness of a seabed.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+/// Random relief whose 2-D spectrum falls as a power of the wave number, W(K) ~ K^-exponent between two wavelengths.
+///
+/// Measured exponents of sea floors are 2.4 to 3.9, 3.25 where nothing is known: APL-UW High-Frequency Ocean
+/// Environmental Acoustic Models Handbook. TR 9407, 1994 (eqs. 7-8).
+struct roughness {
+    float rms = 0.01f;       ///< metres, >= 0; 0 costs nothing
+    float longest = 1.0f;    ///< metres, > 0: cell of the coarsest octave
+    float shortest = 0.04f;  ///< metres, in (0, longest]: no octave has smaller cells
+    float exponent = 3.25f;  ///< in [2, 4]
+
+    friend bool operator==(const roughness&, const roughness&) = default;
 };
 
 }  // namespace seabed
@@ -8345,19 +8225,6 @@ class gradient_noise {
     detail::cell_hash hash_;
 };
 
-/// Random relief whose 2-D spectrum falls as a power of the wave number, W(K) ~ K^-exponent between two wavelengths.
-///
-/// Measured exponents of sea floors are 2.4 to 3.9, 3.25 where nothing is known: APL-UW High-Frequency Ocean
-/// Environmental Acoustic Models Handbook. TR 9407, 1994 (eqs. 7-8).
-struct roughness {
-    float rms = 0.01f;       ///< metres, >= 0; 0 costs nothing
-    float longest = 1.0f;    ///< metres, > 0: cell of the coarsest octave
-    float shortest = 0.04f;  ///< metres, in (0, longest]: no octave has smaller cells
-    float exponent = 3.25f;  ///< in [2, 4]
-
-    friend bool operator==(const roughness&, const roughness&) = default;
-};
-
 /// Octaves of gradient noise, cells halved from one to the next, that make up a `roughness`.
 class power_law_noise {
   public:
@@ -8439,17 +8306,14 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/flat.hpp ------------------------------------------------------------------
 // Flat sand with power-law roughness.
 
+#if INSONIFY_BODIES
+#endif
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
-
-inline namespace INSONIFY_FLAGS {
-
-class flat_sampler;
-
-}  // namespace INSONIFY_FLAGS
 
 /// Level sand with power-law roughness; `{.surface = {.rms = 0}}` is a plane.
 struct flat {
@@ -8458,10 +8322,12 @@ struct flat {
     type kind = type::sand;
 
     /// @throws invalid_input for parameters out of the ranges of `roughness`
-    INSONIFY_TAGGED flat_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED_ONCE any_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     INSONIFY_MEMBER float sink_depth() const { return 2 * surface.rms; }
 };
+
+#if INSONIFY_BODIES
 
 inline namespace INSONIFY_FLAGS {
 
@@ -8484,12 +8350,11 @@ class flat_sampler {
 
 }  // namespace INSONIFY_FLAGS
 
-inline flat_sampler flat::prepare() const {
-    return flat_sampler(*this);
+INSONIFY_FUNCTION any_sampler flat::prepare() const {
+    return detail::hold_sampler(detail::with_kind<flat_sampler>{flat_sampler(*this), kind});
 }
-inline float flat::operator()(double x, double y) const {
-    return height_at(prepare(), x, y);
-}
+
+#endif
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -8497,8 +8362,8 @@ inline float flat::operator()(double x, double y) const {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/heightfield.hpp -----------------------------------------------------------
-// Heightfields: regular grids of sampled or measured heights, with labels, and placement of objects on them.
+// ------------ insonify/seabed/trawl_marks.hpp -----------------------------------------------------------
+// Furrows that bottom trawls leave in mud.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8506,173 +8371,16 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-namespace detail::inline INSONIFY_FLAGS {
+/// Furrows of trawl doors, 0.05 to 0.3 m deep and 0.2 to 2 m wide.
+struct trawl_marks {
+    float density = 0;    ///< furrows per metre that one crosses, in [0, 1 / (4 width)]; 0 for none
+    float depth = 0.06f;  ///< metres, >= 0
+    float width = 0.5f;   ///< metres, > 0: between the tops of the berms
+    int directions = 2;   ///< 1 to 8: number of directions of towing
+    float length = 150;   ///< metres, > 0: typical length of a furrow
 
-/// A coordinate in cells, clamped to the grid: the cell's index and the fraction within it, in [0, 1]. NaN counts as 0.
-struct grid_coordinate {
-    int cell;
-    double across;
-    grid_coordinate(double c, int cells) {
-        const double held = c > 0 ? (std::min)(c, static_cast<double>(cells)) : 0.0;
-        cell = (std::min)(static_cast<int>(held), cells - 1);
-        across = held - cell;
-    }
+    friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
 };
-
-/// The plane at a point: its height, and its rise per cell in x and in y, metres.
-struct facet {
-    double height, rise_x, rise_y;
-};
-
-/// The triangle of a heightfield over (u, v), in cells from vertex (0, 0).
-inline facet facet_at(image_view<const float> heights, double u, double v) {
-    const grid_coordinate x(u, heights.width() - 1), y(v, heights.height() - 1);
-    const double corner = static_cast<double>(heights(x.cell, y.cell));
-    const double opposite = static_cast<double>(heights(x.cell + 1, y.cell + 1));
-    // The diagonal runs from this corner to the opposite one, with the right vertex below it and the upper above.
-    const bool lower = x.across >= y.across;
-    const double side = static_cast<double>(lower ? heights(x.cell + 1, y.cell) : heights(x.cell, y.cell + 1));
-    const double rise_x = lower ? side - corner : opposite - side;
-    const double rise_y = lower ? opposite - side : side - corner;
-    const double height = corner + x.across * rise_x + y.across * rise_y;
-    return {numeric::is_finite(height) ? height : (std::numeric_limits<double>::quiet_NaN)(), rise_x, rise_y};
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-
-inline namespace INSONIFY_FLAGS {
-
-class heightfield_sampler;
-
-}  // namespace INSONIFY_FLAGS
-
-/// Heights at the vertices of a square grid; vertex (i, j) lies at origin + spacing * (i, j), so that y, along track,
-/// grows with the row: viewed as an image, the array has forward at the bottom (`from_image` flips it).
-///
-/// The surface is that of the drawn mesh: the diagonal from vertex (i, j) to (i + 1, j + 1) divides each cell into two
-/// plane triangles. Heights outside are those of the nearest edge. A vertex that is NaN or infinite has no data:
-/// queries on its triangles return NaN, and the mesh leaves them out.
-struct heightfield {
-    image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
-    image<type> types{};          ///< one per vertex; empty: all are `fallback`
-    glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
-    double spacing = 1;           ///< metres between vertices, > 0
-    type fallback = type::sand;
-    /// Properties of users' own labels; those of the library's are in its registry.
-    std::vector<type_properties> own_types{};
-
-    /// Height of the drawn surface at a world position, metres; it and the next two expect a valid heightfield.
-    INSONIFY_MEMBER float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
-
-    /// Unit normal of the triangle at a world position; outside, that of the nearest one. NaN where there is no data.
-    INSONIFY_TAGGED glm::vec3 normal_at(double x, double y) const {
-        const detail::facet f = facet_at(x, y);
-        const glm::dvec3 normal(-f.rise_x, -f.rise_y, spacing);
-        return glm::vec3(normal / numeric::square_root(numeric::dot(normal, normal)));
-    }
-
-    /// Type at the nearest vertex.
-    INSONIFY_MEMBER type type_at(double x, double y) const {
-        if (types.empty()) return fallback;
-        return types(detail::grid_coordinate((x - origin.x) / spacing + 0.5, types.width()).cell,
-                     detail::grid_coordinate((y - origin.y) / spacing + 0.5, types.height()).cell);
-    }
-
-    INSONIFY_MEMBER float operator()(double x, double y) const { return height_at(x, y); }
-
-    /// The sampler refers to the heightfield, which has to outlive it.
-    /// @throws invalid_input as `validate`
-    INSONIFY_TAGGED heightfield_sampler prepare() const;
-    INSONIFY_MEMBER std::optional<type> only_type() const {
-        return types.empty() ? std::optional(fallback) : std::nullopt;
-    }
-    INSONIFY_TAGGED std::vector<type_properties> legend() const;
-
-    INSONIFY_MEMBER detail::facet facet_at(double x, double y) const {
-        return detail::facet_at(heights, (x - origin.x) / spacing, (y - origin.y) / spacing);
-    }
-};
-
-inline namespace INSONIFY_FLAGS {
-
-/// @throws invalid_input for fewer than 2 x 2 vertices, types of another size, an origin beyond 1e9 m or a spacing not
-/// above 0
-inline void validate(const heightfield& h) {
-    detail::require(h.heights.width() >= 2, "heightfield.heights.width()", h.heights.width(), "at least 2");
-    detail::require(h.heights.height() >= 2, "heightfield.heights.height()", h.heights.height(), "at least 2");
-    detail::require(h.types.empty() || h.types.width() == h.heights.width(), "heightfield.types.width()",
-                    h.types.width(), "that of the heights, or no types at all");
-    detail::require(h.types.empty() || h.types.height() == h.heights.height(), "heightfield.types.height()",
-                    h.types.height(), "that of the heights, or no types at all");
-    detail::require(h.origin.x >= -1e9 && h.origin.x <= 1e9, "heightfield.origin.x", h.origin.x, "within 1e9 metres");
-    detail::require(h.origin.y >= -1e9 && h.origin.y <= 1e9, "heightfield.origin.y", h.origin.y, "within 1e9 metres");
-    detail::require(h.spacing > 0 && h.spacing < 1e6, "heightfield.spacing", h.spacing, "metres above 0");
-}
-
-/// Evaluates a `heightfield` between its vertices.
-class heightfield_sampler {
-  public:
-    explicit heightfield_sampler(const heightfield& h) : field_(&h) { validate(h); }
-
-    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
-        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = field_->height_at(line.x(i), line.y);
-        for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
-    }
-
-    /// The range of all vertices.
-    height_range range() const {
-        height_range all;
-        for (const float height : field_->heights.pixels()) {
-            const auto h = static_cast<double>(height);
-            if (numeric::is_finite(height)) all = merge(all, {h, h});
-        }
-        return all;
-    }
-
-  private:
-    const heightfield* field_;
-};
-
-}  // namespace INSONIFY_FLAGS
-
-inline heightfield_sampler heightfield::prepare() const {
-    return heightfield_sampler(*this);
-}
-inline std::vector<type_properties> heightfield::legend() const {
-    std::array<bool, 256> occurs{};
-    if (types.empty()) occurs[index_of(fallback)] = true;
-    for (const type t : types.pixels()) occurs[index_of(t)] = true;
-    std::vector<type_properties> all = own_types;
-    for (std::size_t i = 0; i < label_count; ++i)
-        if (occurs[i]) extend(all, {properties_of(static_cast<type>(i))});
-    return all;
-}
-
-inline namespace INSONIFY_FLAGS {
-
-/// A heightfield from an image of heights: one vertex per pixel, height = scale * pixel, the top row at the largest y,
-/// vertex (0, 0) at the world's origin.
-///
-/// An image of 8 bits has 256 heights: over 1 m of relief its steps are 4 mm high and show as contour lines at grazing
-/// light. Use 16 bits or more, or smooth the pixels first.
-/// @param spacing  metres between pixels, > 0
-/// @param scale    metres per unit of a pixel
-/// @param no_data  the value of pixels without data, often 0; NaN pixels never have data
-/// @throws invalid_input for a picture smaller than 2 x 2, a spacing not above 0 or a scale that is not finite
-inline heightfield from_image(image_view<const float> picture, double spacing, float scale = 1,
-                              float no_data = std::numeric_limits<float>::quiet_NaN()) {
-    detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
-    heightfield result{.heights = image<float>(picture.width(), picture.height()), .spacing = spacing};
-    validate(result);
-    for (int j = 0; j < picture.height(); ++j) {
-        const auto from = picture.row(picture.height() - 1 - j);
-        std::transform(from.begin(), from.end(), result.heights.row(j).begin(),
-                       [=](float p) { return p == no_data ? std::numeric_limits<float>::quiet_NaN() : scale * p; });
-    }
-    return result;
-}
-
-}  // namespace INSONIFY_FLAGS
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -8787,20 +8495,8 @@ class round_marks {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/detail/ripple_train.hpp ---------------------------------------------------
-// One system of sand ripples: crests of equal height that meander, end and fork, as wave-made ripples do.
-//
-// The amplitude of a Gaussian random field varies; that of real ripples does not. Here the phase of such a field,
-// psi(x) = sum_n exp i(k_n . x + phi_n), drives a profile of constant amplitude: height = (eta / 2) cos arg psi. Crests
-// fork at the zeros of psi, around which the phase winds once.
-//
-// The envelope psi exp(-i k_0 . x) varies slowly. Along a row it is summed on a lattice several times coarser than the
-// ripples and interpolated; across rows it is exact. The lattice is fixed to the world: a height depends on seed and
-// position alone.
-//
-// Based on: Dajun Tang, Frank S. Henyey, Brian T. Hefner, Peter A. Traykovski. Simulating Realistic-Looking Sediment
-// Ripple Fields. IEEE Journal of Oceanic Engineering 34, 2009 (why ripples are not Gaussian).
-// M. V. Berry, M. R. Dennis. Phase Singularities in Isotropic Random Waves. Proc. R. Soc. A 456, 2000 (how many forks).
+// ------------ insonify/seabed/ripple_system.hpp ---------------------------------------------------------
+// One system of sand ripples, as the waves of one direction make it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -8824,7 +8520,32 @@ struct ripple_system {
     friend bool operator==(const ripple_system&, const ripple_system&) = default;
 };
 
-namespace detail::inline INSONIFY_FLAGS {
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/detail/ripple_train.hpp ---------------------------------------------------
+// One system of sand ripples: crests of equal height that meander, end and fork, as wave-made ripples do.
+//
+// The amplitude of a Gaussian random field varies; that of real ripples does not. Here the phase of such a field,
+// psi(x) = sum_n exp i(k_n . x + phi_n), drives a profile of constant amplitude: height = (eta / 2) cos arg psi. Crests
+// fork at the zeros of psi, around which the phase winds once.
+//
+// The envelope psi exp(-i k_0 . x) varies slowly. Along a row it is summed on a lattice several times coarser than the
+// ripples and interpolated; across rows it is exact. The lattice is fixed to the world: a height depends on seed and
+// position alone.
+//
+// Based on: Dajun Tang, Frank S. Henyey, Brian T. Hefner, Peter A. Traykovski. Simulating Realistic-Looking Sediment
+// Ripple Fields. IEEE Journal of Oceanic Engineering 34, 2009 (why ripples are not Gaussian).
+// M. V. Berry, M. R. Dennis. Phase Singularities in Isotropic Random Waves. Proc. R. Soc. A 456, 2000 (how many forks).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed::detail::inline INSONIFY_FLAGS {
 
 /// x[i] frequency + offset minus the nearest integer, for N positions.
 template <int N>
@@ -9073,8 +8794,7 @@ inline void ripple_train::add(const stretch& part, stretch_values& values, isa l
         dispatch(kernel{*this, part, values.data()}, level);
 }
 
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace seabed
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -9090,20 +8810,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace seabed {
-
-/// Furrows of trawl doors, 0.05 to 0.3 m deep and 0.2 to 2 m wide.
-struct trawl_marks {
-    float density = 0;    ///< furrows per metre that one crosses, in [0, 1 / (4 width)]; 0 for none
-    float depth = 0.06f;  ///< metres, >= 0
-    float width = 0.5f;   ///< metres, > 0: between the tops of the berms
-    int directions = 2;   ///< 1 to 8: number of directions of towing
-    float length = 150;   ///< metres, > 0: typical length of a furrow
-
-    friend bool operator==(const trawl_marks&, const trawl_marks&) = default;
-};
-
-namespace detail::inline INSONIFY_FLAGS {
+namespace seabed::detail::inline INSONIFY_FLAGS {
 
 /// Evaluates `trawl_marks`.
 class trawl_furrows {
@@ -9211,8 +8918,7 @@ class trawl_furrows {
     cell_hash hash_;
 };
 
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace seabed
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -9221,17 +8927,14 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/mud.hpp -------------------------------------------------------------------
 // Mud: gentle relief with mounds by burrowing animals, pock marks of seeps, and trawl tracks.
 
+#if INSONIFY_BODIES
+#endif
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
-
-inline namespace INSONIFY_FLAGS {
-
-class mud_sampler;
-
-}  // namespace INSONIFY_FLAGS
 
 /// Fine sediment: low, smooth relief; scattered mounds and pock marks, each a round bump or dent; furrows, if any.
 struct mud {
@@ -9246,12 +8949,14 @@ struct mud {
     type kind = type::mud;
 
     /// @throws invalid_input for parameters out of their range
-    INSONIFY_TAGGED mud_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED_ONCE any_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     INSONIFY_MEMBER float sink_depth() const {
         return (std::max)((std::max)(mound_height, pock_depth), 2 * surface.rms);
     }
 };
+
+#if INSONIFY_BODIES
 
 inline namespace INSONIFY_FLAGS {
 
@@ -9293,12 +8998,11 @@ class mud_sampler {
 
 }  // namespace INSONIFY_FLAGS
 
-inline mud_sampler mud::prepare() const {
-    return mud_sampler(*this);
+INSONIFY_FUNCTION any_sampler mud::prepare() const {
+    return detail::hold_sampler(detail::with_kind<mud_sampler>{mud_sampler(*this), kind});
 }
-inline float mud::operator()(double x, double y) const {
-    return height_at(prepare(), x, y);
-}
+
+#endif
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -9309,17 +9013,14 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/ripples.hpp ---------------------------------------------------------------
 // Sand ripples: one system of crests or two that cross, with fine roughness.
 
+#if INSONIFY_BODIES
+#endif
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
-
-inline namespace INSONIFY_FLAGS {
-
-class ripples_sampler;
-
-}  // namespace INSONIFY_FLAGS
 
 /// Rippled sand. The first six parameters are those of `ripple_system`.
 struct ripples {
@@ -9335,8 +9036,8 @@ struct ripples {
     type kind = type::ripples;
 
     /// @throws invalid_input for parameters out of their range
-    INSONIFY_TAGGED ripples_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED_ONCE any_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
 
     INSONIFY_MEMBER ripple_system first() const {
         return {wavelength, steepness, direction, spread, bandwidth, sharpness};
@@ -9350,6 +9051,8 @@ struct ripples {
                (static_cast<double>(wavelength) * static_cast<double>(wavelength));
     }
 };
+
+#if INSONIFY_BODIES
 
 inline namespace INSONIFY_FLAGS {
 
@@ -9384,12 +9087,11 @@ class ripples_sampler {
 
 }  // namespace INSONIFY_FLAGS
 
-inline ripples_sampler ripples::prepare() const {
-    return ripples_sampler(*this);
+INSONIFY_FUNCTION any_sampler ripples::prepare() const {
+    return detail::hold_sampler(detail::with_kind<ripples_sampler>{ripples_sampler(*this), kind});
 }
-inline float ripples::operator()(double x, double y) const {
-    return height_at(prepare(), x, y);
-}
+
+#endif
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -9586,17 +9288,14 @@ INSONIFY_ARITHMETIC_END
 // ------------ insonify/seabed/rock.hpp ------------------------------------------------------------------
 // Rock: outcrops that step up from the bottom, broken into blocks, boulders and rubble.
 
+#if INSONIFY_BODIES
+#endif
+
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
-
-inline namespace INSONIFY_FLAGS {
-
-class rock_sampler;
-
-}  // namespace INSONIFY_FLAGS
 
 /// Outcrops with steep faces, blocks on and around them, and rough surfaces.
 ///
@@ -9615,10 +9314,12 @@ struct rock {
     type kind = type::rock;
 
     /// @throws invalid_input for parameters out of their range
-    INSONIFY_TAGGED rock_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const;
+    INSONIFY_TAGGED_ONCE any_sampler prepare() const;
+    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     INSONIFY_MEMBER float sink_depth() const { return 0.5f * relief + 2 * surface.rms; }
 };
+
+#if INSONIFY_BODIES
 
 inline namespace INSONIFY_FLAGS {
 
@@ -9730,11 +9431,8 @@ class rock_sampler {
 
 }  // namespace INSONIFY_FLAGS
 
-inline rock_sampler rock::prepare() const {
-    return rock_sampler(*this);
-}
-inline float rock::operator()(double x, double y) const {
-    return height_at(prepare(), x, y);
+INSONIFY_FUNCTION any_sampler rock::prepare() const {
+    return detail::hold_sampler(detail::with_kind<rock_sampler>{rock_sampler(*this), kind});
 }
 
 inline namespace INSONIFY_FLAGS {
@@ -9748,86 +9446,7 @@ inline void rock_sampler::row(const scanline& line, std::span<float> heights) co
 
 }  // namespace INSONIFY_FLAGS
 
-}  // namespace seabed
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/sample.hpp ----------------------------------------------------------------
-// Samples a seabed model at the vertices of a grid, a row per task.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace seabed {
-
-/// Where to sample: vertex (i, j) at origin + spacing * (first + (i, j)), metres in the world. Parts of one grid share
-/// their vertices to the last bit if they differ in `first` and not in the origin.
-struct grid {
-    glm::dvec2 origin{0.0, 0.0};
-    double spacing = 0.02;
-    int width = 2, height = 2;  ///< vertices, at least 2
-    bool band_limited = false;  ///< relief that the spacing can't carry fades out instead of aliasing
-    glm::ivec2 first{0, 0};
-};
-
-inline namespace INSONIFY_FLAGS {
-
-/// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
-/// vertices where they overlap: to the last bit if the spacing is a sum of few powers of two, as 1/64 m is.
-/// @throws invalid_input for a spacing not above 0, or corners beyond 1e9 metres or in the wrong order
-inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
-    detail::require(spacing > 0 && spacing < 1e6, "spacing", spacing, "metres above 0");
-    const auto axis = [&](double from, double to, const char* name) {
-        detail::require(from >= -1e9 && to <= 1e9 && from <= to, name, to, "not below low, both within 1e9 metres");
-        const std::int64_t first = numeric::floor_to_int(from / spacing);
-        const std::int64_t last = (std::max)(-numeric::floor_to_int(-to / spacing), first + 1);
-        detail::require(last - first < (1 << 30), name, to, "at most 2^30 vertices from low");
-        return std::pair{static_cast<double>(first) * spacing, static_cast<int>(last - first + 1)};
-    };
-    const auto [x, width] = axis(low.x, high.x, "high.x");
-    const auto [y, height] = axis(low.y, high.y, "high.y");
-    return {.origin = {x, y}, .spacing = spacing, .width = width, .height = height};
-}
-
-/// The seabed's heights, and its labels where it has more than one, at the vertices of a grid.
-///
-/// The bits depend on the model and the positions of the vertices alone, not on the executor or on what else is in
-/// the grid.
-/// @param source  the library's or a user's own
-/// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing not above 0, and for
-/// parameters of the model out of their range
-template <model Model, executor_argument Executor = serial_executor>
-heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
-    constexpr insonify::detail::uninitialized uninitialized;
-    const auto memory = insonify::detail::memory_of(ex);
-    heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
-                       .origin = where.origin + where.spacing * glm::dvec2(where.first),
-                       .spacing = where.spacing};
-    for (const type_properties& t : legend_of(source))
-        if (index_of(t.label) >= type_count) result.own_types.push_back(t);
-    if (const std::optional<type> only = only_type(source))
-        result.fallback = *only;
-    else
-        result.types = image<type>(where.width, where.height, uninitialized, memory);
-    validate(result);
-
-    const auto prepared = prepare(source);
-    ex.bulk(static_cast<std::size_t>(where.height), [&](std::size_t row) {
-        const int j = static_cast<int>(row);
-        const scanline line{.y = where.origin.y + where.spacing * (static_cast<double>(where.first.y) + j),
-                            .origin = where.origin.x,
-                            .spacing = where.spacing,
-                            .first = where.first.x,
-                            .grid_spacing = where.band_limited ? where.spacing : 0};
-        prepared.row(line, result.heights.row(j), result.types.empty() ? std::span<type>{} : result.types.row(j));
-    });
-    return result;
-}
-
-}  // namespace INSONIFY_FLAGS
+#endif
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -14122,6 +13741,189 @@ draw_stats draw(const mesh_view& m, const VertexShader& vertex_shader, const Lan
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/seabed/heightfield.hpp -----------------------------------------------------------
+// Heightfields: regular grids of sampled or measured heights, with labels, and placement of objects on them.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+namespace detail::inline INSONIFY_FLAGS {
+
+/// A coordinate in cells, clamped to the grid: the cell's index and the fraction within it, in [0, 1]. NaN counts as 0.
+struct grid_coordinate {
+    int cell;
+    double across;
+    grid_coordinate(double c, int cells) {
+        const double held = c > 0 ? (std::min)(c, static_cast<double>(cells)) : 0.0;
+        cell = (std::min)(static_cast<int>(held), cells - 1);
+        across = held - cell;
+    }
+};
+
+/// The plane at a point: its height, and its rise per cell in x and in y, metres.
+struct facet {
+    double height, rise_x, rise_y;
+};
+
+/// The triangle of a heightfield over (u, v), in cells from vertex (0, 0).
+inline facet facet_at(image_view<const float> heights, double u, double v) {
+    const grid_coordinate x(u, heights.width() - 1), y(v, heights.height() - 1);
+    const double corner = static_cast<double>(heights(x.cell, y.cell));
+    const double opposite = static_cast<double>(heights(x.cell + 1, y.cell + 1));
+    // The diagonal runs from this corner to the opposite one, with the right vertex below it and the upper above.
+    const bool lower = x.across >= y.across;
+    const double side = static_cast<double>(lower ? heights(x.cell + 1, y.cell) : heights(x.cell, y.cell + 1));
+    const double rise_x = lower ? side - corner : opposite - side;
+    const double rise_y = lower ? opposite - side : side - corner;
+    const double height = corner + x.across * rise_x + y.across * rise_y;
+    return {numeric::is_finite(height) ? height : (std::numeric_limits<double>::quiet_NaN)(), rise_x, rise_y};
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
+inline namespace INSONIFY_FLAGS {
+
+class heightfield_sampler;
+
+}  // namespace INSONIFY_FLAGS
+
+/// Heights at the vertices of a square grid; vertex (i, j) lies at origin + spacing * (i, j), so that y, along track,
+/// grows with the row: viewed as an image, the array has forward at the bottom (`from_image` flips it).
+///
+/// The surface is that of the drawn mesh: the diagonal from vertex (i, j) to (i + 1, j + 1) divides each cell into two
+/// plane triangles. Heights outside are those of the nearest edge. A vertex that is NaN or infinite has no data:
+/// queries on its triangles return NaN, and the mesh leaves them out.
+struct heightfield {
+    image<float> heights{};       ///< metres above the datum, at least 2 x 2 vertices
+    image<type> types{};          ///< one per vertex; empty: all are `fallback`
+    glm::dvec2 origin{0.0, 0.0};  ///< world position of vertex (0, 0), metres
+    double spacing = 1;           ///< metres between vertices, > 0
+    type fallback = type::sand;
+    /// Properties of users' own labels; those of the library's are in its registry.
+    std::vector<type_properties> own_types{};
+
+    /// Height of the drawn surface at a world position, metres; it and the next two expect a valid heightfield.
+    INSONIFY_MEMBER float height_at(double x, double y) const { return static_cast<float>(facet_at(x, y).height); }
+
+    /// Unit normal of the triangle at a world position; outside, that of the nearest one. NaN where there is no data.
+    INSONIFY_TAGGED glm::vec3 normal_at(double x, double y) const {
+        const detail::facet f = facet_at(x, y);
+        const glm::dvec3 normal(-f.rise_x, -f.rise_y, spacing);
+        return glm::vec3(normal / numeric::square_root(numeric::dot(normal, normal)));
+    }
+
+    /// Type at the nearest vertex.
+    INSONIFY_MEMBER type type_at(double x, double y) const {
+        if (types.empty()) return fallback;
+        return types(detail::grid_coordinate((x - origin.x) / spacing + 0.5, types.width()).cell,
+                     detail::grid_coordinate((y - origin.y) / spacing + 0.5, types.height()).cell);
+    }
+
+    INSONIFY_MEMBER float operator()(double x, double y) const { return height_at(x, y); }
+
+    /// The sampler refers to the heightfield, which has to outlive it.
+    /// @throws invalid_input as `validate`
+    INSONIFY_TAGGED heightfield_sampler prepare() const;
+    INSONIFY_MEMBER std::optional<type> only_type() const {
+        return types.empty() ? std::optional(fallback) : std::nullopt;
+    }
+    INSONIFY_TAGGED std::vector<type_properties> legend() const;
+
+    INSONIFY_MEMBER detail::facet facet_at(double x, double y) const {
+        return detail::facet_at(heights, (x - origin.x) / spacing, (y - origin.y) / spacing);
+    }
+};
+
+inline namespace INSONIFY_FLAGS {
+
+/// @throws invalid_input for fewer than 2 x 2 vertices, types of another size, an origin beyond 1e9 m or a spacing not
+/// above 0
+inline void validate(const heightfield& h) {
+    detail::require(h.heights.width() >= 2, "heightfield.heights.width()", h.heights.width(), "at least 2");
+    detail::require(h.heights.height() >= 2, "heightfield.heights.height()", h.heights.height(), "at least 2");
+    detail::require(h.types.empty() || h.types.width() == h.heights.width(), "heightfield.types.width()",
+                    h.types.width(), "that of the heights, or no types at all");
+    detail::require(h.types.empty() || h.types.height() == h.heights.height(), "heightfield.types.height()",
+                    h.types.height(), "that of the heights, or no types at all");
+    detail::require(h.origin.x >= -1e9 && h.origin.x <= 1e9, "heightfield.origin.x", h.origin.x, "within 1e9 metres");
+    detail::require(h.origin.y >= -1e9 && h.origin.y <= 1e9, "heightfield.origin.y", h.origin.y, "within 1e9 metres");
+    detail::require(h.spacing > 0 && h.spacing < 1e6, "heightfield.spacing", h.spacing, "metres above 0");
+}
+
+/// Evaluates a `heightfield` between its vertices.
+class heightfield_sampler {
+  public:
+    explicit heightfield_sampler(const heightfield& h) : field_(&h) { validate(h); }
+
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = field_->height_at(line.x(i), line.y);
+        for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
+    }
+
+    /// The range of all vertices.
+    height_range range() const {
+        height_range all;
+        for (const float height : field_->heights.pixels()) {
+            const auto h = static_cast<double>(height);
+            if (numeric::is_finite(height)) all = merge(all, {h, h});
+        }
+        return all;
+    }
+
+  private:
+    const heightfield* field_;
+};
+
+}  // namespace INSONIFY_FLAGS
+
+inline heightfield_sampler heightfield::prepare() const {
+    return heightfield_sampler(*this);
+}
+inline std::vector<type_properties> heightfield::legend() const {
+    std::array<bool, 256> occurs{};
+    if (types.empty()) occurs[index_of(fallback)] = true;
+    for (const type t : types.pixels()) occurs[index_of(t)] = true;
+    std::vector<type_properties> all = own_types;
+    for (std::size_t i = 0; i < label_count; ++i)
+        if (occurs[i]) extend(all, {properties_of(static_cast<type>(i))});
+    return all;
+}
+
+inline namespace INSONIFY_FLAGS {
+
+/// A heightfield from an image of heights: one vertex per pixel, height = scale * pixel, the top row at the largest y,
+/// vertex (0, 0) at the world's origin.
+///
+/// An image of 8 bits has 256 heights: over 1 m of relief its steps are 4 mm high and show as contour lines at grazing
+/// light. Use 16 bits or more, or smooth the pixels first.
+/// @param spacing  metres between pixels, > 0
+/// @param scale    metres per unit of a pixel
+/// @param no_data  the value of pixels without data, often 0; NaN pixels never have data
+/// @throws invalid_input for a picture smaller than 2 x 2, a spacing not above 0 or a scale that is not finite
+inline heightfield from_image(image_view<const float> picture, double spacing, float scale = 1,
+                              float no_data = std::numeric_limits<float>::quiet_NaN()) {
+    detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
+    heightfield result{.heights = image<float>(picture.width(), picture.height()), .spacing = spacing};
+    validate(result);
+    for (int j = 0; j < picture.height(); ++j) {
+        const auto from = picture.row(picture.height() - 1 - j);
+        std::transform(from.begin(), from.end(), result.heights.row(j).begin(),
+                       [=](float p) { return p == no_data ? std::numeric_limits<float>::quiet_NaN() : scale * p; });
+    }
+    return result;
+}
+
+}  // namespace INSONIFY_FLAGS
+
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/detail/normals.hpp --------------------------------------------------------
 // Normals of a heightfield, by finite differences of its vertices.
 //
@@ -14805,6 +14607,87 @@ adaptive_mesh tessellate(const heightfield& field, const tolerance& allowed, Exe
         each_triangle(j, [&](const glm::ivec2& a, const glm::ivec2& b, const glm::ivec2& c) {
             *next++ = {index(a), index(b), index(c)};
         });
+    });
+    return result;
+}
+
+}  // namespace INSONIFY_FLAGS
+
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/sample.hpp ----------------------------------------------------------------
+// Samples a seabed model at the vertices of a grid, a row per task.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+/// Where to sample: vertex (i, j) at origin + spacing * (first + (i, j)), metres in the world. Parts of one grid share
+/// their vertices to the last bit if they differ in `first` and not in the origin.
+struct grid {
+    glm::dvec2 origin{0.0, 0.0};
+    double spacing = 0.02;
+    int width = 2, height = 2;  ///< vertices, at least 2
+    bool band_limited = false;  ///< relief that the spacing can't carry fades out instead of aliasing
+    glm::ivec2 first{0, 0};
+};
+
+inline namespace INSONIFY_FLAGS {
+
+/// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
+/// vertices where they overlap: to the last bit if the spacing is a sum of few powers of two, as 1/64 m is.
+/// @throws invalid_input for a spacing not above 0, or corners beyond 1e9 metres or in the wrong order
+inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
+    detail::require(spacing > 0 && spacing < 1e6, "spacing", spacing, "metres above 0");
+    const auto axis = [&](double from, double to, const char* name) {
+        detail::require(from >= -1e9 && to <= 1e9 && from <= to, name, to, "not below low, both within 1e9 metres");
+        const std::int64_t first = numeric::floor_to_int(from / spacing);
+        const std::int64_t last = (std::max)(-numeric::floor_to_int(-to / spacing), first + 1);
+        detail::require(last - first < (1 << 30), name, to, "at most 2^30 vertices from low");
+        return std::pair{static_cast<double>(first) * spacing, static_cast<int>(last - first + 1)};
+    };
+    const auto [x, width] = axis(low.x, high.x, "high.x");
+    const auto [y, height] = axis(low.y, high.y, "high.y");
+    return {.origin = {x, y}, .spacing = spacing, .width = width, .height = height};
+}
+
+/// The seabed's heights, and its labels where it has more than one, at the vertices of a grid.
+///
+/// The bits depend on the model and the positions of the vertices alone, not on the executor or on what else is in
+/// the grid.
+/// @param source  the library's or a user's own
+/// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing not above 0, and for
+/// parameters of the model out of their range
+template <model Model, executor_argument Executor = serial_executor>
+heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
+    constexpr insonify::detail::uninitialized uninitialized;
+    const auto memory = insonify::detail::memory_of(ex);
+    heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
+                       .origin = where.origin + where.spacing * glm::dvec2(where.first),
+                       .spacing = where.spacing};
+    for (const type_properties& t : legend_of(source))
+        if (index_of(t.label) >= type_count) result.own_types.push_back(t);
+    if (const std::optional<type> only = only_type(source))
+        result.fallback = *only;
+    else
+        result.types = image<type>(where.width, where.height, uninitialized, memory);
+    validate(result);
+
+    const auto prepared = prepare(source);
+    ex.bulk(static_cast<std::size_t>(where.height), [&](std::size_t row) {
+        const int j = static_cast<int>(row);
+        const scanline line{.y = where.origin.y + where.spacing * (static_cast<double>(where.first.y) + j),
+                            .origin = where.origin.x,
+                            .spacing = where.spacing,
+                            .first = where.first.x,
+                            .grid_spacing = where.band_limited ? where.spacing : 0};
+        prepared.row(line, result.heights.row(j), result.types.empty() ? std::span<type>{} : result.types.row(j));
     });
     return result;
 }
@@ -18412,6 +18295,162 @@ inline settings<> exact(const overhead& rig) {
 }  // namespace INSONIFY_FLAGS
 
 }  // namespace accuracy
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/filter/poisson.hpp ---------------------------------------------------------------
+// Shot noise: each pixel becomes a Poisson count whose mean it was.
+//
+// Counts of means below 10 are found by inversion, larger ones by transformed rejection with squeeze, in 1.1 to 1.2
+// trials. Both follow the Poisson law to the 2^-32 of their uniform numbers.
+//
+// Based on: Wolfgang Hormann. The Transformed Rejection Method for Generating Poisson Random Variables. Insurance:
+// Mathematics and Economics 12, 1993 (algorithm PTRS).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+namespace detail::inline INSONIFY_FLAGS {
+
+/// ln k! less Stirling's (k + 1/2) ln(k + 1) - (k + 1) + ln(2 pi) / 2, for k from 0 to 9.
+inline constexpr std::array<double, 10> stirling_error = [] {
+    std::array<double, 10> error{};
+    double log_factorial = 0;
+    for (std::size_t k = 0; k < error.size(); ++k) {
+        const double n = static_cast<double>(k + 1);
+        error[k] = log_factorial - ((n - 0.5) * numeric::log(n) - n + 0.91893853320467274);
+        log_factorial += numeric::log(n);
+    }
+    return error;
+}();
+
+/// ln k! - k ln m + m - ln(k + 1) / 2 for whole k >= 0 and m > 0: minus the logarithm of a Poisson probability, without
+/// the large terms that cancel. To 1e-11.
+template <int N>
+INSONIFY_INLINE void poisson_deficit(lanes<double, N>& into, const lanes<double, N>& k, const lanes<double, N>& m) {
+    using doubles = lanes<double, N>;
+    constexpr double half_log_two_pi = 0.91893853320467274;
+    const doubles n = k + 1.0, r = 1.0 / n, s = r * r;
+    doubles error = (1.0 / 12 - (1.0 / 360 - (1.0 / 1260 - s * (1.0 / 1680)) * s) * s) * r;
+    if (any(lanes<std::int64_t, N>(k < 10.0))) {
+        for (int i = 0; i < N; ++i)
+            if (lane(k, i) < 10) set_lane(error, i, stirling_error[static_cast<std::size_t>(lane(k, i))]);
+    }
+    doubles log_ratio;
+    log_lanes<N>(log_ratio, m * r);
+    into = (m - n) - k * log_ratio + (half_log_two_pi + error);
+}
+
+/// Draws Poisson counts for rejection_kernel, two trials a block.
+struct poisson_counts {
+    static constexpr double min_rejection_mean = 10;
+
+    static std::uint32_t block(std::uint32_t trial) { return trial / 2; }
+
+    template <int N>
+    INSONIFY_INLINE void attempt(lanes<double, N>& count, lanes<std::int64_t, N>& settled,
+                                 const lanes<std::uint64_t, N> (&word)[4], const lanes<double, N>& mean,
+                                 std::uint32_t trial) const {
+        using flags = lanes<std::int64_t, N>;
+        lanes<double, N> u, v;
+        uniform_lanes<N>(u, word[2 * (trial & 1)]);
+        uniform_lanes<N>(v, word[2 * (trial & 1) + 1]);
+        const flags is_small = flags(mean < min_rejection_mean);
+        count = lanes<double, N>{};
+        settled = is_small;
+        if (any(flags(is_small == 0))) reject<N>(count, settled, u, v, mean);
+        if (any(is_small)) invert<N>(count, u, mean);
+    }
+
+  private:
+    /// The smallest count whose cumulative probability reaches u, where the mean is small.
+    template <int N>
+    INSONIFY_INLINE static void invert(lanes<double, N>& count, const lanes<double, N>& u,
+                                       const lanes<double, N>& mean) {
+        for (int i = 0; i < N; ++i) {
+            const double m = lane(mean, i);
+            if (!(m < min_rejection_mean)) continue;
+            double k = 0, p = numeric::exp(-m), sum = p;
+            while (sum < lane(u, i) && k < 100) {
+                k += 1;
+                p *= m / k;
+                sum += p;
+            }
+            set_lane(count, i, k);
+        }
+    }
+
+    template <int N>
+    INSONIFY_INLINE static void reject(lanes<double, N>& count, lanes<std::int64_t, N>& settled,
+                                       const lanes<double, N>& uniform, const lanes<double, N>& v,
+                                       const lanes<double, N>& mean) {
+        using doubles = lanes<double, N>;
+        using flags = lanes<std::int64_t, N>;
+        const doubles u = uniform - 0.5;
+        doubles root;
+        square_root<N>(root, mean);
+        const doubles b = 0.931 + 2.53 * root, a = -0.059 + 0.02483 * b;
+        const doubles edge = 0.5 - (u < 0.0 ? 0.0 - u : u);
+        floor_lanes<N>(count, (2.0 * a / edge + b) * u + mean + 0.43);
+        const flags squeezed = flags(edge >= 0.07) & flags((0.9277 - v) * (b - 2.0) >= 3.6224);
+        // Hormann's ln(v / (alpha (a / edge^2 + b))) <= k ln m - m - ln k!, in fewer logarithms and quotients.
+        const doubles square = edge * edge;
+        const doubles height = v * (1.1239 * b - (1.1239 * 3.4 - 1.1328)) * square / ((b - 3.4) * (a + b * square));
+        const doubles k = count > 0.0 ? count : doubles{};
+        doubles log_height, deficit;
+        log_lanes<N>(log_height, height * height * (k + 1.0));
+        poisson_deficit<N>(deficit, k, mean);
+        settled = settled | squeezed |
+                  (flags(count >= 0.0) & (flags(edge >= 0.013) | flags(v <= edge)) &
+                   flags(0.5 * log_height + deficit <= 0.0));
+    }
+};
+
+class poisson_law {
+  public:
+    poisson_law(float photons, noise_key noise) : photons_(photons), noise_(noise) {}
+
+    void row(const float* from, float* to, const noise_run& run) const {
+        double mean[run_length], count[run_length];
+        pixel_list open;
+        for (int i = 0; i < run.count; ++i) {
+            count[i] = mean[i] = static_cast<double>(clip_to_unit(from[i]) * photons_);
+            add_if(mean[i] == mean[i], i, open.places, open.count);
+        }
+        dispatch(rejection_kernel<poisson_counts>{{}, mean, count, &open, run, noise_}, best_isa());
+        for (int i = 0; i < run.count; ++i)
+            to[i] = clip_to_unit(static_cast<float>(count[i] / static_cast<double>(photons_)));
+    }
+    void prepare(const pixel_area&) {}
+
+  private:
+    float photons_;
+    noise_key noise_;
+};
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
+/// Poisson counts: J = k / photons, k drawn with the mean I photons. The default is what MATLAB's
+/// imnoise(I, "poisson") does to uint8 images; for its other classes, photons is 65535 (uint16), 1e6 (single) or 1e12
+/// (double), which is no visible noise at all.
+struct poisson {
+    float photons = 255;  ///< mean count of a white pixel, in (0, 1e9]
+    std::uint64_t seed = 0;
+    std::uint32_t frame = 0;  ///< which image of a set
+
+    using is_filter = std::true_type;
+
+    /// @throws invalid_input for photons outside (0, 1e9]
+    INSONIFY_TAGGED auto pass() const {
+        detail::require(photons > 0 && photons <= 1e9f, "poisson.photons", photons, "above 0 and at most 1e9");
+        return detail::noise_pass(detail::poisson_law(photons, {seed, detail::noise_stream::poisson, frame}));
+    }
+};
+
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 
@@ -26208,12 +26247,14 @@ inline namespace INSONIFY_ONCE {
 using matched_speckle = filter_chain<match_histogram, speckle>;
 using matched_gaussian = filter_chain<match_histogram, gaussian>;
 using equalized_speckle = filter_chain<equalize, speckle>;
+using displayed_looks = filter_chain<gamma_speckle, display>;
 
 // Filters of what `render` draws. Others are compiled where they are used.
 #define INSONIFY_FILTERS(each)                                                                                       \
     each(float, equalize) each(float, match_histogram) each(float, match_binned) each(float, gaussian)               \
         each(float, speckle) each(float, salt_and_pepper) each(float, matched_speckle) each(float, matched_gaussian) \
-            each(float, equalized_speckle) each(rgb8, color_table)
+            each(float, equalized_speckle) each(float, gamma_speckle) each(float, display)                           \
+                each(float, displayed_looks) each(rgb8, color_table)
 #define INSONIFY_FILTER(Result, Filter)                               \
     image<Result> operator|(const image<float>& in, const Filter& f); \
     image<Result> operator|(image<float>&& in, const Filter& f);
