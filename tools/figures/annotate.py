@@ -28,16 +28,16 @@ class Overhead:
 class Swath:
     """Both sides of a track, forward up; columns are slant range to either side."""
 
-    def __init__(self, metres_to_a_side, metres_along, levels=12):
-        self.side, self.along, self.levels = metres_to_a_side, metres_along, levels
+    def __init__(self, metres_to_a_side, metres_along, levels=12, step=10):
+        self.side, self.along, self.levels, self.step = metres_to_a_side, metres_along, levels, step
 
     def margin(self, draw, left, top, width, height):
         below, middle = top + height, left + width / 2
-        step = 10
+        step = self.step
         for mark in range(-int(self.side / step) * step, int(self.side) + 1, step):
             x = middle + mark * width / (2 * self.side)
             draw.line([(x, below), (x, below + 5)], INK)
-            text(draw, x, below + 7, str(abs(mark)))
+            text(draw, min(x, left + width - 7), below + 7, str(abs(mark)))
         text(draw, left + 130, below + 22, "port: slant range, m")
         text(draw, left + width - 130, below + 22, "starboard: slant range, m")
         text(draw, middle, below + 22, "sonar's track, forward up")
@@ -67,8 +67,10 @@ PICTURES = {
     "survey_bottom.png": Overhead(13.86),
     "block.png": Overhead(13.86),
     "line.png": Swath(32, 50.4, levels=8),
+    "swath.png": Swath(20, 20, levels=8, step=5),
     "shader.png": Plain("hull of 24 m, a line for every metre from the sonar"),
 }
+IN_DOCS = {"cylinder.png", "swath.png"}  # the others belong to the guide
 
 
 # The chips of README.md's picture, of the guide's data set `boats`.
@@ -161,7 +163,7 @@ def main():
         sheet = Image.new("RGB", (picture.width + left, picture.height + top + below), PAPER)
         sheet.paste(posterized(picture, kind.levels), (left, top))
         kind.margin(ImageDraw.Draw(sheet), left, top, picture.width, picture.height)
-        save(sheet, target / name if name != "cylinder.png" else target.parent / name)
+        save(sheet, (target.parent if name in IN_DOCS else target) / name)
     if (source / "boats").exists() and (target / "line.png").exists():
         front(source, target)
 
