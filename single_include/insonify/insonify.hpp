@@ -16958,12 +16958,12 @@ class surface_shader {
             const ints is_lit = ints(known == static_cast<std::int32_t>(shadow::known::lit));
             is_dark = ints(known == static_cast<std::int32_t>(shadow::known::dark));
             value = is_lit ? all : value;
-            undecided = undecided & ~(is_lit | is_dark);
+            undecided = undecided & ints(known == static_cast<std::int32_t>(shadow::known::nothing));
         }
         f.store(into_.picture, value);
         if (into_.shadow != nullptr) {
             lanes<std::uint16_t, N> names;
-            convert(names, ints(is_dark & static_cast<std::int32_t>(object_.shadow_name)));
+            convert(names, is_dark ? ints{} + static_cast<std::int32_t>(object_.shadow_name) : ints{});
             f.store(*into_.shadow, names);
         }
         static_assert(N <= 8);
