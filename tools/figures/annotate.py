@@ -26,10 +26,11 @@ class Overhead:
 
 
 class Swath:
-    """Both sides of a track, forward up; columns are slant range to either side."""
+    """Both sides of a track, forward up or down; columns are slant range to either side."""
 
-    def __init__(self, metres_to_a_side, metres_along, levels=12, step=10):
+    def __init__(self, metres_to_a_side, metres_along, levels=12, step=10, forward="up"):
         self.side, self.along, self.levels, self.step = metres_to_a_side, metres_along, levels, step
+        self.forward = forward
 
     def margin(self, draw, left, top, width, height):
         below, middle = top + height, left + width / 2
@@ -40,9 +41,10 @@ class Swath:
             text(draw, min(x, left + width - 7), below + 7, str(abs(mark)))
         text(draw, left + 130, below + 22, "port: slant range, m")
         text(draw, left + width - 130, below + 22, "starboard: slant range, m")
-        text(draw, middle, below + 22, "sonar's track, forward up")
+        text(draw, middle, below + 22, f"sonar's track, forward {self.forward}")
         for mark in range(0, int(self.along) + 1, step):
-            y = below - mark * height / self.along
+            y = mark * height / self.along
+            y = below - y if self.forward == "up" else top + y
             draw.line([(left - 5, y), (left, y)], INK)
             text(draw, left - 14, y - 5, str(mark))
         text(draw, left + 2, 2, "distance along the track, m", anchor="left")
@@ -67,7 +69,7 @@ PICTURES = {
     "survey_bottom.png": Overhead(13.86),
     "block.png": Overhead(13.86),
     "line.png": Swath(32, 50.4, levels=8),
-    "swath.png": Swath(20, 20, levels=8, step=5),
+    "swath.png": Swath(20, 20, levels=8, step=5, forward="down"),
     "shader.png": Plain("hull of 24 m, a line for every metre from the sonar"),
 }
 IN_DOCS = {"cylinder.png", "swath.png"}  # the others belong to the guide
