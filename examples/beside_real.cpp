@@ -76,8 +76,7 @@ in::image<float> line_of(const in::scene& scene, in::side_scan rig, in::side sid
     const in::facet_backscatter law{.facets = 0.3f, .slope = 0.2f, .volume = 0.5f};
     const in::sonar_equation equation{in::pulse{2 * sonar.range_resolution}, in::horizontal_beam{sonar.beam},
                                       in::level_gain{}};
-    using all = in::record_options<in::labels, in::facet_backscatter, std::remove_const_t<decltype(equation)>>;
-    auto heard = in::record(scene, tow_of(rig), rig, all{.law = law, .equation = equation});
+    auto heard = in::record(scene, tow_of(rig), rig, in::record_options<>{}.with(law).with(equation));
     heard = in::with_tone(
         std::move(heard), rig,
         {.drift = 2.6f, .drift_length = 9, .streaks = 0.6f, .streak_width = 1.2f, .streak_length = 25, .seed = 2});

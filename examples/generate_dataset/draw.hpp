@@ -138,8 +138,7 @@ in::image<float> recording_of(const options& o, const plan& p, const stock& shar
 
     const in::horizontal_beam beam{static_cast<float>(p.beam)};
     const in::sonar_equation equation{beam, in::level_gain{}};
-    using all = in::record_options<in::labels, in::lambert_backscatter, std::remove_const_t<decltype(equation)>>;
-    auto heard = in::render(scene, rig, all{.equation = equation}, ex);
+    auto heard = in::render(scene, rig, in::record_options<>{}.with(equation), ex);
     for (float& intensity : heard.image.pixels()) intensity += static_cast<float>(p.noise);
     for (const noise_step& step : noise_steps(o))
         if (step.kind == "seabed") {

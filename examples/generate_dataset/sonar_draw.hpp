@@ -191,8 +191,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
                                     static_cast<float>(p.volume_scatter)};
     const in::sonar_equation equation{in::pulse{static_cast<float>(p.pulse)},
                                       in::horizontal_beam{static_cast<float>(p.beam)}, in::level_gain{}};
-    using all = in::record_options<in::labels, in::facet_backscatter, std::remove_const_t<decltype(equation)>>;
-    auto heard = in::render(scene, rig, all{.law = law, .equation = equation}, ex);
+    auto heard = in::render(scene, rig, in::record_options<>{}.with(law).with(equation), ex);
     if (!scene.targets.empty() && !p.targets.empty())
         out.known = facts_of(rig, scene.targets.front(), heard.labels.targets.front());
 

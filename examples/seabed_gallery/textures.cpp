@@ -111,8 +111,8 @@ in::image<float> rendered(const kind& k, std::uint32_t seed) {
                             .range = static_cast<float>(slant + half),
                             .bins = width};
     const in::sonar_equation equation{in::pulse{0.03f}, in::horizontal_beam{0.0015f}, in::level_gain{}};
-    using all = in::record_options<in::labels, in::facet_backscatter, std::remove_const_t<decltype(equation)>>;
-    auto heard = in::render(scene, rig, all{.law = {.facets = 0, .volume = k.volume}, .equation = equation});
+    const in::facet_backscatter echo{.facets = 0, .volume = k.volume};
+    auto heard = in::render(scene, rig, in::record_options<>{}.with(echo).with(equation));
 
     in::bottom_tone tone = k.tone;
     tone.seed = seed;

@@ -34,13 +34,12 @@ class sonar {
         const in::sonar_equation equation{
             in::transmission_loss{},   in::absorption{}, in::vertical_beam{.side_lobes = 0.01f}, beam_, in::pulse{},
             in::noise_floor{2.5e-13f}, in::level_gain{}};
-        using all = in::record_options<in::labels, in::lambert_backscatter, std::remove_const_t<decltype(equation)>>;
         std::vector<in::ping> track;
         for (const fix& f : pings) track.push_back(f.at);
         const auto side = [&](in::side looks) {
             rig_.side = looks;
-            auto heard =
-                in::record(in_sight.scene, std::span<const in::ping>(track), rig_, all{.equation = equation}, ex);
+            auto heard = in::record(in_sight.scene, std::span<const in::ping>(track), rig_,
+                                    in::record_options<>{}.with(equation), ex);
             const auto cut = [&](auto& picture) {
                 picture =
                     std::remove_reference_t<decltype(picture)>(picture.view().part(0, before, picture.width(), count));

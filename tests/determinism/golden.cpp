@@ -173,9 +173,8 @@ void record(const char* name, const in::seabed::any& seabed) {
     const in::sonar_equation equation{in::transmission_loss{}, in::absorption{}, in::vertical_beam{},
                                       in::horizontal_beam{},   in::pulse{0.2f},  in::noise_floor{1e-9f},
                                       in::time_varied_gain{},  in::level_gain{}};
-    using options = in::record_options<in::labels, in::lambert_backscatter, std::remove_const_t<decltype(equation)>>;
     const auto hash_by = [&](auto& executor) {
-        const auto swath = in::render_swath(scene, rig, options{.equation = equation}, executor);
+        const auto swath = in::render_swath(scene, rig, in::record_options<>{}.with(equation), executor);
         hash h;
         h.add(swath.image);
         h.add(swath.labels.instance);

@@ -26,11 +26,14 @@ class Overhead:
 
 
 class Swath:
-    """Both sides of a track, forward up or down; columns are slant range to either side."""
+    """Both sides of a track, forward up or down; columns are slant range to either side.
 
-    def __init__(self, metres_to_a_side, metres_along, levels=12, step=10, forward="up"):
+    Without metres along the track, `above` says what the picture shows.
+    """
+
+    def __init__(self, metres_to_a_side, metres_along=None, levels=12, step=10, forward="up", above=""):
         self.side, self.along, self.levels, self.step = metres_to_a_side, metres_along, levels, step
-        self.forward = forward
+        self.forward, self.above = forward, above
 
     def margin(self, draw, left, top, width, height):
         below, middle = top + height, left + width / 2
@@ -42,12 +45,14 @@ class Swath:
         text(draw, left + 130, below + 22, "port: slant range, m")
         text(draw, left + width - 130, below + 22, "starboard: slant range, m")
         text(draw, middle, below + 22, f"sonar's track, forward {self.forward}")
+        text(draw, left + 2, 2, self.above or "distance along the track, m", anchor="left")
+        if self.along is None:
+            return
         for mark in range(0, int(self.along) + 1, step):
             y = mark * height / self.along
             y = below - y if self.forward == "up" else top + y
             draw.line([(left - 5, y), (left, y)], INK)
             text(draw, left - 14, y - 5, str(mark))
-        text(draw, left + 2, 2, "distance along the track, m", anchor="left")
 
 
 class Plain:
@@ -70,9 +75,11 @@ PICTURES = {
     "block.png": Overhead(13.86),
     "line.png": Swath(32, 50.4, levels=8),
     "swath.png": Swath(20, 20, levels=8, step=5, forward="down"),
+    "beside_real.png": Swath(30, levels=32, forward="down", above="above: rendered; below: recorded, CIDCO OpenSidescan (MIT)"),
     "shader.png": Plain("hull of 24 m, a line for every metre from the sonar"),
 }
-IN_DOCS = {"cylinder.png", "swath.png"}  # the others belong to the guide
+SHRUNK = {"cylinder.png": (512, 512), "beside_real.png": (1024, 467)}
+IN_DOCS = {"cylinder.png", "swath.png", "beside_real.png"}  # the others belong to the guide
 
 
 # The chips of README.md's picture, of the guide's data set `boats`.
@@ -159,8 +166,8 @@ def main():
             print(f"{name}: not drawn")
             continue
         picture = Image.open(source / name).convert("RGB")
-        if name == "cylinder.png":
-            picture = picture.resize((512, 512))
+        if name in SHRUNK:
+            picture = picture.resize(SHRUNK[name], Image.Resampling.BOX)
         left, top, below = (30, 16, 40) if isinstance(kind, Swath) else (0, 0, 30)
         sheet = Image.new("RGB", (picture.width + left, picture.height + top + below), PAPER)
         sheet.paste(posterized(picture, kind.levels), (left, top))

@@ -11,9 +11,8 @@
 #include <insonify/seabed/heightfield.hpp>
 #include <insonify/shadow/policy.hpp>
 #include <insonify/sonar/backscatter.hpp>
+#include <insonify/sonar/overhead/detail/undecided_light.hpp>
 #include <insonify/sonar/overhead/rig.hpp>
-
-#include <bit>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -79,43 +78,6 @@ struct surface {
     const material* materials = nullptr;   ///< by type
     std::uint16_t shadow_name = 0;         ///< as in labels::shadow, where it lies in its own shadow
     const shadow::known* known = nullptr;  ///< by triangle, what the light makes of it; null where nothing is known
-};
-
-/// Marks pixels, eight to a byte; rows start a byte.
-class pixel_marks {
-  public:
-    pixel_marks() = default;
-    pixel_marks(int width, int height, const shared_pool& memory)
-        : bytes_((width + 7) / 8, height, uninitialized{}, memory) {}
-
-    /// Clears a rectangle that starts and, unless at the image's edge, ends at a multiple of 8.
-    void clear(const rect& pixels) {
-        for (int y = pixels.y0; y < pixels.y1; ++y)
-            std::fill_n(&bytes_(pixels.x0 / 8, y), (pixels.width() + 7) / 8, std::uint8_t{0});
-    }
-    /// Sets the marks of some of up to eight pixels, bit by bit, that lie in one byte.
-    INSONIFY_INLINE void set(int x, int y, unsigned which, unsigned marks) {
-        std::uint8_t& byte = bytes_(x / 8, y);
-        byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
-    }
-    /// Calls visit(x) for each marked pixel of a row, from x0 to x1, which are multiples of 8 or the row's end.
-    template <class Visit>
-    void for_each(int x0, int x1, int y, const Visit& visit) const {
-        for (int x = x0; x < x1; x += 8)
-            for (unsigned left = bytes_(x / 8, y); left != 0; left &= left - 1) visit(x + std::countr_zero(left));
-    }
-
-  private:
-    image<std::uint8_t> bytes_;
-};
-
-/// What shading leaves to the shadow pass.
-///
-/// A pixel whose triangle is known to be lit gets all its light at once, any other its sky and ambient light.
-struct undecided_light {
-    pixel_marks marks;      ///< pixels whose light is undecided
-    image<float> direct;    ///< of those, the light of the source
-    bool has_dark = false;  ///< also where there is none, for the sake of labels
 };
 
 /// The images that shading writes; null pointers are optional.
