@@ -25,7 +25,6 @@ struct point_batch {
     uninitialized_vector<std::uint32_t> mesh, triangle;
     uninitialized_vector<std::uint32_t> pixel;  ///< of the picture
 
-    explicit point_batch(const shared_pool& memory = {}) : point_batch(0, memory) {}
     explicit point_batch(std::size_t count, const shared_pool& memory = {})
         : x(count, memory),
           y(count, memory),
@@ -34,60 +33,47 @@ struct point_batch {
           triangle(count, memory),
           pixel(count, memory) {}
 
-    void resize(std::size_t count) {
-        for (auto* reals : {&x, &y, &z}) reals->resize(count);
-        for (auto* numbers : {&mesh, &triangle, &pixel}) numbers->resize(count);
-    }
-    void set(std::size_t i, const point_batch& from, std::size_t k) {
-        x[i] = from.x[k];
-        y[i] = from.y[k];
-        z[i] = from.z[k];
-        mesh[i] = from.mesh[k];
-        triangle[i] = from.triangle[k];
-        pixel[i] = from.pixel[k];
-    }
-    shadow::points all() const { return part(0, x.size()); }
     shadow::points part(std::size_t first, std::size_t n) const {
         const auto some = [&](const auto& array) { return std::span(array).subspan(first, n); };
         return {some(x), some(y), some(z), some(mesh), some(triangle)};
     }
 };
 
-/// Points that are tested for shadows: those that face the light from the front of the room, those that face away from
-/// the back.
+/// Points that are tested for shadows, in a part of a batch: those that face the light from its front, those that face
+/// away from its back.
 class point_list {
   public:
     std::size_t facing = 0, averted = 0;
 
-    /// @param room  of as many points as may come
-    explicit point_list(point_batch& room) : room_(room) {}
+    /// @param room         of as many points as may come
+    /// @param first, last  the part of it
+    point_list(point_batch& room, std::size_t first, std::size_t last) : room_(&room), first_(first), last_(last) {}
 
     std::size_t size() const { return facing + averted; }
-    shadow::points facing_points() const { return room_.part(0, facing); }
-    shadow::points averted_points() const { return room_.part(room_.x.size() - averted, averted); }
+    shadow::points facing_points() const { return room_->part(first_, facing); }
+    shadow::points averted_points() const { return room_->part(last_ - averted, averted); }
     /// The pixel and the caster of a point; facing ones are counted first.
-    std::size_t pixel(std::size_t point) const { return room_.pixel[at(point)]; }
-    std::uint32_t caster(std::size_t point) const { return room_.mesh[at(point)]; }
+    std::size_t pixel(std::size_t point) const { return room_->pixel[at(point)]; }
+    std::uint32_t caster(std::size_t point) const { return room_->mesh[at(point)]; }
 
     INSONIFY_INLINE void add(bool is_facing, double x, double y, double z, std::uint32_t mesh, std::uint32_t triangle,
                              std::uint32_t pixel) {
-        const std::size_t to = is_facing ? facing++ : room_.x.size() - ++averted;
-        room_.x[to] = x;
-        room_.y[to] = y;
-        room_.z[to] = z;
-        room_.mesh[to] = mesh;
-        room_.triangle[to] = triangle;
-        room_.pixel[to] = pixel;
+        const std::size_t to = is_facing ? first_ + facing++ : last_ - ++averted;
+        room_->x[to] = x;
+        room_->y[to] = y;
+        room_->z[to] = z;
+        room_->mesh[to] = mesh;
+        room_->triangle[to] = triangle;
+        room_->pixel[to] = pixel;
     }
-    /// Puts a point into a batch, as number i.
-    void copy(std::size_t point, point_batch& into, std::size_t i) const { into.set(i, room_, at(point)); }
 
   private:
     std::size_t at(std::size_t point) const {
-        return point < facing ? point : room_.x.size() - averted + (point - facing);
+        return point < facing ? first_ + point : last_ - averted + (point - facing);
     }
 
-    point_batch& room_;
+    point_batch* room_;
+    std::size_t first_, last_;
 };
 
 /// An object, the camera and the light from the object's own frame.

@@ -29,8 +29,8 @@ class shadow_pass {
   public:
     struct images {
         const image<std::uint32_t>& ids;  ///< the visibility buffer of the surfaces, where light is undecided
-        const undecided_light& undecided;
-        image<float>& picture;  ///< gains the light that arrives
+        undecided_light& undecided;       ///< loses the marks of what screening decides
+        image<float>& picture;            ///< gains the light that arrives
         Labels& marks;
     };
 
@@ -43,6 +43,7 @@ class shadow_pass {
           targets_(static_cast<std::uint32_t>(targets)),
           tiles_(of.picture.width(), of.picture.height(), std::countr_zero(static_cast<unsigned>(tile))),
           tile_pixels_(static_cast<std::size_t>(tile) * static_cast<std::size_t>(tile)),
+          run_((std::min)(tiles_.run(), most_points / tile_pixels_)),
           level_(level) {
         for (const surface& s : surfaces) finders_.emplace_back(view, s);
     }
@@ -52,17 +53,12 @@ class shadow_pass {
     template <class Occlusion, executor E>
     void cast(const Occlusion& occlusion, E& ex) {
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
-        const std::size_t count = tiles_.count(), run = (std::min)(tiles_.run(), most_points / tile_pixels_),
-                          runs = (count + run - 1) / run;
-        std::vector<point_batch> left;  // by screening
-        if constexpr (is_collective)
-            for (std::size_t i = 0; i < 2 * runs; ++i) left.emplace_back(memory_of(ex));
-        bulk_ranges(ex, count, run, [&](std::size_t first, std::size_t last) {
+        bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             scratch room(surfaces_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
-                const rect box = tiles_.pixels(i, images_.picture.width(), images_.picture.height());
-                point_list points(room.points);
-                find_points(box, room, points);
+                const rect box = box_of(i);
+                point_list points(room.points, 0, tile_pixels_);
+                find_points(box, room.shown, points);
                 const shadow::shares shares = room.light.part(0, points.size());
                 for_each_batch(points, shares, targets_, [&](const shadow::points& p, const shadow::shares& s) {
                     if constexpr (is_collective)
@@ -70,82 +66,89 @@ class shadow_pass {
                     else
                         occlusion.test(p, s);
                 });
-                if constexpr (is_collective) keep_unknown(points, shares, &left[first / run * 2]);
                 finish(points, shares);
+                if constexpr (is_collective) mark_unknown(box, points, shares);
             }
         });
-        if constexpr (is_collective) test_together(occlusion, left, ex);
+        if constexpr (is_collective) test_together(occlusion, ex);
     }
 
   private:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
     static constexpr std::size_t most_points = 65536;  // of a batch
 
+    using shown_by_surface = std::vector<std::vector<shown_pixel>>;
     /// Memory that the tiles of a run share.
     struct scratch {
         point_batch points;
         light_arrays light;
-        std::vector<std::vector<shown_pixel>> shown;  ///< by surface
+        shown_by_surface shown;
 
         scratch(std::size_t surfaces, std::size_t pixels) : points(pixels), light(pixels), shown(surfaces) {}
     };
 
+    rect box_of(std::size_t tile) const {
+        return tiles_.pixels(tile, images_.picture.width(), images_.picture.height());
+    }
     /// The points of a tile whose light is undecided.
-    void find_points(const rect& box, scratch& room, point_list& into) {
+    void find_points(const rect& box, shown_by_surface& shown, point_list& into) {
         const surface* last = surfaces_.data();
         for (int y = box.y0; y < box.y1; ++y)
             images_.undecided.marks.for_each(box.x0, box.x1, y, [&](int x) {
                 const std::uint32_t id = images_.ids(x, y);
                 if (id - last->first_id >= last->mesh.triangles.size()) last = &surface_of(surfaces_, id);
-                room.shown[static_cast<std::size_t>(last - surfaces_.data())].push_back(
+                shown[static_cast<std::size_t>(last - surfaces_.data())].push_back(
                     {static_cast<std::uint16_t>(x - box.x0), static_cast<std::uint16_t>(y - box.y0),
                      id - last->first_id});
             });
         for (std::size_t i = 0; i < finders_.size(); ++i) {
-            if (room.shown[i].empty()) continue;
-            dispatch(point_kernel{finders_[i], room.shown[i], view_.has_near_light(), labelled, box,
+            if (shown[i].empty()) continue;
+            dispatch(point_kernel{finders_[i], shown[i], view_.has_near_light(), labelled, box,
                                   static_cast<std::uint32_t>(images_.picture.width()), into},
                      level_);
-            room.shown[i].clear();
+            shown[i].clear();
         }
     }
 
-    /// Keeps the points that screening leaves.
-    /// @param into  those that face the light, and the others
-    static void keep_unknown(const point_list& points, const shadow::shares& light, point_batch* into) {
-        const std::span<const float> lit = light.lit;
-        const auto keep = [&](std::size_t first, std::size_t last, point_batch& batch) {
-            std::size_t to = batch.x.size();
-            const auto unknown = std::count(lit.data() + first, lit.data() + last, shadow::unknown);
-            batch.resize(to + static_cast<std::size_t>(unknown));
-            for (std::size_t i = first; i < last; ++i)
-                if (lit[i] == shadow::unknown) points.copy(i, batch, to++);
-        };
-        keep(0, points.facing, into[0]);
-        keep(points.facing, points.size(), into[1]);
+    /// Leaves marks on the pixels of a tile that screening does not decide.
+    void mark_unknown(const rect& box, const point_list& points, const shadow::shares& light) {
+        const auto width = static_cast<std::size_t>(images_.picture.width());
+        pixel_marks& marks = images_.undecided.marks;
+        marks.clear(box);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (light.lit[i] != shadow::unknown) continue;
+            const std::size_t pixel = points.pixel(i);
+            marks.set(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
+        }
     }
 
-    /// @param left  of each run, those that face the light and the others
+    /// Tests the points of all pixels that are still marked. They are found anew: few are left, and keeping them would
+    /// take room for all.
     template <class Occlusion, executor E>
-    void test_together(const Occlusion& occlusion, std::span<const point_batch> left, E& ex) {
-        std::vector<shadow::points> at;
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < left.size(); ++i) {
-            at.push_back(batch(left[i].all(), i % 2 == 0, targets_));
-            count += at.back().size();
+    void test_together(const Occlusion& occlusion, E& ex) {
+        std::vector<std::size_t> starts{0};  // of the points of each run of tiles
+        for (std::size_t i = 0; i < tiles_.count(); ++i) {
+            if (i % run_ == 0) starts.push_back(starts.back());
+            starts.back() += images_.undecided.marks.count(box_of(i));
         }
-        light_arrays light(count, memory_of(ex));
-        std::vector<shadow::shares> into;
-        count = 0;
-        for (const shadow::points& p : at) {
-            into.push_back(light.part(count, p.size()));
-            count += p.size();
-        }
-        occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), ex);
-        ex.bulk(left.size(), [&](std::size_t i) {
-            for (std::size_t k = 0; k < into[i].size(); ++k)
-                finish(left[i].pixel[k], i % 2 == 0, left[i].mesh[k], into[i].lit[k], into[i].caster[k]);
+        point_batch all(starts.back(), memory_of(ex));
+        light_arrays light(starts.back(), memory_of(ex));
+        std::vector<point_list> lists;
+        for (std::size_t i = 0; i + 1 < starts.size(); ++i) lists.emplace_back(all, starts[i], starts[i + 1]);
+        bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
+            shown_by_surface shown(surfaces_.size());
+            for (std::size_t i = first; i < last; ++i) find_points(box_of(i), shown, lists[first / run_]);
         });
+        const auto part = [&](std::size_t i) { return light.part(starts[i], lists[i].size()); };
+        std::vector<shadow::points> at;
+        std::vector<shadow::shares> into;
+        for (std::size_t i = 0; i < lists.size(); ++i)
+            for_each_batch(lists[i], part(i), targets_, [&](const shadow::points& p, const shadow::shares& s) {
+                at.push_back(p);
+                into.push_back(s);
+            });
+        occlusion.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(into), ex);
+        ex.bulk(lists.size(), [&](std::size_t i) { finish(lists[i], part(i)); });
     }
 
     void finish(const point_list& points, const shadow::shares& light) {
@@ -175,6 +178,7 @@ class shadow_pass {
     std::uint32_t targets_;
     tile_grid tiles_;
     std::size_t tile_pixels_;
+    std::size_t run_;  ///< tiles of a batch
     isa level_;
 };
 
