@@ -74,15 +74,17 @@ std::vector<in::ping> tow_of(const in::side_scan& rig) {
 in::image<float> line_of(const in::scene& scene, in::side_scan rig, in::side side) {
     rig.side = side;
     const in::facet_backscatter law{.facets = 0.3f, .slope = 0.2f, .volume = 0.5f};
+    // Gains level what the vertical beam takes out to 45 degrees; below the sonar the beam is weak, and the echo with
+    // it.
     const in::sonar_equation equation{in::pulse{2 * sonar.range_resolution}, in::horizontal_beam{sonar.beam},
-                                      in::level_gain{}};
+                                      in::vertical_beam{.width = sonar.vertical_beam}, in::level_gain{}};
     auto heard = in::record(scene, tow_of(rig), rig, in::record_options<>{}.with(law).with(equation));
     heard = in::with_tone(
         std::move(heard), rig,
         {.drift = 2.6f, .drift_length = 9, .streaks = 0.6f, .streak_width = 1.2f, .streak_length = 25, .seed = 2});
     heard.image =
         std::move(heard.image) |
-        in::range_gain_error{.rms = 0.6f, .length = 250, .slope = -11, .seed = side == in::side::port ? 3u : 4u} |
+        in::range_gain_error{.rms = 0.6f, .length = 250, .slope = -8, .seed = side == in::side::port ? 3u : 4u} |
         in::water_column{.bin = static_cast<float>(rig.bin()), .noise = 4e-4f, .noise_range = 30, .volume = 1e-4f};
     heard = in::with_speckle(std::move(heard),
                              in::seabed_speckle{.elsewhere = {.looks = 1}, .along_track = 0.6f, .seed = 6});
