@@ -96,7 +96,6 @@
 #include <insonify/raster/framebuffer.hpp>
 #include <insonify/raster/interpolatable.hpp>
 #include <insonify/raster/shader.hpp>
-#include <insonify/seabed/adaptive.hpp>
 #include <insonify/seabed/area.hpp>
 #include <insonify/seabed/bathymetry.hpp>
 #include <insonify/seabed/blend.hpp>
@@ -116,6 +115,7 @@
 #include <insonify/sonar/bottom_tone.hpp>
 #include <insonify/sonar/instruments.hpp>
 #include <insonify/sonar/occlusion.hpp>
+#include <insonify/sonar/options.hpp>
 #include <insonify/sonar/overhead/render.hpp>
 #include <insonify/sonar/side_scan/ping_gain.hpp>
 #include <insonify/sonar/side_scan/range_geometry.hpp>

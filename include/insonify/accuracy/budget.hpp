@@ -38,7 +38,6 @@ struct settings {
     Shadow shadow{};  ///< with its texels per pixel, if it is a map
     double cell = 0;  ///< as in render_options
     int subpixel_bits = render_options<Shadow>{}.subpixel_bits;
-    float edge_error = 0;       ///< as in render_options
     double side_error = 1;      ///< tolerance: pixels by which facets of a curved target may displace its outline
     double shadow_error = 0.5;  ///< tolerance: pixels by which they may displace the edge of its shadow
     errors expected{};          ///< as measured by settings_for
@@ -47,7 +46,7 @@ struct settings {
     /// The settings as options of `render`; `settings.options<no_labels>()` without labels.
     template <class Labels = labels, backscatter_law Law = lambert>
     INSONIFY_MEMBER render_options<Shadow, Labels, Law> options() const {
-        return {.shadow = shadow, .cell = cell, .edge_error = edge_error, .subpixel_bits = subpixel_bits};
+        return {.shadow = shadow, .cell = cell, .subpixel_bits = subpixel_bits};
     }
 
     /// Tolerance for the distance between the facets of a target and its surface, metres, from side_error and

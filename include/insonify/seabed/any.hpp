@@ -138,9 +138,6 @@ class any {
     }
     INSONIFY_MEMBER float sink_depth() const { return held_ != nullptr ? held_->sink_depth() : 0; }
 
-    INSONIFY_MEMBER float operator()(double x, double y) const { return at(prepare(), x, y).height; }
-    INSONIFY_MEMBER type type_at(double x, double y) const { return at(prepare(), x, y).kind; }
-
   private:
     std::shared_ptr<const detail::model_interface> held_;
 };

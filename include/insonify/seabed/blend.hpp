@@ -34,8 +34,6 @@ struct blend {
         extend(all, second.legend());
         return all;
     }
-    INSONIFY_TAGGED float operator()(double x, double y) const;
-    INSONIFY_TAGGED type type_at(double x, double y) const;
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -76,12 +74,6 @@ class blend_sampler {
 
 inline blend_sampler blend::prepare() const {
     return blend_sampler(*this);
-}
-inline float blend::operator()(double x, double y) const {
-    return at(prepare(), x, y).height;
-}
-inline type blend::type_at(double x, double y) const {
-    return at(prepare(), x, y).kind;
 }
 
 }  // namespace seabed

@@ -29,8 +29,6 @@ struct detailed {
     /// By reference: the heightfield has to outlive the sampler.
     /// @throws invalid_input as `validate` of heightfields, and for parameters of the roughness out of their range
     INSONIFY_TAGGED detailed_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const;
-    INSONIFY_MEMBER type type_at(double x, double y) const { return field.type_at(x, y); }
     INSONIFY_MEMBER std::optional<type> only_type() const { return field.only_type(); }
     INSONIFY_MEMBER std::vector<type_properties> legend() const { return field.legend(); }
 };
@@ -92,9 +90,6 @@ class detailed_sampler {
 
 inline detailed_sampler detailed::prepare() const {
     return detailed_sampler(*this);
-}
-inline float detailed::operator()(double x, double y) const {
-    return at(prepare(), x, y).height;
 }
 
 }  // namespace seabed

@@ -22,7 +22,6 @@ struct flat {
 
     /// @throws invalid_input for parameters out of the ranges of `roughness`
     INSONIFY_TAGGED_ONCE any_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     INSONIFY_MEMBER float sink_depth() const { return 2 * surface.rms; }
 };
 

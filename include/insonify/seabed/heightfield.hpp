@@ -89,8 +89,6 @@ struct heightfield {
                      detail::grid_coordinate((y - origin.y) / spacing + 0.5, types.height()).cell);
     }
 
-    INSONIFY_MEMBER float operator()(double x, double y) const { return height_at(x, y); }
-
     /// The sampler refers to the heightfield, which has to outlive it.
     /// @throws invalid_input as `validate`
     INSONIFY_TAGGED heightfield_sampler prepare() const;

@@ -41,8 +41,6 @@ struct mixed {
         for (const layer& l : layers) extend(all, l.bottom.legend());
         return all;
     }
-    INSONIFY_TAGGED float operator()(double x, double y) const;
-    INSONIFY_TAGGED type type_at(double x, double y) const;
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -93,12 +91,6 @@ class mixed_sampler {
 
 inline mixed_sampler mixed::prepare() const {
     return mixed_sampler(*this);
-}
-inline float mixed::operator()(double x, double y) const {
-    return at(prepare(), x, y).height;
-}
-inline type mixed::type_at(double x, double y) const {
-    return at(prepare(), x, y).kind;
 }
 
 }  // namespace seabed

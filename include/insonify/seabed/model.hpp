@@ -246,20 +246,13 @@ struct ground {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Height and type at one position.
-template <typed_sampler S>
-ground at(const S& prepared, double x, double y) {
+/// Height and label at one position. For many positions prepare the model once, and pass the sampler.
+/// @throws invalid_input for parameters of the model out of their range
+template <model M>
+ground at(const M& m, double x, double y) {
     ground result{};
-    prepared.row({.y = y, .origin = x}, {&result.height, 1}, {&result.kind, 1});
+    seabed::prepare(m).row({.y = y, .origin = x}, {&result.height, 1}, {&result.kind, 1});
     return result;
-}
-
-/// Height at one point, for the call operators of models.
-template <sampler S>
-float height_at(const S& prepared, double x, double y) {
-    float height = 0;
-    prepared.row({.y = y, .origin = x}, {&height, 1});
-    return height;
 }
 
 }  // namespace INSONIFY_FLAGS

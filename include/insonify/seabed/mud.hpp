@@ -31,7 +31,6 @@ struct mud {
 
     /// @throws invalid_input for parameters out of their range
     INSONIFY_TAGGED_ONCE any_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     INSONIFY_MEMBER float sink_depth() const {
         return (std::max)((std::max)(mound_height, pock_depth), 2 * surface.rms);
     }

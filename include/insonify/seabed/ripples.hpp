@@ -31,7 +31,6 @@ struct ripples {
 
     /// @throws invalid_input for parameters out of their range
     INSONIFY_TAGGED_ONCE any_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
 
     INSONIFY_MEMBER ripple_system first() const {
         return {wavelength, steepness, direction, spread, bandwidth, sharpness};

@@ -33,7 +33,6 @@ struct rock {
 
     /// @throws invalid_input for parameters out of their range
     INSONIFY_TAGGED_ONCE any_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     INSONIFY_MEMBER float sink_depth() const { return 0.5f * relief + 2 * surface.rms; }
 };
 

@@ -29,8 +29,6 @@ struct sculpted {
     INSONIFY_TAGGED sculpt_sampler prepare() const;
     INSONIFY_MEMBER std::optional<type> only_type() const { return ground.only_type(); }
     INSONIFY_MEMBER std::vector<type_properties> legend() const { return ground.legend(); }
-    INSONIFY_TAGGED float operator()(double x, double y) const;
-    INSONIFY_TAGGED type type_at(double x, double y) const;
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -103,12 +101,6 @@ class sculpt_sampler {
 
 inline sculpt_sampler sculpted::prepare() const {
     return sculpt_sampler(*this);
-}
-inline float sculpted::operator()(double x, double y) const {
-    return at(prepare(), x, y).height;
-}
-inline type sculpted::type_at(double x, double y) const {
-    return at(prepare(), x, y).kind;
 }
 
 }  // namespace seabed

@@ -1,17 +1,12 @@
 // Speckle by seabed label.
 //
 // The fluctuation of a bin is a function of (seed, side, ping number, bin) alone: recordings made in pieces fit
-// together, and the two sides are independent.
-//
-// Based on: E. Jakeman, P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation
-// 24, 1976 (the K-distribution). George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM
-// Transactions on Mathematical Software 26, 2000.
+// together, and the two sides are independent. The laws are those of the speckle filters (filter/echo_noise.hpp), for
+// recordings without a largest value.
 #pragma once
 
-#include <insonify/core/detail/correlation.hpp>
-#include <insonify/core/detail/gamma.hpp>
 #include <insonify/core/executor.hpp>
-#include <insonify/sonar/side_scan/detail/speckle_draws.hpp>
+#include <insonify/sonar/detail/speckle_field.hpp>
 #include <insonify/sonar/side_scan/swath.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -54,107 +49,26 @@ struct seabed_speckle {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Random streams; changing one changes the noise of every seed.
-enum class speckle_stream : std::uint32_t { field = 0x73706B00, texture = 0x73706B02, choice = 0x73706B04 };
-
-/// Random numbers keyed by ping and bin.
-class ping_noise {
-  public:
-    ping_noise(std::uint64_t seed, side s, speckle_stream stream)
-        : key_(stream_key(seed, static_cast<std::uint32_t>(stream) + static_cast<std::uint32_t>(s))) {}
-
-    philox_counter operator()(std::int64_t ping, std::uint32_t bin, std::uint32_t draw) const {
-        return philox4x32(counter(ping, bin, draw), key_);
-    }
-
-    static philox_counter counter(std::int64_t ping, std::uint32_t bin, std::uint32_t draw) {
-        const auto number = static_cast<std::uint64_t>(ping);
-        return {bin, static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32), draw};
-    }
-    const philox_key& key() const { return key_; }
-
-  private:
-    philox_key key_;
-};
-
-/// A correlated complex Gaussian field of unit power, by rows, with real and imaginary parts interleaved.
-class speckle_field {
-  public:
-    speckle_field(const ping_noise& noise, const seabed_speckle& s, int bins)
-        : noise_(noise),
-          bins_(static_cast<std::size_t>(bins)),
-          across_(intensity_taps(static_cast<double>(s.across_track))),
-          along_(intensity_taps(static_cast<double>(s.along_track))) {}
-
-    /// The field of one look for consecutive pings, from number `first` on.
-    image<float> pings(std::int64_t first, int count, std::uint32_t look) const {
-        const int reach = static_cast<int>(along_.size()) - 1;
-        image<float> blurred(static_cast<int>(2 * bins_), count + 2 * reach);
-        for (int i = 0; i < blurred.height(); ++i) row(first - reach + i, look, blurred.row(i));
-        if (reach == 0) return blurred;
-        image<float> field(static_cast<int>(2 * bins_), count);
-        for (int i = 0; i < count; ++i) {
-            const auto to = field.row(i);
-            for (int j = -reach; j <= reach; ++j) {
-                const float tap = along_[static_cast<std::size_t>(numeric::abs(j))];
-                const float* const from = blurred.row(i + reach + j).data();
-                for (std::size_t x = 0; x < to.size(); ++x) to[x] += tap * from[x];
-            }
-        }
-        return field;
-    }
-
-  private:
-    /// One ping, correlated across the track.
-    void row(std::int64_t ping, std::uint32_t look, std::span<float> out) const {
-        const std::size_t reach = across_.size() - 1, margin = reach + (reach & 1);
-        const std::size_t blocks = (bins_ + 2 * margin + 1) / 2;
-        std::vector<float> white(4 * (blocks + speckle_draw_kernel::most_lanes));
-        const std::uint32_t first = 0u - static_cast<std::uint32_t>(margin);
-        dispatch(speckle_draw_kernel{noise_.key(), ping_noise::counter(ping, first, look), white.data(), blocks},
-                 best_isa());
-        for (std::size_t x = 0; x < out.size(); ++x) {
-            const float* const at = &white[x + 2 * margin];
-            float sum = across_[0] * *at;
-            for (std::size_t j = 1; j <= reach; ++j) sum += across_[j] * (*(at - 2 * j) + at[2 * j]);
-            out[x] = sum;
-        }
-    }
-
-    ping_noise noise_;
-    std::size_t bins_;
-    std::vector<float> across_, along_;
-};
-
-/// The texture of the K-distribution: gamma-distributed at the nodes of a lattice. A bin takes the value of one of the
-/// four nodes around it, chosen at random with bilinear weights, so that textures are correlated and keep their
-/// distribution.
-class speckle_texture {
-  public:
-    speckle_texture(const seabed_speckle& s, side looks)
-        : nodes_(s.seed, looks, speckle_stream::texture),
-          lots_(s.seed, looks, speckle_stream::choice),
-          frequency_(1 / static_cast<double>(s.texture_length)) {}
-
-    float operator()(std::int64_t ping, std::uint32_t bin, float shape) const {
-        const philox_counter lot = lots_(ping, bin, 0);
-        // Rounding a coordinate plus a uniform number chooses either neighbour with its linear weight.
-        const std::int64_t row = numeric::floor_to_int(static_cast<double>(ping) * frequency_ + uniform_open(lot[0]));
-        const auto column = static_cast<std::uint32_t>(numeric::floor_to_int(bin * frequency_ + uniform_open(lot[1])));
-        return static_cast<float>(gamma_of_mean_one(static_cast<double>(shape),
-                                                    [&](std::uint32_t trial) { return nodes_(row, column, trial); }));
-    }
-
-  private:
-    ping_noise nodes_, lots_;
-    double frequency_;
-};
-
 inline void validate(const speckle_law& law) {
     require(law.looks >= 1 && law.looks <= 64, "speckle_law.looks", law.looks, "1 to 64");
     require(law.texture == 0 || (law.texture >= 0.01f && numeric::is_finite(law.texture)), "speckle_law.texture",
             law.texture, "0, or at least 0.01");
     require(law.steady >= 0 && numeric::is_finite(law.steady), "speckle_law.steady", law.steady, "0 or more");
+}
+
+/// The law of each label.
+/// @throws invalid_input for a parameter out of its range
+inline speckle_laws resolved_laws(const seabed_speckle& s) {
+    require(s.along_track >= 0 && s.along_track <= 16, "seabed_speckle.along_track", s.along_track, "0 to 16");
+    require(s.across_track >= 0 && s.across_track <= 16, "seabed_speckle.across_track", s.across_track, "0 to 16");
+    require(s.texture_length >= 1 && s.texture_length <= 1024, "seabed_speckle.texture_length", s.texture_length,
+            "1 to 1024");
+    speckle_laws laws = s.bottom;
+    for (speckle_law& law : laws)
+        if (law.looks == looks_by_seabed_model) law = s.elsewhere;
+    laws[labels::no_seabed] = s.elsewhere;
+    for (const speckle_law& law : laws) validate(law);
+    return laws;
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -173,24 +87,14 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     using detail::require;
     require(types.width() == mean.width(), "types.width()", types.width(), "that of the intensities");
     require(types.height() == mean.height(), "types.height()", types.height(), "that of the intensities");
-    require(s.along_track >= 0 && s.along_track <= 16, "seabed_speckle.along_track", s.along_track, "0 to 16");
-    require(s.across_track >= 0 && s.across_track <= 16, "seabed_speckle.across_track", s.across_track, "0 to 16");
-    require(s.texture_length >= 1 && s.texture_length <= 1024, "seabed_speckle.texture_length", s.texture_length,
-            "1 to 1024");
     require(numbers.step == 1 || numbers.step == -1, "ping_numbers.step", numbers.step, "1 or -1");
-    detail::validate(s.elsewhere);
-    std::vector<speckle_law> laws(s.bottom.begin(), s.bottom.end());
-    for (speckle_law& law : laws)
-        if (law.looks == looks_by_seabed_model) law = s.elsewhere;
-    laws[labels::no_seabed] = s.elsewhere;
-    for (const speckle_law& law : laws) detail::validate(law);
-
+    const speckle_laws laws = detail::resolved_laws(s);
     // All looks are computed for all bins; types use as many as they have.
     int looks = 1;
     for (const speckle_law& law : laws) looks = (std::max)(looks, law.looks);
 
-    const detail::speckle_field field({s.seed, numbers.side, detail::speckle_stream::field}, s, mean.width());
-    const detail::speckle_texture texture(s, numbers.side);
+    const detail::speckle_field field(s.seed, numbers.side, s.along_track, s.across_track, mean.width());
+    const detail::speckle_texture texture(s.seed, numbers.side, s.texture_length);
     image<float> out(mean.width(), mean.height());
     constexpr std::size_t grain = 32;
     bulk_ranges(ex, static_cast<std::size_t>(mean.height()), grain, [&](std::size_t from, std::size_t to) {
@@ -205,9 +109,7 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
                 for (std::size_t x = 0; x < row.size(); ++x) {
                     const speckle_law& law = laws[types.row(first + i)[x]];
                     if (look >= law.looks) continue;
-                    const float steady = numeric::square_root(law.steady);
-                    const float re = g[2 * x] + steady, im = g[2 * x + 1];
-                    row[x] += (re * re + im * im) / ((1 + law.steady) * static_cast<float>(law.looks));
+                    row[x] += detail::look_intensity(g[2 * x], g[2 * x + 1], law.steady, law.looks);
                 }
             }
         }

@@ -216,33 +216,6 @@ void measure_targets(const options& o, report::contents& into) {
         [&](std::size_t, const in::frame<>& f) { return both(f); });
 }
 
-void measure_mesh(const options& o, report::contents& into) {
-    const in::overhead rig = rig_of(o);
-    for (const auto& [name, bottom] : seabeds) {
-        in::scene scene;
-        scene.seabed = bottom;
-        in::render_options<> every{.cell = in::overhead_geometry(rig).ground_sampling()};
-        const auto truth = in::render(scene, rig, every);
-        const std::vector<float> errors{0, 0.05f, 0.25f, 1, 4};
-        std::vector<std::string> names;
-        for (const float e : errors)
-            names.push_back(name + ", " +
-                            (e == 0 ? "every cell" : "off by up to " + svg::number(static_cast<double>(e), 2) + " px"));
-        cost::measure_knob(
-            o.runs, into, {.name = "seabed mesh", .oracle = "every cell"}, names,
-            [&](std::size_t i) {
-                auto how = every;
-                how.edge_error = errors[i];
-                how.slope_error = 0.1f;
-                return in::render(scene, rig, how);
-            },
-            [&](std::size_t, const in::frame<>& f) {
-                return std::to_string(f.stats.seabed.triangles) + " triangles, shadows " +
-                       off_by(dark_of(f.labels), dark_of(truth.labels));
-            });
-    }
-}
-
 /// How far up the light the seabed is looked for what casts.
 void measure_reach(const options& o, report::contents& into) {
     in::overhead rig = rig_of(o);
@@ -379,7 +352,6 @@ int main(int argc, char** argv) try {
     list_cells(found);
     measure_meshes(o.pixels, o.runs, found);
     measure_targets(o, found);
-    measure_mesh(o, found);
     measure_reach(o, found);
     measure_geometry(o, found);
     measure_filters(o, found);

@@ -236,9 +236,6 @@ inline std::string page(const contents& c) {
     for (const mesh_way& w : c.mesh_ways) text += row_of(w);
     text +=
         "\n## One knob at a time\n\n"
-        "The seabed's mesh with fewer triangles takes longer to find than it saves in one frame: it is for meshes that "
-        "are\n"
-        "kept, and for memory.\n\n"
         "| knob | setting | ms | MiB | error | against |\n|---|---|---:|---:|---|---|\n";
     for (const knob& k : c.knobs)
         text += "| " + k.name + " | " + k.setting + " | " + svg::number(k.ms, k.ms < 10 ? 2 : 1) + " | " +

@@ -54,7 +54,7 @@ floats by_poisson(int count, float photons, in::isa level) {
         mean.push_back(static_cast<double>(photons) * (i * 37 % 101) / 100);
         add_if(true, i, list.places, list.count);
     }
-    dispatch(rejection_kernel<poisson_counts>{{}, mean.data(), drawn.data(), &list, {11, 13, count, 0, 1}, key}, level);
+    dispatch(rejection_kernel<poisson_counts>{{}, mean.data(), drawn.data(), &list, {11, 13, count, 0}, key}, level);
     floats to;
     for (const double d : drawn) to.push_back(static_cast<float>(d));
     return to;
@@ -64,7 +64,7 @@ floats by_gamma(int count, double shape, in::isa level) {
     std::vector<double> shapes(static_cast<std::size_t>(count), shape), drawn(shapes.size());
     pixel_list list;
     for (int i = 0; i < count; ++i) add_if(true, i, list.places, list.count);
-    dispatch(rejection_kernel<gamma_rejection>{{}, shapes.data(), drawn.data(), &list, {1, 2, count, 0, 1}, key},
+    dispatch(rejection_kernel<gamma_rejection>{{}, shapes.data(), drawn.data(), &list, {1, 2, count, 0}, key},
              level);
     floats to;
     for (const double d : drawn) to.push_back(static_cast<float>(d));

@@ -136,10 +136,10 @@ TEST_CASE("Detail interpolates the survey's vertices smoothly and adds the given
     for (int j = 0; j < 40; ++j)
         for (int i = 0; i < 40; ++i) field.heights(i, j) = std::sin(0.5f * static_cast<float>(i));
     const sb::detailed even{.field = field, .surface = {.rms = 0}};
-    CHECK(even(100 + 2 * 7, 200 + 2 * 9) == field.heights(7, 9));
+    CHECK(sb::at(even, 100 + 2 * 7, 200 + 2 * 9).height == field.heights(7, 9));
     // Slopes on both sides of a vertex are the same, which facets' are not.
     const auto bend = [](const auto& f) {
-        const auto at = [&](double x) { return static_cast<double>(f(x, 231)); };
+        const auto at = [&](double x) { return static_cast<double>(sb::at(f, x, 231).height); };
         return std::abs(at(114.01) - 2 * at(114) + at(113.99)) / 0.01;
     };
     CHECK(bend(even) < 0.01);
@@ -158,7 +158,7 @@ TEST_CASE("Detail leaves holes where the survey has them, and no wider ones") {
     sb::heightfield field{.heights = in::image<float>(9, 9, 1.0f)};
     field.heights(4, 4) = std::numeric_limits<float>::quiet_NaN();
     const sb::detailed bed{.field = field, .surface = {.rms = 0}};
-    CHECK(missing(bed(4, 4)));
-    CHECK(bed(2.5, 4.2) == 1);
-    CHECK(bed(6, 4) == 1);
+    CHECK(missing(sb::at(bed, 4, 4).height));
+    CHECK(sb::at(bed, 2.5, 4.2).height == 1);
+    CHECK(sb::at(bed, 6, 4).height == 1);
 }

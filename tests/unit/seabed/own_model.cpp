@@ -155,12 +155,12 @@ TEST_CASE("A seabed of several own labels names each pixel") {
 
 TEST_CASE("Own seabeds are layered, sculpted, sampled and rested upon as the library's are") {
     const sb::mixed bed{.base = stripes{}, .layers = {{dunes{}, sb::disc{{0, 0}, 5}}}};
-    CHECK(bed.type_at(0, 0) == sb::own_type(3));
-    CHECK(bed.type_at(30.5, 0) == sb::own_type(0));
+    CHECK(sb::at(bed, 0, 0).kind == sb::own_type(3));
+    CHECK(sb::at(bed, 30.5, 0).kind == sb::own_type(0));
     CHECK(bed.legend().size() == 3);
     const sb::sculpted worked{.ground = dunes{}, .edits = {sb::flatten{.centre = {0, 0}, .radius = 2, .level = 1}}};
-    CHECK(worked(0, 0) == Approx(1));
-    CHECK(worked.type_at(0, 0) == sb::own_type(3));
+    CHECK(sb::at(worked, 0, 0).height == Approx(1));
+    CHECK(sb::at(worked, 0, 0).kind == sb::own_type(3));
     const auto field = sb::sample(dunes{}, {.width = 8, .height = 8});
     CHECK(field.fallback == sb::own_type(3));
     REQUIRE(field.own_types.size() == 1);

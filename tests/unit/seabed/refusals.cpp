@@ -1,7 +1,6 @@
 // Numbers that cannot be right, in every field of the seabeds, their areas and edits.
 #include "../../refusals.hpp"
 
-#include <insonify/seabed/adaptive.hpp>
 #include <insonify/seabed/blend.hpp>
 #include <insonify/seabed/detailed.hpp>
 #include <insonify/seabed/mixed.hpp>
@@ -118,7 +117,7 @@ TEST_CASE("Each field of an edit is refused by name") {
                     FIELD(tail, size)});
 }
 
-TEST_CASE("Each field of heightfields, grids and tolerances is refused by name") {
+TEST_CASE("Each field of heightfields and grids is refused by name") {
     const sb::heightfield field{.heights = in::image<float>(3, 3)};
     const auto used = [](const sb::heightfield& h) {
         prepared(h);
@@ -129,10 +128,6 @@ TEST_CASE("Each field of heightfields, grids and tolerances is refused by name")
         "heightfield.", field, used,
         {FIELD(origin.x, outside(-1e9, 1e9)), FIELD(origin.y, outside(-1e9, 1e9)), FIELD(spacing, outside(0, most))});
     CHECK_THAT(refusal([&] { used({.heights = in::image<float>(1, 3)}); }), ContainsSubstring("heights.width()"));
-    walk<sb::tolerance>(
-        "tolerance.", {}, [&](const sb::tolerance& allowed) { (void)sb::tessellate(field, allowed); },
-        {FIELD(height, {nan_value, -infinity, -1}), FIELD(slope, {nan_value, -infinity, -1}),
-         FIELD(lean, {nan_value, -infinity, -1}), FIELD(nadir.x, not_finite), FIELD(nadir.y, not_finite)});
     for (const double value : not_above_0)
         CHECK_THAT(refusal([&] { (void)sb::grid_over({0, 0}, {1, 1}, value); }), ContainsSubstring("spacing"));
     for (const double value : not_finite) CHECK(refusal([&] { (void)sb::grid_over({0, value}, {1, 1}, 0.5); }) != "");

@@ -87,30 +87,3 @@ TEST_CASE("A swath ten kilometres from the origin samples as much seabed as one 
     CHECK(away <= home * 5 / 4);
     CHECK(away >= home * 4 / 5);
 }
-
-TEST_CASE("A smooth seabed takes few triangles, within the tolerance in pixels") {
-    in::scene scene;
-    scene.seabed = in::seabed::mud{};
-    scene.add(in::cube{}, {.position = {0.5, -0.5, 0.5}}, "cube");
-    const in::overhead rig{.altitude = 3, .size = {256, 256}, .grazing = 30_deg};
-    const auto dark = [](const in::frame<>& f) {
-        return in::map_pixels(f.labels.shadow, [](std::uint16_t by) { return static_cast<std::uint8_t>(by != 0); });
-    };
-    const auto all = in::render(scene, rig);
-    std::uint64_t before = all.stats.seabed.triangles + 1;
-    for (const float error : {0.0f, 0.25f, 2.0f}) {
-        in::render_options<> options{};
-        options.edge_error = error;
-        options.slope_error = 0.1f;
-        const auto few = in::render(scene, rig, options);
-        CAPTURE(error);
-        CHECK(few.stats.seabed.triangles < before);
-        before = few.stats.seabed.triangles;
-        const auto off = in::accuracy::compare_masks(dark(few), dark(all));
-        CHECK(off.mean_boundary_displacement() <= static_cast<double>(error));
-    }
-    CHECK(before * 8 < all.stats.seabed.triangles);
-    in::render_options<> wrong{};
-    wrong.edge_error = -1;
-    CHECK_THROWS_AS(in::render(scene, rig, wrong), in::invalid_input);
-}

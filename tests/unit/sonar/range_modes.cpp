@@ -335,6 +335,26 @@ TEST_CASE("Overhead pictures and recordings have one result: legend, statistics 
     CHECK((drawn.rows.step == 1 && drawn.stats.cell > 0 && drawn.labels.legend[0].name == "mud"));
 }
 
+TEST_CASE("One piece of code draws by any rig: options start from the rig and share law, cell and labels") {
+    static_assert(in::sonar_options<in::render_options<>> && in::sonar_options<in::record_options<>>);
+    in::scene s;
+    s.seabed = in::seabed::mud{};
+    const auto draw = [&](const auto& rig) {
+        const auto defaults = in::options_for(rig);
+        CHECK(in::render(s, rig, defaults).image == in::render(s, rig).image);
+        auto coarse = defaults.with(in::lambert{}).without_labels();
+        coarse.cell = 0.5;
+        const in::frame<in::no_labels> drawn = in::render(s, rig, coarse);
+        CHECK(drawn.stats.cell == 0.5);
+        CHECK_FALSE(drawn.image == in::render(s, rig, defaults.with(in::lambert_backscatter{})).image);
+        coarse.cell = -1;
+        CHECK_THROWS_WITH(in::render(s, rig, coarse), ContainsSubstring("cell is -1, expected 0 metres or more"));
+    };
+    draw(in::overhead{.size = {32, 24}});
+    draw(in::side_scan{.pings = 3, .range = 20, .bins = 16});
+    draw(in::ground_range{.pings = 3, .range = 20, .bins = 16});
+}
+
 TEST_CASE("Attitudes out of range are refused by name") {
     const in::scene s;
     const auto with = [&](const in::ping& p) {

@@ -1,5 +1,5 @@
 // Filters that turn white Gaussian noise into noise with a Gaussian autocorrelation exp(-(d / length)^2), exact at
-// every whole distance d and for every length, and the field lengths that give echo intensities theirs.
+// every whole distance d and for every length.
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -51,30 +51,6 @@ inline std::vector<float> field_taps(double length) {
     std::vector<float> result;
     for (const double tap : taps) result.push_back(static_cast<float>(tap / numeric::square_root(sum)));
     return result;
-}
-
-/// Length of a field whose law makes intensities with a correlation of 1 / e at `length`.
-/// @param of_field  the intensities' correlation for a correlation of the field; rises from 0 at 0 to 1 at 1
-template <class Law>
-double field_length(double length, const Law& of_field) {
-    double low = 0, high = 1;
-    for (int i = 0; i < 50; ++i) {
-        const double middle = 0.5 * (low + high);
-        (of_field(middle) < 0.36787944117144233 ? low : high) = middle;
-    }
-    return length / numeric::square_root(-numeric::log(0.5 * (low + high)));
-}
-
-/// Correlation of Rician intensities |s + n|^2, n a complex normal field of unit power, for one of the field. Without a
-/// steady part, and for averages of looks, it is the field's square.
-/// @param steady  s^2
-inline auto rice_correlation(double steady) {
-    return [=](double field) { return field * (field + 2 * steady) / (1 + 2 * steady); };
-}
-
-/// Taps for fields of echoes without a steady part or texture, whose intensities have the given length.
-inline std::vector<float> intensity_taps(double length) {
-    return field_taps(field_length(length, rice_correlation(0)));
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS

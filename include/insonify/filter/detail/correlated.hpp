@@ -39,7 +39,7 @@ class correlated_draws {
         // The strip holds the rows up to y + reach, blurred along x, in a ring.
         const bool follows = s.filled && run.y > s.y && run.y - s.y < rows;
         for (int y = follows ? s.y + reach + 1 : run.y - reach; y <= run.y + reach; ++y)
-            blur_row(s.at(y), field, {run.x, y, run.count, run.channel, run.levels});
+            blur_row(s.at(y), field, {run.x, y, run.count, run.channel});
         s.y = run.y;
         s.filled = true;
         for (int j = -reach; j <= reach; ++j) {
@@ -85,8 +85,7 @@ class correlated_draws {
         std::vector<float> white;
         for (int x = run.x - reach; x < run.x + run.count + reach; x += run_length) {
             const int count = (std::min)(run_length, run.x + run.count + reach - x);
-            const float* const draws =
-                white_draws<normal_draws>(buffer, noise_, field, {x, run.y, count, run.channel, run.levels});
+            const float* const draws = white_draws<normal_draws>(buffer, noise_, field, {x, run.y, count, run.channel});
             white.insert(white.end(), draws, draws + count);
         }
         const float* const middle = white.data() + reach;

@@ -49,7 +49,6 @@ struct noise_run {
     int x, y;               // of the first pixel
     int count;              // 1 to run_length
     std::uint32_t channel;  // 0 to 2
-    int levels;             // the largest code of the pixel type, 1 for floats
 };
 
 constexpr float clip_to_unit(float value) {
@@ -99,16 +98,14 @@ class noise_pass {
     template <noise_pixel Pixel>
     void row(const Pixel* from, Pixel* to, int count, int x, int y) {
         if constexpr (std::same_as<Pixel, float>) {
-            law_.row(from, to, {x, y, count, 0, 1});
+            law_.row(from, to, {x, y, count, 0});
         } else if constexpr (pixel_code<Pixel>) {
-            channel(from, to, 1, {x, y, count, 0, (std::numeric_limits<Pixel>::max)()});
+            channel(from, to, 1, {x, y, count, 0});
         } else {
-            using value = decltype(Pixel::r);
-            constexpr int levels = std::same_as<value, float> ? 1 : (std::numeric_limits<value>::max)();
             if (from != to) std::copy_n(from, count, to);
-            channel(&to->r, &to->r, 3, {x, y, count, 0, levels});
-            channel(&to->g, &to->g, 3, {x, y, count, 1, levels});
-            channel(&to->b, &to->b, 3, {x, y, count, 2, levels});
+            channel(&to->r, &to->r, 3, {x, y, count, 0});
+            channel(&to->g, &to->g, 3, {x, y, count, 1});
+            channel(&to->b, &to->b, 3, {x, y, count, 2});
         }
     }
 

@@ -28,11 +28,6 @@ struct render_options {
     /// How far towards the light the seabed may cast from, at most, in lengths of the picture. Less is sampled if its
     /// heights throw no shadow that far; light below 1 degree over rock comes from farther.
     float reach = 8;
-    /// Tolerance for the seabed's mesh, in pixels: how far it may displace the seabed in the picture or, on level
-    /// ground, the edge of a shadow. 0 draws every cell. More draws fewer triangles on smooth seabeds, and takes time
-    /// to choose them.
-    float edge_error = 0;
-    float slope_error = 0.02f;  ///< tolerance for its slopes, metres per metre, if edge_error is not 0
     /// See draw_options. Whether a pixel faces the light follows from the triangle that it shows.
     int subpixel_bits = std::is_same_v<Shadow, shadow::none> ? 8 : 12;
     int tile = 64;  ///< see draw_options
@@ -57,7 +52,7 @@ struct render_options {
   private:
     template <class S, class L, class B, depth_precision D>
     INSONIFY_MEMBER render_options<S, L, B, D> retyped(const S& policy, const B& backscatter) const {
-        return {policy, backscatter, cell, reach, edge_error, slope_error, subpixel_bits, tile, level};
+        return {policy, backscatter, cell, reach, subpixel_bits, tile, level};
     }
 };
 
@@ -122,8 +117,6 @@ visibility visible_triangles(const scene& s, const overhead& rig,
     const render_options<shadow::none, labels, Law, Depth> seen{.law = options.law,
                                                                 .cell = options.cell,
                                                                 .reach = options.reach,
-                                                                .edge_error = options.edge_error,
-                                                                .slope_error = options.slope_error,
                                                                 .subpixel_bits = options.subpixel_bits,
                                                                 .tile = options.tile,
                                                                 .level = options.level};

@@ -3,9 +3,10 @@
 
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/raster/draw.hpp>
-#include <insonify/seabed/adaptive.hpp>
 #include <insonify/seabed/sample.hpp>
+#include <insonify/seabed/tessellate.hpp>
 #include <insonify/shadow/exact.hpp>
+#include <insonify/sonar/detail/checked_materials.hpp>
 #include <insonify/sonar/overhead/detail/seabed_reach.hpp>
 #include <insonify/sonar/overhead/detail/shadow_pass.hpp>
 #include <insonify/sonar/overhead/picture.hpp>
@@ -27,18 +28,11 @@ class overhead_painter {
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                      E& ex)
-        : scene_(s), view_(rig), options_(options), whole_bottom_(memory_of(ex)) {
-        validate(s);
+        : scene_(s), materials_(checked_materials(s, options)), view_(rig), options_(options), bottom_(memory_of(ex)) {
         out_.rows.step = 0;
-        materials_ = resolved_bottom(s);
-        require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         // The first draw clears it.
         out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
-        validate_if_possible(options.law);
-        require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "0 metres or more");
         require(options.reach >= 0 && numeric::is_finite(options.reach), "reach", options.reach, "0 or more");
-        require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
-        require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) out_.labels = labels(s, rig.size.x, rig.size.y, ex);
         for (const target& t : s.targets)
             targets_.push_back(
@@ -110,7 +104,7 @@ class overhead_painter {
         field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
         out_.stats.seabed_samples = field_.heights.size();
         out_.stats.cell = spacing;
-        model_seabed(ex);
+        seabed::detail::tessellate_into(bottom_, field_, ex, bottom_first_);
         for (const float height : field_.heights.pixels()) {
             if (!numeric::is_finite(height)) {
                 has_gaps_ = true;
@@ -129,35 +123,9 @@ class overhead_painter {
         const glm::ivec2 size(field_.heights.width(), field_.heights.height());
         const glm::ivec2 last = bottom_first_ + size;
         const int farthest = (std::max)((std::max)(-bottom_first_.x, last.x), (std::max)(-bottom_first_.y, last.y));
-        if (has_gaps_ || options_.edge_error > 0 || farthest >= 1 << 11) return;
+        if (has_gaps_ || farthest >= 1 << 11) return;
         bottom_grid_ = regular_grid{
             size.x, size.y, field_.spacing * glm::dvec2(bottom_first_), {field_.spacing, 0}, {0, field_.spacing}, true};
-    }
-
-    /// Sets the bottom's mesh and, if there are several types, that of each vertex.
-    template <executor E>
-    void model_seabed(E& ex) {
-        const auto every = field_.types.pixels();
-        if (options_.edge_error == 0) {
-            seabed::detail::tessellate_into(whole_bottom_, field_, ex, bottom_first_);
-            bottom_ = whole_bottom_;
-            bottom_types_.assign(every.begin(), every.end());
-            return;
-        }
-        // An error of height h displaces a shadow by h cot(elevation), in any view.
-        const double tolerance = static_cast<double>(options_.edge_error) * view_.ground_sampling();
-        const double cot = casts ? view_.light().cot_elevation() : 0;
-        auto [shape, vertices] = seabed::tessellate(field_,
-                                                    {.height = tolerance / cot,
-                                                     .slope = static_cast<double>(options_.slope_error),
-                                                     .lean = tolerance * static_cast<double>(view_.rig().altitude),
-                                                     .nadir = -field_.spacing * glm::dvec2(bottom_first_)},
-                                                    ex, bottom_first_);
-        sparse_bottom_ = std::move(shape);
-        bottom_ = sparse_bottom_;
-        if (every.empty()) return;
-        bottom_types_.resize(vertices.size());
-        std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
     }
 
     /// The multiples of the spacing over a part of the ground, counted from the rig's position: the position of a
@@ -227,7 +195,7 @@ class overhead_painter {
             add(bottom_in_rig_, static_cast<std::uint32_t>(targets_.size()), labels::no_instance,
                 static_cast<std::uint8_t>(field_.fallback), materials_[seabed::index_of(field_.fallback)]);
             if (!field_.types.empty()) {
-                surfaces_.back().types = bottom_types_.data();
+                surfaces_.back().types = field_.types.pixels().data();
                 surfaces_.back().materials = materials_.data();
             }
         }
@@ -309,12 +277,9 @@ class overhead_painter {
     undecided_light undecided_;
     frame<Labels> out_;
     seabed::heightfield field_;
-    uninitialized_mesh whole_bottom_;         ///< if every vertex is drawn
-    mesh sparse_bottom_;                      ///< otherwise
-    mesh_view bottom_;                        ///< one of the two
-    std::vector<seabed::type> bottom_types_;  ///< by vertex; empty if there is one type
-    glm::ivec2 bottom_first_{0, 0};           ///< lattice coordinates of the first vertex, from the rig's position
-    float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices and the datum
+    uninitialized_mesh bottom_;
+    glm::ivec2 bottom_first_{0, 0};   ///< lattice coordinates of the first vertex, from the rig's position
+    float lowest_ = 0, highest_ = 0;  ///< of the bottom's vertices and the datum
     placed_mesh bottom_in_rig_;
     std::vector<surface> surfaces_;
     bool has_gaps_ = false;  ///< some vertices of the bottom have no data

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/core/detail/filled.hpp>
+#include <insonify/sonar/detail/checked_materials.hpp>
 #include <insonify/sonar/side_scan/detail/ping_echo.hpp>
 #include <insonify/sonar/side_scan/record_options.hpp>
 
@@ -44,15 +45,11 @@ class recorder {
     recorder(const scene& s, std::span<const ping> track, const Rig& rig, const options_type& options, E& ex)
         : scene_(s), track_(track), rig_(rig), options_(options) {
         validate(rig);
-        validate(s);
-        require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
-        require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "metres, or 0");
-        validate_if_possible(options.law);
+        materials_ = checked_materials(s, options);
         options.equation.for_each([](const auto& part) { validate_if_possible(part); });
         for (const ping& p : track) validate(p);
         out_.rows.side = rig.side;
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
-        materials_ = resolved_bottom(s);
         targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
         out_.image = filled(rig.bins, height, 0.0f, ex);

@@ -1,9 +1,13 @@
-// Gamma-distributed random numbers, for averages of looks and for textures of the seabed.
+// Statistics of echoes, for noise filters and for speckle by label: intensities of a look, gamma-distributed averages
+// and textures, mean amplitudes, and the correlation of a field that gives intensities theirs.
 //
-// Based on: George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM Transactions on
+// Based on: Stephen O. Rice. Mathematical Analysis of Random Noise. Bell System Technical Journal 24, 1945. E. Jakeman,
+// P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation 24, 1976 (the
+// K-distribution). George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM Transactions on
 // Mathematical Software 26, 2000.
 #pragma once
 
+#include <insonify/core/detail/correlation.hpp>
 #include <insonify/core/random.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -11,6 +15,14 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
+
+/// The part of one look in an average of looks, Rician intensities of mean 1: |s + n|^2 / ((1 + s^2) looks).
+/// @param re, im  of n, complex normal noise of unit power
+/// @param steady  s^2, power of the steady echo; 0 for exponential intensities
+inline float look_intensity(float re, float im, float steady, int looks) {
+    const float real = re + numeric::square_root(steady);
+    return (real * real + im * im) / ((1 + steady) * static_cast<float>(looks));
+}
 
 /// One trial at N gamma-distributed numbers of mean one, from four words each; `settled` where it succeeded, as 19 of
 /// 20 do.
@@ -69,7 +81,7 @@ inline double mean_root_of_gamma(double shape) {
 }
 
 /// The mean of |s + n| where n is complex normal noise of unit power and s^2 = `steady`, over sqrt(1 + steady); to
-/// 1e-6. Stephen O. Rice. Mathematical Analysis of Random Noise. Bell System Technical Journal 24, 1945 (eq. 3.10-12).
+/// 1e-6 (Rice, eq. 3.10-12).
 inline double mean_of_rice(double steady) {
     const double half_root_pi = 0.88622692545275801;
     if (steady > 300) {
@@ -83,6 +95,30 @@ inline double mean_of_rice(double steady) {
         sum += term;
     }
     return half_root_pi * sum * numeric::exp(-steady) / numeric::square_root(1 + steady);
+}
+
+/// Length of a field whose law makes intensities with a correlation of 1 / e at `length`.
+/// @param of_field  the intensities' correlation for a correlation of the field; rises from 0 at 0 to 1 at 1
+template <class Law>
+double field_length(double length, const Law& of_field) {
+    double low = 0, high = 1;
+    for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (low + high);
+        (of_field(middle) < 0.36787944117144233 ? low : high) = middle;
+    }
+    return length / numeric::square_root(-numeric::log(0.5 * (low + high)));
+}
+
+/// Correlation of Rician intensities |s + n|^2, n a complex normal field of unit power, for one of the field. Without a
+/// steady part, and for averages of looks, it is the field's square.
+/// @param steady  s^2
+inline auto rice_correlation(double steady) {
+    return [=](double field) { return field * (field + 2 * steady) / (1 + 2 * steady); };
+}
+
+/// Taps for fields of echoes without a steady part or texture, whose intensities have the given length.
+inline std::vector<float> intensity_taps(double length) {
+    return field_taps(field_length(length, rice_correlation(0)));
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS

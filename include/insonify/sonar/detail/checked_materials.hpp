@@ -1,0 +1,28 @@
+// Checks of a scene and of the options that all sonars share.
+#pragma once
+
+#include <insonify/sonar/labels.hpp>
+#include <insonify/sonar/scene.hpp>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// The materials of a valid scene's bottom, by seabed::type.
+/// @throws invalid_input for a scene, a cell or a law out of range
+template <class Options>
+bottom_materials checked_materials(const scene& s, const Options& options) {
+    validate(s);
+    require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
+    require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "0 metres or more");
+    validate_if_possible(options.law);
+    return resolved_bottom(s);
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
