@@ -2480,10 +2480,68 @@ inline constexpr detail::to_unit to_float{};
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/core/detail/gamma.hpp ------------------------------------------------------------
-// Gamma-distributed random numbers, for averages of looks and for textures of the seabed.
+// ------------ insonify/core/detail/correlation.hpp ------------------------------------------------------
+// Filters that turn white Gaussian noise into noise with a Gaussian autocorrelation exp(-(d / length)^2), exact at
+// every whole distance d and for every length.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Half of the symmetric taps, from the middle outwards; white noise keeps its variance. They are the Fourier transform
+/// of the root of the autocorrelation's spectrum: a sampled Gaussian would correlate too little below a length of 2.
+/// @param length  distance at which the autocorrelation has fallen to 1 / e, 0 to 50; 0: white
+inline std::vector<float> field_taps(double length) {
+    constexpr std::size_t period = 512, half = period / 2;
+    if (!(length > 0)) return {1.0f};
+    std::array<double, period> cosine{};
+    double c = 1, s = 0;
+    for (double& value : cosine) {
+        value = c;
+        constexpr double turn_c = 0.99992470183914450, turn_s = 0.012271538285719925;  // of 2 pi / 512
+        const double next = c * turn_c - s * turn_s;
+        s = c * turn_s + s * turn_c;
+        c = next;
+    }
+    std::array<double, half + 1> correlation{}, root{};
+    for (std::size_t d = 0; d <= half; ++d) {
+        const double ratio = static_cast<double>(d) / length;
+        correlation[d] = numeric::exp(-ratio * ratio);
+    }
+    for (std::size_t k = 0; k <= half; ++k) {
+        double power = correlation[0];
+        for (std::size_t d = 1; d <= half; ++d) power += 2 * correlation[d] * cosine[k * d % period];
+        root[k] = numeric::square_root((std::max)(power, 0.0));
+    }
+    const std::size_t reach = static_cast<std::size_t>(1.5 * length) + 3;
+    std::vector<double> taps;
+    double sum = 0;
+    for (std::size_t j = 0; j <= reach; ++j) {
+        double tap = root[0] + root[half] * cosine[half * j % period];
+        for (std::size_t k = 1; k < half; ++k) tap += 2 * root[k] * cosine[k * j % period];
+        taps.push_back(tap);
+        sum += (j == 0 ? 1 : 2) * tap * tap;
+    }
+    std::vector<float> result;
+    for (const double tap : taps) result.push_back(static_cast<float>(tap / numeric::square_root(sum)));
+    return result;
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/core/detail/echo_statistics.hpp --------------------------------------------------
+// Statistics of echoes, for noise filters and for speckle by label: intensities of a look, gamma-distributed averages
+// and textures, mean amplitudes, and the correlation of a field that gives intensities theirs.
 //
-// Based on: George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM Transactions on
+// Based on: Stephen O. Rice. Mathematical Analysis of Random Noise. Bell System Technical Journal 24, 1945. E. Jakeman,
+// P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation 24, 1976 (the
+// K-distribution). George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM Transactions on
 // Mathematical Software 26, 2000.
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -2491,6 +2549,14 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
+
+/// The part of one look in an average of looks, Rician intensities of mean 1: |s + n|^2 / ((1 + s^2) looks).
+/// @param re, im  of n, complex normal noise of unit power
+/// @param steady  s^2, power of the steady echo; 0 for exponential intensities
+inline float look_intensity(float re, float im, float steady, int looks) {
+    const float real = re + numeric::square_root(steady);
+    return (real * real + im * im) / ((1 + steady) * static_cast<float>(looks));
+}
 
 /// One trial at N gamma-distributed numbers of mean one, from four words each; `settled` where it succeeded, as 19 of
 /// 20 do.
@@ -2549,7 +2615,7 @@ inline double mean_root_of_gamma(double shape) {
 }
 
 /// The mean of |s + n| where n is complex normal noise of unit power and s^2 = `steady`, over sqrt(1 + steady); to
-/// 1e-6. Stephen O. Rice. Mathematical Analysis of Random Noise. Bell System Technical Journal 24, 1945 (eq. 3.10-12).
+/// 1e-6 (Rice, eq. 3.10-12).
 inline double mean_of_rice(double steady) {
     const double half_root_pi = 0.88622692545275801;
     if (steady > 300) {
@@ -2563,61 +2629,6 @@ inline double mean_of_rice(double steady) {
         sum += term;
     }
     return half_root_pi * sum * numeric::exp(-steady) / numeric::square_root(1 + steady);
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/core/detail/correlation.hpp ------------------------------------------------------
-// Filters that turn white Gaussian noise into noise with a Gaussian autocorrelation exp(-(d / length)^2), exact at
-// every whole distance d and for every length, and the field lengths that give echo intensities theirs.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace detail::inline INSONIFY_FLAGS {
-
-/// Half of the symmetric taps, from the middle outwards; white noise keeps its variance. They are the Fourier transform
-/// of the root of the autocorrelation's spectrum: a sampled Gaussian would correlate too little below a length of 2.
-/// @param length  distance at which the autocorrelation has fallen to 1 / e, 0 to 50; 0: white
-inline std::vector<float> field_taps(double length) {
-    constexpr std::size_t period = 512, half = period / 2;
-    if (!(length > 0)) return {1.0f};
-    std::array<double, period> cosine{};
-    double c = 1, s = 0;
-    for (double& value : cosine) {
-        value = c;
-        constexpr double turn_c = 0.99992470183914450, turn_s = 0.012271538285719925;  // of 2 pi / 512
-        const double next = c * turn_c - s * turn_s;
-        s = c * turn_s + s * turn_c;
-        c = next;
-    }
-    std::array<double, half + 1> correlation{}, root{};
-    for (std::size_t d = 0; d <= half; ++d) {
-        const double ratio = static_cast<double>(d) / length;
-        correlation[d] = numeric::exp(-ratio * ratio);
-    }
-    for (std::size_t k = 0; k <= half; ++k) {
-        double power = correlation[0];
-        for (std::size_t d = 1; d <= half; ++d) power += 2 * correlation[d] * cosine[k * d % period];
-        root[k] = numeric::square_root((std::max)(power, 0.0));
-    }
-    const std::size_t reach = static_cast<std::size_t>(1.5 * length) + 3;
-    std::vector<double> taps;
-    double sum = 0;
-    for (std::size_t j = 0; j <= reach; ++j) {
-        double tap = root[0] + root[half] * cosine[half * j % period];
-        for (std::size_t k = 1; k < half; ++k) tap += 2 * root[k] * cosine[k * j % period];
-        taps.push_back(tap);
-        sum += (j == 0 ? 1 : 2) * tap * tap;
-    }
-    std::vector<float> result;
-    for (const double tap : taps) result.push_back(static_cast<float>(tap / numeric::square_root(sum)));
-    return result;
 }
 
 /// Length of a field whose law makes intensities with a correlation of 1 / e at `length`.
@@ -2690,7 +2701,6 @@ struct noise_run {
     int x, y;               // of the first pixel
     int count;              // 1 to run_length
     std::uint32_t channel;  // 0 to 2
-    int levels;             // the largest code of the pixel type, 1 for floats
 };
 
 constexpr float clip_to_unit(float value) {
@@ -2740,16 +2750,14 @@ class noise_pass {
     template <noise_pixel Pixel>
     void row(const Pixel* from, Pixel* to, int count, int x, int y) {
         if constexpr (std::same_as<Pixel, float>) {
-            law_.row(from, to, {x, y, count, 0, 1});
+            law_.row(from, to, {x, y, count, 0});
         } else if constexpr (pixel_code<Pixel>) {
-            channel(from, to, 1, {x, y, count, 0, (std::numeric_limits<Pixel>::max)()});
+            channel(from, to, 1, {x, y, count, 0});
         } else {
-            using value = decltype(Pixel::r);
-            constexpr int levels = std::same_as<value, float> ? 1 : (std::numeric_limits<value>::max)();
             if (from != to) std::copy_n(from, count, to);
-            channel(&to->r, &to->r, 3, {x, y, count, 0, levels});
-            channel(&to->g, &to->g, 3, {x, y, count, 1, levels});
-            channel(&to->b, &to->b, 3, {x, y, count, 2, levels});
+            channel(&to->r, &to->r, 3, {x, y, count, 0});
+            channel(&to->g, &to->g, 3, {x, y, count, 1});
+            channel(&to->b, &to->b, 3, {x, y, count, 2});
         }
     }
 
@@ -2916,7 +2924,7 @@ class correlated_draws {
         // The strip holds the rows up to y + reach, blurred along x, in a ring.
         const bool follows = s.filled && run.y > s.y && run.y - s.y < rows;
         for (int y = follows ? s.y + reach + 1 : run.y - reach; y <= run.y + reach; ++y)
-            blur_row(s.at(y), field, {run.x, y, run.count, run.channel, run.levels});
+            blur_row(s.at(y), field, {run.x, y, run.count, run.channel});
         s.y = run.y;
         s.filled = true;
         for (int j = -reach; j <= reach; ++j) {
@@ -2962,8 +2970,7 @@ class correlated_draws {
         std::vector<float> white;
         for (int x = run.x - reach; x < run.x + run.count + reach; x += run_length) {
             const int count = (std::min)(run_length, run.x + run.count + reach - x);
-            const float* const draws =
-                white_draws<normal_draws>(buffer, noise_, field, {x, run.y, count, run.channel, run.levels});
+            const float* const draws = white_draws<normal_draws>(buffer, noise_, field, {x, run.y, count, run.channel});
             white.insert(white.end(), draws, draws + count);
         }
         const float* const middle = white.data() + reach;
@@ -3249,15 +3256,8 @@ class parameter {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/filter/echo_noise.hpp ------------------------------------------------------------
-// Speckle filters: Rayleigh, averages of looks, K and Rician, on amplitudes or intensities.
-//
-// The mean is kept as long as bright pixels do not saturate at 1: keep the image's mean well below 1/2. Clipping,
-// codes, colours and NaN are treated as in filter/noise.hpp. `with_speckle` (sonar/speckle.hpp) applies the same laws
-// to sonar recordings, which have no largest value.
-//
-// Based on: E. Jakeman, P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation
-// 24, 1976 (the K-distribution).
+// ------------ insonify/filter/detail/echo_law.hpp -------------------------------------------------------
+// The echo law as a noise pass: draws intensities of mean 1 and multiplies pixels by them or by their square roots.
 
 #include <optional>
 
@@ -3381,7 +3381,7 @@ class echo_law {
         return buffer;
     }
 
-    /// |s + n|^2 of complex normal fields n of unit power, averaged over looks.
+    /// Averages looks of complex normal fields.
     void fields(float* intensity, int looks, const noise_run& run) {
         float steady[run_length], re[run_length + 64], im[run_length + 64];
         statistics_.steady.row(steady, run.count, run.x, run.y);
@@ -3390,10 +3390,8 @@ class echo_law {
             field(re, static_cast<std::uint32_t>(2 * look), run);
             field(im, static_cast<std::uint32_t>(2 * look + 1), run);
             constexpr float root_half = 0.70710678f;
-            for (int i = 0; i < run.count; ++i) {
-                const float real = re[i] * root_half + numeric::square_root(steady[i]), imaginary = im[i] * root_half;
-                intensity[i] += (real * real + imaginary * imaginary) / ((1 + steady[i]) * static_cast<float>(looks));
-            }
+            for (int i = 0; i < run.count; ++i)
+                intensity[i] += look_intensity(re[i] * root_half, im[i] * root_half, steady[i], looks);
         }
     }
     void field(float (&into)[run_length + 64], std::uint32_t number, const noise_run& run) {
@@ -3470,6 +3468,29 @@ inline noise_pass<echo_law> echo_pass(noise_stream stream, std::uint64_t seed, s
     return noise_pass(
         echo_law({seed, stream, frame}, {seed, noise_stream::texture, frame}, std::move(statistics), of, length));
 }
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/filter/echo_noise.hpp ------------------------------------------------------------
+// Speckle filters: Rayleigh, averages of looks, K and Rician, on amplitudes or intensities.
+//
+// The mean is kept as long as bright pixels do not saturate at 1: keep the image's mean well below 1/2. Clipping,
+// codes, colours and NaN are treated as in filter/noise.hpp. `with_speckle` (sonar/speckle.hpp) applies the same laws
+// to sonar recordings, which have no largest value.
+//
+// Based on: E. Jakeman, P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation
+// 24, 1976 (the K-distribution).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+namespace detail::inline INSONIFY_FLAGS {
 
 inline void check_shape(const char* name, const parameter& shape) {
     shape.check(
@@ -7595,20 +7616,13 @@ struct ground {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Height and type at one position.
-template <typed_sampler S>
-ground at(const S& prepared, double x, double y) {
+/// Height and label at one position. For many positions prepare the model once, and pass the sampler.
+/// @throws invalid_input for parameters of the model out of their range
+template <model M>
+ground at(const M& m, double x, double y) {
     ground result{};
-    prepared.row({.y = y, .origin = x}, {&result.height, 1}, {&result.kind, 1});
+    seabed::prepare(m).row({.y = y, .origin = x}, {&result.height, 1}, {&result.kind, 1});
     return result;
-}
-
-/// Height at one point, for the call operators of models.
-template <sampler S>
-float height_at(const S& prepared, double x, double y) {
-    float height = 0;
-    prepared.row({.y = y, .origin = x}, {&height, 1});
-    return height;
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -7783,9 +7797,6 @@ class any {
         return held_ != nullptr ? held_->legend() : std::vector<type_properties>{};
     }
     INSONIFY_MEMBER float sink_depth() const { return held_ != nullptr ? held_->sink_depth() : 0; }
-
-    INSONIFY_MEMBER float operator()(double x, double y) const { return at(prepare(), x, y).height; }
-    INSONIFY_MEMBER type type_at(double x, double y) const { return at(prepare(), x, y).kind; }
 
   private:
     std::shared_ptr<const detail::model_interface> held_;
@@ -8323,7 +8334,6 @@ struct flat {
 
     /// @throws invalid_input for parameters out of the ranges of `roughness`
     INSONIFY_TAGGED_ONCE any_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     INSONIFY_MEMBER float sink_depth() const { return 2 * surface.rms; }
 };
 
@@ -8950,7 +8960,6 @@ struct mud {
 
     /// @throws invalid_input for parameters out of their range
     INSONIFY_TAGGED_ONCE any_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     INSONIFY_MEMBER float sink_depth() const {
         return (std::max)((std::max)(mound_height, pock_depth), 2 * surface.rms);
     }
@@ -9037,7 +9046,6 @@ struct ripples {
 
     /// @throws invalid_input for parameters out of their range
     INSONIFY_TAGGED_ONCE any_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
 
     INSONIFY_MEMBER ripple_system first() const {
         return {wavelength, steepness, direction, spread, bandwidth, sharpness};
@@ -9315,7 +9323,6 @@ struct rock {
 
     /// @throws invalid_input for parameters out of their range
     INSONIFY_TAGGED_ONCE any_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const { return at(prepare(), x, y).height; }
     INSONIFY_MEMBER float sink_depth() const { return 0.5f * relief + 2 * surface.rms; }
 };
 
@@ -10620,11 +10627,6 @@ struct render_options {
     /// How far towards the light the seabed may cast from, at most, in lengths of the picture. Less is sampled if its
     /// heights throw no shadow that far; light below 1 degree over rock comes from farther.
     float reach = 8;
-    /// Tolerance for the seabed's mesh, in pixels: how far it may displace the seabed in the picture or, on level
-    /// ground, the edge of a shadow. 0 draws every cell. More draws fewer triangles on smooth seabeds, and takes time
-    /// to choose them.
-    float edge_error = 0;
-    float slope_error = 0.02f;  ///< tolerance for its slopes, metres per metre, if edge_error is not 0
     /// See draw_options. Whether a pixel faces the light follows from the triangle that it shows.
     int subpixel_bits = std::is_same_v<Shadow, shadow::none> ? 8 : 12;
     int tile = 64;  ///< see draw_options
@@ -10649,7 +10651,7 @@ struct render_options {
   private:
     template <class S, class L, class B, depth_precision D>
     INSONIFY_MEMBER render_options<S, L, B, D> retyped(const S& policy, const B& backscatter) const {
-        return {policy, backscatter, cell, reach, edge_error, slope_error, subpixel_bits, tile, level};
+        return {policy, backscatter, cell, reach, subpixel_bits, tile, level};
     }
 };
 
@@ -10714,8 +10716,6 @@ visibility visible_triangles(const scene& s, const overhead& rig,
     const render_options<shadow::none, labels, Law, Depth> seen{.law = options.law,
                                                                 .cell = options.cell,
                                                                 .reach = options.reach,
-                                                                .edge_error = options.edge_error,
-                                                                .slope_error = options.slope_error,
                                                                 .subpixel_bits = options.subpixel_bits,
                                                                 .tile = options.tile,
                                                                 .level = options.level};
@@ -13822,8 +13822,6 @@ struct heightfield {
                      detail::grid_coordinate((y - origin.y) / spacing + 0.5, types.height()).cell);
     }
 
-    INSONIFY_MEMBER float operator()(double x, double y) const { return height_at(x, y); }
-
     /// The sampler refers to the heightfield, which has to outlive it.
     /// @throws invalid_input as `validate`
     INSONIFY_TAGGED heightfield_sampler prepare() const;
@@ -13913,6 +13911,87 @@ inline heightfield from_image(image_view<const float> picture, double spacing, f
         std::transform(from.begin(), from.end(), result.heights.row(j).begin(),
                        [=](float p) { return p == no_data ? std::numeric_limits<float>::quiet_NaN() : scale * p; });
     }
+    return result;
+}
+
+}  // namespace INSONIFY_FLAGS
+
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/sample.hpp ----------------------------------------------------------------
+// Samples a seabed model at the vertices of a grid, a row per task.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+/// Where to sample: vertex (i, j) at origin + spacing * (first + (i, j)), metres in the world. Parts of one grid share
+/// their vertices to the last bit if they differ in `first` and not in the origin.
+struct grid {
+    glm::dvec2 origin{0.0, 0.0};
+    double spacing = 0.02;
+    int width = 2, height = 2;  ///< vertices, at least 2
+    bool band_limited = false;  ///< relief that the spacing can't carry fades out instead of aliasing
+    glm::ivec2 first{0, 0};
+};
+
+inline namespace INSONIFY_FLAGS {
+
+/// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
+/// vertices where they overlap: to the last bit if the spacing is a sum of few powers of two, as 1/64 m is.
+/// @throws invalid_input for a spacing not above 0, or corners beyond 1e9 metres or in the wrong order
+inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
+    detail::require(spacing > 0 && spacing < 1e6, "spacing", spacing, "metres above 0");
+    const auto axis = [&](double from, double to, const char* name) {
+        detail::require(from >= -1e9 && to <= 1e9 && from <= to, name, to, "not below low, both within 1e9 metres");
+        const std::int64_t first = numeric::floor_to_int(from / spacing);
+        const std::int64_t last = (std::max)(-numeric::floor_to_int(-to / spacing), first + 1);
+        detail::require(last - first < (1 << 30), name, to, "at most 2^30 vertices from low");
+        return std::pair{static_cast<double>(first) * spacing, static_cast<int>(last - first + 1)};
+    };
+    const auto [x, width] = axis(low.x, high.x, "high.x");
+    const auto [y, height] = axis(low.y, high.y, "high.y");
+    return {.origin = {x, y}, .spacing = spacing, .width = width, .height = height};
+}
+
+/// The seabed's heights, and its labels where it has more than one, at the vertices of a grid.
+///
+/// The bits depend on the model and the positions of the vertices alone, not on the executor or on what else is in
+/// the grid.
+/// @param source  the library's or a user's own
+/// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing not above 0, and for
+/// parameters of the model out of their range
+template <model Model, executor_argument Executor = serial_executor>
+heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
+    constexpr insonify::detail::uninitialized uninitialized;
+    const auto memory = insonify::detail::memory_of(ex);
+    heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
+                       .origin = where.origin + where.spacing * glm::dvec2(where.first),
+                       .spacing = where.spacing};
+    for (const type_properties& t : legend_of(source))
+        if (index_of(t.label) >= type_count) result.own_types.push_back(t);
+    if (const std::optional<type> only = only_type(source))
+        result.fallback = *only;
+    else
+        result.types = image<type>(where.width, where.height, uninitialized, memory);
+    validate(result);
+
+    const auto prepared = prepare(source);
+    ex.bulk(static_cast<std::size_t>(where.height), [&](std::size_t row) {
+        const int j = static_cast<int>(row);
+        const scanline line{.y = where.origin.y + where.spacing * (static_cast<double>(where.first.y) + j),
+                            .origin = where.origin.x,
+                            .spacing = where.spacing,
+                            .first = where.first.x,
+                            .grid_spacing = where.band_limited ? where.spacing : 0};
+        prepared.row(line, result.heights.row(j), result.types.empty() ? std::span<type>{} : result.types.row(j));
+    });
     return result;
 }
 
@@ -14154,541 +14233,6 @@ template <executor_argument Executor = serial_executor>
 mesh tessellate(const heightfield& field, Executor&& ex = serial_executor{}, glm::ivec2 first = {0, 0}) {
     mesh result;
     detail::tessellate_into(result, field, ex, first);
-    return result;
-}
-
-}  // namespace INSONIFY_FLAGS
-
-}  // namespace seabed
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/detail/needed_vertices.hpp ------------------------------------------------
-// Selects the vertices of a heightfield that a mesh needs for a given tolerance.
-//
-// The hierarchy bisects right triangles at the midpoint of their longest side. The midpoint is a vertex of the grid,
-// and the two triangles that share the side are bisected together: the mesh has no T-junctions. Whether a triangle may
-// stay whole is tested against every height within it, from small triangles to large ones; a bisected triangle forces
-// the bisection of all that contain it.
-//
-// Based on: William Evans, David Kirkpatrick, Gregg Townsend. Right-Triangulated Irregular Networks. Algorithmica 30,
-// 2001.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace seabed {
-
-/// Largest deviations of a mesh from its heightfield.
-struct tolerance {
-    double height = 0;  ///< metres, anywhere, >= 0
-    /// Of the rises per metre along x and y that normals are made of, >= 0.
-    double slope = (std::numeric_limits<double>::infinity)();
-    /// Square metres: at a distance r from `nadir`, heights may be off by at most lean / r. A camera above `nadir`
-    /// shows a height error h as a displacement of h r / altitude, so lean = altitude x the tolerated displacement on
-    /// the ground.
-    double lean = (std::numeric_limits<double>::infinity)();
-    glm::dvec2 nadir{0.0, 0.0};  ///< below the camera, metres from the heightfield's vertex (0, 0)
-};
-
-namespace detail::inline INSONIFY_FLAGS {
-
-/// Flags the vertices of a heightfield that a mesh needs. Vertices of the hierarchy are midpoints of longest sides. At
-/// step s, the lowest set bit of one coordinate is s ("edges": the side lies along an axis) or that of both is
-/// ("centres": the side is a diagonal).
-class needed_vertices {
-  public:
-    template <executor E>
-    needed_vertices(const heightfield& field, const tolerance& allowed, E& ex)
-        : field_(field),
-          allowed_(allowed),
-          columns_(field.heights.width() - 1),
-          rows_(field.heights.height() - 1),
-          needed_(field.heights.width(), field.heights.height(), 0) {
-        if (allowed.slope < (std::numeric_limits<double>::infinity)()) find_slopes(ex);
-        while (size_ < (std::max)(columns_, rows_)) size_ *= 2;
-        for (int step = 1; step < size_; step *= 2) {
-            visit(step, false, ex);
-            if (step == 1) pair_up_cells();
-            visit(step, true, ex);
-        }
-    }
-
-    bool operator()(int x, int y) const { return inside(x, y) && needed_(x, y) != 0; }
-    bool inside(int x, int y) const { return x >= 0 && y >= 0 && x <= columns_ && y <= rows_; }
-    /// Cells along a side of the hierarchy's square.
-    int size() const { return size_; }
-
-    /// Whether the hierarchy's diagonal of the square around a centre (x, y) of this step rises from its lower left
-    /// corner. It points to the centre of the parent square.
-    static bool rises(int x, int y, int step) { return ((x ^ y) & (2 * step)) == 0; }
-
-    /// The step of the hierarchy's vertices, 0 at its corners.
-    static int step_of(int x, int y) { return (x | y) & -(x | y); }
-
-  private:
-    struct point {
-        int x, y;
-    };
-
-    template <executor E>
-    void find_slopes(E& ex) {
-        slope_x_ = image<float>(columns_ + 1, rows_ + 1);
-        slope_y_ = image<float>(columns_ + 1, rows_ + 1);
-        ex.bulk(static_cast<std::size_t>(rows_) + 1, [&](std::size_t j) {
-            const row_rises rises(field_.heights, static_cast<int>(j));
-            const auto x = slope_x_.row(static_cast<int>(j)), y = slope_y_.row(static_cast<int>(j));
-            for (std::size_t i = 0; i < x.size(); ++i) {
-                x[i] = 0.5f * rises.x(i);
-                y[i] = 0.5f * rises.y(i);
-            }
-        });
-    }
-
-    /// All edges or all centres of one step.
-    template <executor E>
-    void visit(int step, bool centres, E& ex) {
-        const int stride = centres ? 2 * step : step;  // from row to row
-        const int first = centres ? step : 0;
-        if (first > rows_) return;
-        ex.bulk(static_cast<std::size_t>((rows_ - first) / stride + 1), [&](std::size_t row) {
-            const int y = first + static_cast<int>(row) * stride;
-            const int from = centres || (y & step) == 0 ? step : 0;
-            for (int x = from; x <= columns_; x += 2 * step)
-                needed_(x, y) = centres ? is_centre_needed(x, y, step) : is_edge_needed(x, y, step);
-        });
-    }
-
-    bool is_centre_needed(int x, int y, int s) const {
-        if (needed(x - s, y) || needed(x + s, y) || needed(x, y - s) || needed(x, y + s)) return true;
-        if (x + s > columns_ || y + s > rows_) return true;  // partly outside of the field
-        const double height = height_allowed({x - s, y - s}, {x + s, y + s});
-        const bool up = rises(x, y, s);
-        const point a{x - s, up ? y - s : y + s}, b{x + s, up ? y + s : y - s};
-        return !fits(a, b, {b.x, a.y}, height) || !fits(a, b, {a.x, b.y}, height);
-    }
-
-    bool is_edge_needed(int x, int y, int s) const {
-        if (s > 1) {
-            const int h = s / 2;
-            if (needed(x - h, y - h) || needed(x + h, y - h) || needed(x - h, y + h) || needed(x + h, y + h))
-                return true;
-        }
-        // The longest side lies along x or y, with a triangle on either side.
-        const bool along_x = (x & s) != 0;
-        const point reach = along_x ? point{s, 0} : point{0, s};
-        const point a{x - reach.x, y - reach.y}, b{x + reach.x, y + reach.y};
-        const double height = height_allowed({x - s, y - s}, {x + s, y + s});
-        for (const int side : {-s, s}) {
-            const point tip = along_x ? point{x, y + side} : point{x + side, y};
-            if (tip.x < 0 || tip.y < 0 || (along_x ? (side > 0 && y == rows_) : (side > 0 && x == columns_))) continue;
-            if (!inside(b.x, b.y) || !inside(tip.x, tip.y)) return true;  // partly outside of the field
-            if (!fits(a, b, tip, height)) return true;
-        }
-        return false;
-    }
-
-    /// Cells with a falling diagonal, of which one half belongs to a larger triangle: where the choice of the diagonal
-    /// exceeds the tolerance, both halves become small triangles, with the heightfield's own diagonal.
-    void pair_up_cells() {
-        for (bool changed = true; changed;) {
-            changed = false;
-            for (int y = 0; y < rows_; ++y)
-                for (int x = (y & 1) ^ 1; x < columns_; x += 2) {
-                    std::uint8_t &low = needed_(x, y), &high = needed_(x + 1, y + 1);
-                    if (low == high) continue;
-                    const auto& h = field_.heights;
-                    const float twist = 0.5f * (h(x, y) + h(x + 1, y + 1) - h(x + 1, y) - h(x, y + 1));
-                    if (within(twist, height_allowed({x, y}, {x + 1, y + 1}))) continue;
-                    low = high = 1;
-                    changed = true;
-                }
-        }
-    }
-
-    bool needed(int x, int y) const { return (*this)(x, y); }
-
-    /// False for NaN.
-    static bool within(float off, double allowed) {
-        return static_cast<double>(off) <= allowed && static_cast<double>(-off) <= allowed;
-    }
-
-    /// Height tolerance of triangles in a box: the least over its corners.
-    double height_allowed(const point& low, const point& high) const {
-        if (!(allowed_.lean < (std::numeric_limits<double>::infinity)())) return allowed_.height;
-        const auto farthest = [](double a, double b) { return (std::max)(a * a, b * b); };
-        const glm::dvec2 to_nadir = allowed_.nadir / field_.spacing;
-        const double square =
-            farthest(low.x - to_nadir.x, high.x - to_nadir.x) + farthest(low.y - to_nadir.y, high.y - to_nadir.y);
-        const double distance = field_.spacing * numeric::square_root(square);
-        return allowed_.height * distance > allowed_.lean ? allowed_.lean / distance : allowed_.height;
-    }
-
-    /// Whether the triangle (a, b, tip), with its longest side from a to b, is within tolerance of all samples in it.
-    bool fits(const point& a, const point& b, const point& tip, double height) const {
-        const double slope = allowed_.slope * field_.spacing;
-        const bool check_slopes = !slope_x_.empty();
-        // Most rejections are at the midpoint of a side, and the smallest triangles have no other vertices.
-        const auto middles_fit = [&](const image<float>& values, double allowed) {
-            return fits_middle(values, a, b, allowed) && fits_middle(values, b, tip, allowed) &&
-                   fits_middle(values, tip, a, allowed);
-        };
-        if (!middles_fit(field_.heights, height)) return false;
-        if (check_slopes && !(middles_fit(slope_x_, slope) && middles_fit(slope_y_, slope))) return false;
-        if (!fits_falling(a, b, height) || !fits_falling(b, tip, height) || !fits_falling(tip, a, height)) return false;
-        const bool has_more = (std::max)(a.x > b.x ? a.x - b.x : b.x - a.x, a.y > b.y ? a.y - b.y : b.y - a.y) > 2;
-        if (has_more) {
-            const plane planes[] = {
-                {field_.heights, height, a, b, tip}, {slope_x_, slope, a, b, tip}, {slope_y_, slope, a, b, tip}};
-            const int count = check_slopes ? 3 : 1;
-            const bool all = each_row(a, b, tip, [&](int y, int first, int last) {
-                for (int i = 0; i < count; ++i)
-                    if (!planes[i].fits_row(y, first, last)) return false;
-                return true;
-            });
-            if (!all) return false;
-        }
-        return field_.types.empty() || has_one_type(a, b, tip);
-    }
-
-    static bool fits_middle(const image<float>& values, const point& p, const point& q, double allowed) {
-        const int x = p.x + q.x, y = p.y + q.y;
-        return ((x | y) & 1) != 0 ||
-               within(0.5f * (values(p.x, p.y) + values(q.x, q.y)) - values(x / 2, y / 2), allowed);
-    }
-
-    /// Calls `visit(y, first, last)` for each row of a triangle's vertices until it returns false.
-    template <class Visit>
-    static bool each_row(const point& a, const point& b, const point& c, const Visit& visit) {
-        struct side {
-            point low;
-            int top, lean;  // lean: columns to the right per row
-            side(const point& p, const point& q) : low(p.y < q.y ? p : q), top((std::max)(p.y, q.y)) {
-                const int across = (p.y < q.y ? q.x : p.x) - low.x;
-                lean = across > 0 ? 1 : across < 0 ? -1 : 0;  // sides are level, upright or diagonal
-            }
-        };
-        const side sides[] = {{a, b}, {b, c}, {c, a}};
-        const int y0 = (std::min)((std::min)(a.y, b.y), c.y), y1 = (std::max)((std::max)(a.y, b.y), c.y);
-        for (int y = y0; y <= y1; ++y) {
-            int first = (std::numeric_limits<int>::max)(), last = -1;
-            for (const side& s : sides) {
-                if (s.low.y == s.top || y < s.low.y || y > s.top) continue;
-                const int x = s.low.x + s.lean * (y - s.low.y);
-                first = (std::min)(first, x);
-                last = (std::max)(last, x);
-            }
-            if (!visit(y, first, last)) return false;
-        }
-        return true;
-    }
-
-    /// The plane through the values at three vertices, with the tolerance of others.
-    class plane {
-      public:
-        plane(const image<float>& values, double allowed, const point& a, const point& b, const point& c)
-            : values_(values), from_(a), tolerance_(static_cast<float>(allowed)) {
-            if (values.empty()) return;
-            const auto abx = static_cast<float>(b.x - a.x), aby = static_cast<float>(b.y - a.y);
-            const auto acx = static_cast<float>(c.x - a.x), acy = static_cast<float>(c.y - a.y);
-            at_ = values(a.x, a.y);
-            const float ab = values(b.x, b.y) - at_, ac = values(c.x, c.y) - at_;
-            const float inverse = 1 / (abx * acy - acx * aby);
-            dx_ = (ab * acy - ac * aby) * inverse;
-            dy_ = (ac * abx - ab * acx) * inverse;
-        }
-
-        bool fits_row(int y, int first, int last) const {
-            using namespace insonify::detail;
-            constexpr int N = INSONIFY_SIMD ? 4 : 1;
-            using floats = lanes<float, N>;
-            using ints = lanes<std::int32_t, N>;
-            const float* const row = values_.row(y).data();
-            const float start = at_ + dy_ * static_cast<float>(y - from_.y);
-            floats across;
-            iota<float, N>(across);
-            int x = first;
-            for (; x + N <= last + 1; x += N) {
-                floats value;
-                load(value, row + x);
-                const floats off = value - (start + dx_ * (across + static_cast<float>(x - from_.x)));
-                const ints fit = (off <= tolerance_) & (-off <= tolerance_);
-                const ints missed = fit == 0;
-                if (insonify::detail::any(missed)) return false;
-            }
-            for (; x <= last; ++x) {
-                const float off = row[x] - (start + dx_ * static_cast<float>(x - from_.x));
-                if (!(off <= tolerance_ && -off <= tolerance_)) return false;
-            }
-            return true;
-        }
-
-      private:
-        const image<float>& values_;
-        point from_;
-        float tolerance_, at_ = 0, dx_ = 0, dy_ = 0;
-    };
-
-    /// A falling side crosses the rising diagonals of the heightfield's cells at their midpoints.
-    bool fits_falling(const point& p, const point& q, double allowed) const {
-        const int length = q.x - p.x;
-        if (length != p.y - q.y || length == 0) return true;
-        const auto& h = field_.heights;
-        const point &left = length > 0 ? p : q, &right = length > 0 ? q : p;
-        const int cells = right.x - left.x;
-        const float start = h(left.x, left.y);
-        const float rise = (h(right.x, right.y) - start) / static_cast<float>(cells);
-        for (int i = 0; i < cells; ++i) {
-            const int x = left.x + i, y = left.y - i;  // the cell's upper left corner
-            const float here = 0.5f * (h(x, y - 1) + h(x + 1, y));
-            if (!within(here - (start + rise * (static_cast<float>(i) + 0.5f)), allowed)) return false;
-        }
-        return true;
-    }
-
-    bool has_one_type(const point& a, const point& b, const point& tip) const {
-        const type kind = field_.types(a.x, a.y);
-        return each_row(a, b, tip, [&](int y, int first, int last) {
-            const auto row = field_.types.row(y).subspan(static_cast<std::size_t>(first),
-                                                         static_cast<std::size_t>(last - first + 1));
-            return std::all_of(row.begin(), row.end(), [=](type t) { return t == kind; });
-        });
-    }
-
-    const heightfield& field_;
-    tolerance allowed_;
-    int columns_, rows_, size_ = 1;
-    image<std::uint8_t> needed_;
-    image<float> slope_x_, slope_y_;  // rises per cell, or empty where slopes may be anything
-};
-
-}  // namespace detail::inline INSONIFY_FLAGS
-
-}  // namespace seabed
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/adaptive.hpp --------------------------------------------------------------
-// Adaptive tessellation: the surface of a heightfield by few triangles, within a tolerance of all of them.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace seabed {
-
-/// A mesh of some vertices of a heightfield.
-struct adaptive_mesh {
-    mesh shape;                           ///< as `tessellate` makes it
-    std::vector<std::uint32_t> vertices;  ///< index of each in the heightfield: j width + i
-};
-
-namespace detail::inline INSONIFY_FLAGS {
-
-/// Calls `emit(corner, corner, corner)`, counter-clockwise and each a glm::ivec2, for every triangle whose right angle
-/// is at a vertex.
-template <class Emit>
-void triangles_at(const needed_vertices& needed, int x, int y, const Emit& emit) {
-    if (!needed(x, y)) return;
-    const int s = needed_vertices::step_of(x, y);
-    const bool centre = (x & s) != 0 && (y & s) != 0;
-    // The corners of its diamond, counter-clockwise.
-    static constexpr int square[5][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}, {1, 1}};
-    static constexpr int upright[5][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}};
-    const glm::ivec2 here(x, y);
-    const auto corner = [&](int k) {
-        const auto& to = centre ? square[k] : upright[k];
-        return glm::ivec2(x + s * to[0], y + s * to[1]);
-    };
-    for (int k = 0; k < 4; ++k) {
-        const glm::ivec2 a = corner(k), b = corner(k + 1);
-        if (!needed.inside(a.x, a.y) || !needed.inside(b.x, b.y)) continue;
-        if (centre || s > 1) {
-            const glm::ivec2 middle = (a + b) / 2;
-            if (!needed(middle.x, middle.y)) emit(here, a, b);
-            continue;
-        }
-        // Half a cell. If the other half is one triangle, too, the cell has the heightfield's diagonal.
-        const glm::ivec2 opposite = a + b - here;
-        const bool rising = (b.x - a.x) == (b.y - a.y);
-        if (!rising && needed(opposite.x, opposite.y))
-            emit(here, a, opposite);
-        else
-            emit(here, a, b);
-    }
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-
-inline namespace INSONIFY_FLAGS {
-
-/// Adaptive mesh of a heightfield: at no point of a triangle is the full surface (`height_at`) farther above or below
-/// than `allowed` at the triangle's corners; the slopes at the vertices that a triangle replaces stay within `allowed`,
-/// too, and these vertices are of one type. At a tolerance of 0 on rough ground the triangles are those of
-/// `tessellate`; a plane takes two, and some more beside an edge whose length is not a power of two cells. Takes
-/// several times as long as `tessellate`.
-///
-/// The mesh is minimal within its hierarchy: no two halves of a triangle could be merged within the tolerance.
-/// @param first  as for `tessellate`
-/// @throws invalid_input as `tessellate`, and for a negative or NaN tolerance or a nadir that is not finite
-template <executor_argument Executor = serial_executor>
-adaptive_mesh tessellate(const heightfield& field, const tolerance& allowed, Executor&& ex = serial_executor{},
-                         glm::ivec2 first = {0, 0}) {
-    validate(field);
-    detail::require(allowed.height >= 0, "tolerance.height", allowed.height, "metres, at least 0");
-    detail::require(allowed.slope >= 0, "tolerance.slope", allowed.slope, "a slope, at least 0");
-    detail::require(allowed.lean >= 0, "tolerance.lean", allowed.lean, "square metres, at least 0");
-    insonify::detail::require_finite("tolerance.nadir.x", allowed.nadir.x);
-    insonify::detail::require_finite("tolerance.nadir.y", allowed.nadir.y);
-    const image<float>& heights = field.heights;
-    detail::require(heights.size() <= 0xFFFFFFFFu, "heightfield.heights.size()", heights.size(), "below 2^32");
-    const detail::needed_vertices needed(field, allowed, ex);
-
-    const int size = needed.size();
-    const auto rows = static_cast<std::size_t>(heights.height()), columns = static_cast<std::size_t>(heights.width());
-    // The corners of the hierarchy's root are not midpoints of any side.
-    const auto is_corner = [=](std::size_t x, std::size_t y) {
-        const auto end = static_cast<std::size_t>(size);
-        return (x == 0 || x == end) && (y == 0 || y == end);
-    };
-    // The two halves of the root, if not even its centre is needed.
-    const bool whole = needed.inside(size, size) && (size == 1 || !needed(size / 2, size / 2));
-    const auto each_triangle = [&](std::size_t j, const auto& emit) {
-        const auto known = [&](const glm::ivec2& p) { return numeric::is_finite(heights(p.x, p.y)); };
-        const auto emit_known = [&](const glm::ivec2& a, const glm::ivec2& b, const glm::ivec2& c) {
-            if (known(a) && known(b) && known(c)) emit(a, b, c);
-        };
-        if (whole && j == 0) {
-            emit_known({0, 0}, {size, 0}, {size, size});
-            emit_known({0, 0}, {size, size}, {0, size});
-        }
-        for (int x = 0; x < heights.width(); ++x) detail::triangles_at(needed, x, static_cast<int>(j), emit_known);
-    };
-
-    // Number the vertices and count the triangles of each row, then write them.
-    image<std::uint32_t> number(heights.width(), heights.height());
-    std::vector<std::size_t> first_triangle(rows + 1, 0), first_vertex(rows + 1, 0);
-    ex.bulk(rows, [&](std::size_t j) {
-        const auto numbers = number.row(static_cast<int>(j));
-        std::uint32_t next = 0;
-        for (std::size_t i = 0; i < columns; ++i)
-            if (is_corner(i, j) || needed(static_cast<int>(i), static_cast<int>(j))) numbers[i] = next++;
-        first_vertex[j + 1] = next;
-        each_triangle(j, [&](auto&&...) { ++first_triangle[j + 1]; });
-    });
-    for (std::size_t j = 0; j < rows; ++j) {
-        first_triangle[j + 1] += first_triangle[j];
-        first_vertex[j + 1] += first_vertex[j];
-    }
-
-    adaptive_mesh result;
-    result.shape.positions.resize(first_vertex.back());
-    result.shape.normals.resize(first_vertex.back());
-    result.shape.triangles.resize(first_triangle.back());
-    result.vertices.resize(first_vertex.back());
-    ex.bulk(rows, [&](std::size_t j) {
-        const detail::row_rises rises(heights, static_cast<int>(j));
-        std::size_t vertex = first_vertex[j];
-        for (std::size_t i = 0; i < columns; ++i) {
-            if (!is_corner(i, j) && !needed(static_cast<int>(i), static_cast<int>(j))) continue;
-            result.shape.positions[vertex] = detail::position_at(field, i, j, first);
-            result.shape.normals[vertex] = rises.normal(i, static_cast<float>(field.spacing));
-            result.vertices[vertex++] = static_cast<std::uint32_t>(j * columns + i);
-        }
-        const auto index = [&](const glm::ivec2& p) {
-            return static_cast<std::uint32_t>(first_vertex[static_cast<std::size_t>(p.y)]) + number(p.x, p.y);
-        };
-        glm::uvec3* next = result.shape.triangles.data() + first_triangle[j];
-        each_triangle(j, [&](const glm::ivec2& a, const glm::ivec2& b, const glm::ivec2& c) {
-            *next++ = {index(a), index(b), index(c)};
-        });
-    });
-    return result;
-}
-
-}  // namespace INSONIFY_FLAGS
-
-}  // namespace seabed
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/sample.hpp ----------------------------------------------------------------
-// Samples a seabed model at the vertices of a grid, a row per task.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace seabed {
-
-/// Where to sample: vertex (i, j) at origin + spacing * (first + (i, j)), metres in the world. Parts of one grid share
-/// their vertices to the last bit if they differ in `first` and not in the origin.
-struct grid {
-    glm::dvec2 origin{0.0, 0.0};
-    double spacing = 0.02;
-    int width = 2, height = 2;  ///< vertices, at least 2
-    bool band_limited = false;  ///< relief that the spacing can't carry fades out instead of aliasing
-    glm::ivec2 first{0, 0};
-};
-
-inline namespace INSONIFY_FLAGS {
-
-/// The grid whose vertices are multiples of the spacing and which covers [low, high]. Grids of one spacing share their
-/// vertices where they overlap: to the last bit if the spacing is a sum of few powers of two, as 1/64 m is.
-/// @throws invalid_input for a spacing not above 0, or corners beyond 1e9 metres or in the wrong order
-inline grid grid_over(glm::dvec2 low, glm::dvec2 high, double spacing) {
-    detail::require(spacing > 0 && spacing < 1e6, "spacing", spacing, "metres above 0");
-    const auto axis = [&](double from, double to, const char* name) {
-        detail::require(from >= -1e9 && to <= 1e9 && from <= to, name, to, "not below low, both within 1e9 metres");
-        const std::int64_t first = numeric::floor_to_int(from / spacing);
-        const std::int64_t last = (std::max)(-numeric::floor_to_int(-to / spacing), first + 1);
-        detail::require(last - first < (1 << 30), name, to, "at most 2^30 vertices from low");
-        return std::pair{static_cast<double>(first) * spacing, static_cast<int>(last - first + 1)};
-    };
-    const auto [x, width] = axis(low.x, high.x, "high.x");
-    const auto [y, height] = axis(low.y, high.y, "high.y");
-    return {.origin = {x, y}, .spacing = spacing, .width = width, .height = height};
-}
-
-/// The seabed's heights, and its labels where it has more than one, at the vertices of a grid.
-///
-/// The bits depend on the model and the positions of the vertices alone, not on the executor or on what else is in
-/// the grid.
-/// @param source  the library's or a user's own
-/// @throws invalid_input for a grid smaller than 2 x 2, beyond 1e9 metres or with a spacing not above 0, and for
-/// parameters of the model out of their range
-template <model Model, executor_argument Executor = serial_executor>
-heightfield sample(const Model& source, const grid& where, Executor&& ex = serial_executor{}) {
-    constexpr insonify::detail::uninitialized uninitialized;
-    const auto memory = insonify::detail::memory_of(ex);
-    heightfield result{.heights = image<float>(where.width, where.height, uninitialized, memory),
-                       .origin = where.origin + where.spacing * glm::dvec2(where.first),
-                       .spacing = where.spacing};
-    for (const type_properties& t : legend_of(source))
-        if (index_of(t.label) >= type_count) result.own_types.push_back(t);
-    if (const std::optional<type> only = only_type(source))
-        result.fallback = *only;
-    else
-        result.types = image<type>(where.width, where.height, uninitialized, memory);
-    validate(result);
-
-    const auto prepared = prepare(source);
-    ex.bulk(static_cast<std::size_t>(where.height), [&](std::size_t row) {
-        const int j = static_cast<int>(row);
-        const scanline line{.y = where.origin.y + where.spacing * (static_cast<double>(where.first.y) + j),
-                            .origin = where.origin.x,
-                            .spacing = where.spacing,
-                            .first = where.first.x,
-                            .grid_spacing = where.band_limited ? where.spacing : 0};
-        prepared.row(line, result.heights.row(j), result.types.empty() ? std::span<type>{} : result.types.row(j));
-    });
     return result;
 }
 
@@ -16649,6 +16193,32 @@ exact_occlusion exact::build(std::span<const caster> casters, const any_light& l
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/sonar/detail/checked_materials.hpp -----------------------------------------------
+// Checks of a scene and of the options that all sonars share.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// The materials of a valid scene's bottom, by seabed::type.
+/// @throws invalid_input for a scene, a cell or a law out of range
+template <class Options>
+bottom_materials checked_materials(const scene& s, const Options& options) {
+    validate(s);
+    require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
+    require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "0 metres or more");
+    validate_if_possible(options.law);
+    return resolved_bottom(s);
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/sonar/overhead/detail/seabed_reach.hpp -------------------------------------------
 // The ground that an overhead picture shows, and the ground that can throw a shadow into it.
 
@@ -17590,18 +17160,11 @@ class overhead_painter {
     template <executor E>
     overhead_painter(const scene& s, const overhead& rig, const render_options<Shadow, Labels, Law, Depth>& options,
                      E& ex)
-        : scene_(s), view_(rig), options_(options), whole_bottom_(memory_of(ex)) {
-        validate(s);
+        : scene_(s), materials_(checked_materials(s, options)), view_(rig), options_(options), bottom_(memory_of(ex)) {
         out_.rows.step = 0;
-        materials_ = resolved_bottom(s);
-        require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
         // The first draw clears it.
         out_.image = image<float>(rig.size.x, rig.size.y, uninitialized{}, memory_of(ex));
-        validate_if_possible(options.law);
-        require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "0 metres or more");
         require(options.reach >= 0 && numeric::is_finite(options.reach), "reach", options.reach, "0 or more");
-        require(options.edge_error >= 0, "edge_error", options.edge_error, "pixels, at least 0");
-        require(options.slope_error >= 0, "slope_error", options.slope_error, "a slope, at least 0");
         if constexpr (labelled) out_.labels = labels(s, rig.size.x, rig.size.y, ex);
         for (const target& t : s.targets)
             targets_.push_back(
@@ -17673,7 +17236,7 @@ class overhead_painter {
         field_ = seabed::sample(scene_.seabed, grid_under(ground, spacing), ex);
         out_.stats.seabed_samples = field_.heights.size();
         out_.stats.cell = spacing;
-        model_seabed(ex);
+        seabed::detail::tessellate_into(bottom_, field_, ex, bottom_first_);
         for (const float height : field_.heights.pixels()) {
             if (!numeric::is_finite(height)) {
                 has_gaps_ = true;
@@ -17692,35 +17255,9 @@ class overhead_painter {
         const glm::ivec2 size(field_.heights.width(), field_.heights.height());
         const glm::ivec2 last = bottom_first_ + size;
         const int farthest = (std::max)((std::max)(-bottom_first_.x, last.x), (std::max)(-bottom_first_.y, last.y));
-        if (has_gaps_ || options_.edge_error > 0 || farthest >= 1 << 11) return;
+        if (has_gaps_ || farthest >= 1 << 11) return;
         bottom_grid_ = regular_grid{
             size.x, size.y, field_.spacing * glm::dvec2(bottom_first_), {field_.spacing, 0}, {0, field_.spacing}, true};
-    }
-
-    /// Sets the bottom's mesh and, if there are several types, that of each vertex.
-    template <executor E>
-    void model_seabed(E& ex) {
-        const auto every = field_.types.pixels();
-        if (options_.edge_error == 0) {
-            seabed::detail::tessellate_into(whole_bottom_, field_, ex, bottom_first_);
-            bottom_ = whole_bottom_;
-            bottom_types_.assign(every.begin(), every.end());
-            return;
-        }
-        // An error of height h displaces a shadow by h cot(elevation), in any view.
-        const double tolerance = static_cast<double>(options_.edge_error) * view_.ground_sampling();
-        const double cot = casts ? view_.light().cot_elevation() : 0;
-        auto [shape, vertices] = seabed::tessellate(field_,
-                                                    {.height = tolerance / cot,
-                                                     .slope = static_cast<double>(options_.slope_error),
-                                                     .lean = tolerance * static_cast<double>(view_.rig().altitude),
-                                                     .nadir = -field_.spacing * glm::dvec2(bottom_first_)},
-                                                    ex, bottom_first_);
-        sparse_bottom_ = std::move(shape);
-        bottom_ = sparse_bottom_;
-        if (every.empty()) return;
-        bottom_types_.resize(vertices.size());
-        std::transform(vertices.begin(), vertices.end(), bottom_types_.begin(), [&](auto v) { return every[v]; });
     }
 
     /// The multiples of the spacing over a part of the ground, counted from the rig's position: the position of a
@@ -17790,7 +17327,7 @@ class overhead_painter {
             add(bottom_in_rig_, static_cast<std::uint32_t>(targets_.size()), labels::no_instance,
                 static_cast<std::uint8_t>(field_.fallback), materials_[seabed::index_of(field_.fallback)]);
             if (!field_.types.empty()) {
-                surfaces_.back().types = bottom_types_.data();
+                surfaces_.back().types = field_.types.pixels().data();
                 surfaces_.back().materials = materials_.data();
             }
         }
@@ -17872,12 +17409,9 @@ class overhead_painter {
     undecided_light undecided_;
     frame<Labels> out_;
     seabed::heightfield field_;
-    uninitialized_mesh whole_bottom_;         ///< if every vertex is drawn
-    mesh sparse_bottom_;                      ///< otherwise
-    mesh_view bottom_;                        ///< one of the two
-    std::vector<seabed::type> bottom_types_;  ///< by vertex; empty if there is one type
-    glm::ivec2 bottom_first_{0, 0};           ///< lattice coordinates of the first vertex, from the rig's position
-    float lowest_ = 0, highest_ = 0;          ///< of the bottom's vertices and the datum
+    uninitialized_mesh bottom_;
+    glm::ivec2 bottom_first_{0, 0};   ///< lattice coordinates of the first vertex, from the rig's position
+    float lowest_ = 0, highest_ = 0;  ///< of the bottom's vertices and the datum
     placed_mesh bottom_in_rig_;
     std::vector<surface> surfaces_;
     bool has_gaps_ = false;  ///< some vertices of the bottom have no data
@@ -18143,7 +17677,6 @@ struct settings {
     Shadow shadow{};  ///< with its texels per pixel, if it is a map
     double cell = 0;  ///< as in render_options
     int subpixel_bits = render_options<Shadow>{}.subpixel_bits;
-    float edge_error = 0;       ///< as in render_options
     double side_error = 1;      ///< tolerance: pixels by which facets of a curved target may displace its outline
     double shadow_error = 0.5;  ///< tolerance: pixels by which they may displace the edge of its shadow
     errors expected{};          ///< as measured by settings_for
@@ -18152,7 +17685,7 @@ struct settings {
     /// The settings as options of `render`; `settings.options<no_labels>()` without labels.
     template <class Labels = labels, backscatter_law Law = lambert>
     INSONIFY_MEMBER render_options<Shadow, Labels, Law> options() const {
-        return {.shadow = shadow, .cell = cell, .edge_error = edge_error, .subpixel_bits = subpixel_bits};
+        return {.shadow = shadow, .cell = cell, .subpixel_bits = subpixel_bits};
     }
 
     /// Tolerance for the distance between the facets of a target and its surface, metres, from side_error and
@@ -21686,8 +21219,6 @@ struct blend {
         extend(all, second.legend());
         return all;
     }
-    INSONIFY_TAGGED float operator()(double x, double y) const;
-    INSONIFY_TAGGED type type_at(double x, double y) const;
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -21729,12 +21260,6 @@ class blend_sampler {
 inline blend_sampler blend::prepare() const {
     return blend_sampler(*this);
 }
-inline float blend::operator()(double x, double y) const {
-    return at(prepare(), x, y).height;
-}
-inline type blend::type_at(double x, double y) const {
-    return at(prepare(), x, y).kind;
-}
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -21770,8 +21295,6 @@ struct detailed {
     /// By reference: the heightfield has to outlive the sampler.
     /// @throws invalid_input as `validate` of heightfields, and for parameters of the roughness out of their range
     INSONIFY_TAGGED detailed_sampler prepare() const;
-    INSONIFY_TAGGED float operator()(double x, double y) const;
-    INSONIFY_MEMBER type type_at(double x, double y) const { return field.type_at(x, y); }
     INSONIFY_MEMBER std::optional<type> only_type() const { return field.only_type(); }
     INSONIFY_MEMBER std::vector<type_properties> legend() const { return field.legend(); }
 };
@@ -21833,9 +21356,6 @@ class detailed_sampler {
 
 inline detailed_sampler detailed::prepare() const {
     return detailed_sampler(*this);
-}
-inline float detailed::operator()(double x, double y) const {
-    return at(prepare(), x, y).height;
 }
 
 }  // namespace seabed
@@ -22298,8 +21818,6 @@ struct mixed {
         for (const layer& l : layers) extend(all, l.bottom.legend());
         return all;
     }
-    INSONIFY_TAGGED float operator()(double x, double y) const;
-    INSONIFY_TAGGED type type_at(double x, double y) const;
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -22351,12 +21869,6 @@ class mixed_sampler {
 inline mixed_sampler mixed::prepare() const {
     return mixed_sampler(*this);
 }
-inline float mixed::operator()(double x, double y) const {
-    return at(prepare(), x, y).height;
-}
-inline type mixed::type_at(double x, double y) const {
-    return at(prepare(), x, y).kind;
-}
 
 }  // namespace seabed
 }  // namespace INSONIFY_ABI
@@ -22391,8 +21903,6 @@ struct sculpted {
     INSONIFY_TAGGED sculpt_sampler prepare() const;
     INSONIFY_MEMBER std::optional<type> only_type() const { return ground.only_type(); }
     INSONIFY_MEMBER std::vector<type_properties> legend() const { return ground.legend(); }
-    INSONIFY_TAGGED float operator()(double x, double y) const;
-    INSONIFY_TAGGED type type_at(double x, double y) const;
 };
 
 inline namespace INSONIFY_FLAGS {
@@ -22465,12 +21975,6 @@ class sculpt_sampler {
 
 inline sculpt_sampler sculpted::prepare() const {
     return sculpt_sampler(*this);
-}
-inline float sculpted::operator()(double x, double y) const {
-    return at(prepare(), x, y).height;
-}
-inline type sculpted::type_at(double x, double y) const {
-    return at(prepare(), x, y).kind;
 }
 
 }  // namespace seabed
@@ -23143,14 +22647,37 @@ inline double smooth_noise(double x, double y, std::uint32_t layer, const philox
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/sonar/side_scan/detail/speckle_draws.hpp -----------------------------------------
-// Complex Gaussian draws keyed by ping and bin, several at a time: the white noise that speckle is made of.
+// ------------ insonify/sonar/detail/speckle_field.hpp ---------------------------------------------------
+// The random fields of speckle, keyed by side, ping and bin: correlated complex Gaussian noise, and gamma textures.
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
+
+/// Random streams; changing one changes the noise of every seed.
+enum class speckle_stream : std::uint32_t { field = 0x73706B00, texture = 0x73706B02, choice = 0x73706B04 };
+
+/// Random numbers keyed by ping and bin.
+class ping_noise {
+  public:
+    ping_noise(std::uint64_t seed, side s, speckle_stream stream)
+        : key_(stream_key(seed, static_cast<std::uint32_t>(stream) + static_cast<std::uint32_t>(s))) {}
+
+    philox_counter operator()(std::int64_t ping, std::uint32_t bin, std::uint32_t draw) const {
+        return philox4x32(counter(ping, bin, draw), key_);
+    }
+
+    static philox_counter counter(std::int64_t ping, std::uint32_t bin, std::uint32_t draw) {
+        const auto number = static_cast<std::uint64_t>(ping);
+        return {bin, static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32), draw};
+    }
+    const philox_key& key() const { return key_; }
+
+  private:
+    philox_key key_;
+};
 
 /// Draws of unit power for bins in a row, real and imaginary parts in turn: those of normal_pair, to the same bits. One
 /// block of Philox serves two bins.
@@ -23187,6 +22714,82 @@ struct speckle_draw_kernel {
             }
         }
     }
+};
+
+/// A correlated complex Gaussian field of unit power, by rows, with real and imaginary parts interleaved.
+class speckle_field {
+  public:
+    /// @param along, across  correlation lengths of intensities, pings and bins
+    speckle_field(std::uint64_t seed, side looks, float along, float across, int bins)
+        : noise_(seed, looks, speckle_stream::field),
+          bins_(static_cast<std::size_t>(bins)),
+          across_(intensity_taps(static_cast<double>(across))),
+          along_(intensity_taps(static_cast<double>(along))) {}
+
+    /// The field of one look for consecutive pings, from number `first` on.
+    image<float> pings(std::int64_t first, int count, std::uint32_t look) const {
+        const int reach = static_cast<int>(along_.size()) - 1;
+        image<float> blurred(static_cast<int>(2 * bins_), count + 2 * reach);
+        for (int i = 0; i < blurred.height(); ++i) row(first - reach + i, look, blurred.row(i));
+        if (reach == 0) return blurred;
+        image<float> field(static_cast<int>(2 * bins_), count);
+        for (int i = 0; i < count; ++i) {
+            const auto to = field.row(i);
+            for (int j = -reach; j <= reach; ++j) {
+                const float tap = along_[static_cast<std::size_t>(numeric::abs(j))];
+                const float* const from = blurred.row(i + reach + j).data();
+                for (std::size_t x = 0; x < to.size(); ++x) to[x] += tap * from[x];
+            }
+        }
+        return field;
+    }
+
+  private:
+    /// One ping, correlated across the track.
+    void row(std::int64_t ping, std::uint32_t look, std::span<float> out) const {
+        const std::size_t reach = across_.size() - 1, margin = reach + (reach & 1);
+        const std::size_t blocks = (bins_ + 2 * margin + 1) / 2;
+        std::vector<float> white(4 * (blocks + speckle_draw_kernel::most_lanes));
+        const std::uint32_t first = 0u - static_cast<std::uint32_t>(margin);
+        dispatch(speckle_draw_kernel{noise_.key(), ping_noise::counter(ping, first, look), white.data(), blocks},
+                 best_isa());
+        for (std::size_t x = 0; x < out.size(); ++x) {
+            const float* const at = &white[x + 2 * margin];
+            float sum = across_[0] * *at;
+            for (std::size_t j = 1; j <= reach; ++j) sum += across_[j] * (*(at - 2 * j) + at[2 * j]);
+            out[x] = sum;
+        }
+    }
+
+    ping_noise noise_;
+    std::size_t bins_;
+    std::vector<float> across_, along_;
+};
+
+/// The texture of the K-distribution: gamma-distributed at the nodes of a lattice. A bin takes the value of one of the
+/// four nodes around it, chosen at random with bilinear weights, so that textures are correlated and keep their
+/// distribution.
+class speckle_texture {
+  public:
+    /// @param length  distance between nodes, pings and bins
+    speckle_texture(std::uint64_t seed, side looks, float length)
+        : nodes_(seed, looks, speckle_stream::texture),
+          choices_(seed, looks, speckle_stream::choice),
+          frequency_(1 / static_cast<double>(length)) {}
+
+    float operator()(std::int64_t ping, std::uint32_t bin, float shape) const {
+        const philox_counter words = choices_(ping, bin, 0);
+        // Rounding a coordinate plus a uniform number chooses either adjacent node with its linear weight.
+        const std::int64_t row = numeric::floor_to_int(static_cast<double>(ping) * frequency_ + uniform_open(words[0]));
+        const auto column =
+            static_cast<std::uint32_t>(numeric::floor_to_int(bin * frequency_ + uniform_open(words[1])));
+        return static_cast<float>(gamma_of_mean_one(static_cast<double>(shape),
+                                                    [&](std::uint32_t trial) { return nodes_(row, column, trial); }));
+    }
+
+  private:
+    ping_noise nodes_, choices_;
+    double frequency_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -24760,15 +24363,11 @@ class recorder {
     recorder(const scene& s, std::span<const ping> track, const Rig& rig, const options_type& options, E& ex)
         : scene_(s), track_(track), rig_(rig), options_(options) {
         validate(rig);
-        validate(s);
-        require(s.targets.size() < labels::by_seabed, "scene.targets.size()", s.targets.size(), "below 65535");
-        require(options.cell >= 0 && numeric::is_finite(options.cell), "cell", options.cell, "metres, or 0");
-        validate_if_possible(options.law);
+        materials_ = checked_materials(s, options);
         options.equation.for_each([](const auto& part) { validate_if_possible(part); });
         for (const ping& p : track) validate(p);
         out_.rows.side = rig.side;
         out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
-        materials_ = resolved_bottom(s);
         targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
         out_.image = filled(rig.bins, height, 0.0f, ex);
@@ -25128,11 +24727,8 @@ INSONIFY_ARITHMETIC_END
 // Speckle by seabed label.
 //
 // The fluctuation of a bin is a function of (seed, side, ping number, bin) alone: recordings made in pieces fit
-// together, and the two sides are independent.
-//
-// Based on: E. Jakeman, P. N. Pusey. A Model for Non-Rayleigh Sea Echo. IEEE Transactions on Antennas and Propagation
-// 24, 1976 (the K-distribution). George Marsaglia, Wai Wan Tsang. A Simple Method for Generating Gamma Variables. ACM
-// Transactions on Mathematical Software 26, 2000.
+// together, and the two sides are independent. The laws are those of the speckle filters (filter/echo_noise.hpp), for
+// recordings without a largest value.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -25174,107 +24770,26 @@ struct seabed_speckle {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Random streams; changing one changes the noise of every seed.
-enum class speckle_stream : std::uint32_t { field = 0x73706B00, texture = 0x73706B02, choice = 0x73706B04 };
-
-/// Random numbers keyed by ping and bin.
-class ping_noise {
-  public:
-    ping_noise(std::uint64_t seed, side s, speckle_stream stream)
-        : key_(stream_key(seed, static_cast<std::uint32_t>(stream) + static_cast<std::uint32_t>(s))) {}
-
-    philox_counter operator()(std::int64_t ping, std::uint32_t bin, std::uint32_t draw) const {
-        return philox4x32(counter(ping, bin, draw), key_);
-    }
-
-    static philox_counter counter(std::int64_t ping, std::uint32_t bin, std::uint32_t draw) {
-        const auto number = static_cast<std::uint64_t>(ping);
-        return {bin, static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32), draw};
-    }
-    const philox_key& key() const { return key_; }
-
-  private:
-    philox_key key_;
-};
-
-/// A correlated complex Gaussian field of unit power, by rows, with real and imaginary parts interleaved.
-class speckle_field {
-  public:
-    speckle_field(const ping_noise& noise, const seabed_speckle& s, int bins)
-        : noise_(noise),
-          bins_(static_cast<std::size_t>(bins)),
-          across_(intensity_taps(static_cast<double>(s.across_track))),
-          along_(intensity_taps(static_cast<double>(s.along_track))) {}
-
-    /// The field of one look for consecutive pings, from number `first` on.
-    image<float> pings(std::int64_t first, int count, std::uint32_t look) const {
-        const int reach = static_cast<int>(along_.size()) - 1;
-        image<float> blurred(static_cast<int>(2 * bins_), count + 2 * reach);
-        for (int i = 0; i < blurred.height(); ++i) row(first - reach + i, look, blurred.row(i));
-        if (reach == 0) return blurred;
-        image<float> field(static_cast<int>(2 * bins_), count);
-        for (int i = 0; i < count; ++i) {
-            const auto to = field.row(i);
-            for (int j = -reach; j <= reach; ++j) {
-                const float tap = along_[static_cast<std::size_t>(numeric::abs(j))];
-                const float* const from = blurred.row(i + reach + j).data();
-                for (std::size_t x = 0; x < to.size(); ++x) to[x] += tap * from[x];
-            }
-        }
-        return field;
-    }
-
-  private:
-    /// One ping, correlated across the track.
-    void row(std::int64_t ping, std::uint32_t look, std::span<float> out) const {
-        const std::size_t reach = across_.size() - 1, margin = reach + (reach & 1);
-        const std::size_t blocks = (bins_ + 2 * margin + 1) / 2;
-        std::vector<float> white(4 * (blocks + speckle_draw_kernel::most_lanes));
-        const std::uint32_t first = 0u - static_cast<std::uint32_t>(margin);
-        dispatch(speckle_draw_kernel{noise_.key(), ping_noise::counter(ping, first, look), white.data(), blocks},
-                 best_isa());
-        for (std::size_t x = 0; x < out.size(); ++x) {
-            const float* const at = &white[x + 2 * margin];
-            float sum = across_[0] * *at;
-            for (std::size_t j = 1; j <= reach; ++j) sum += across_[j] * (*(at - 2 * j) + at[2 * j]);
-            out[x] = sum;
-        }
-    }
-
-    ping_noise noise_;
-    std::size_t bins_;
-    std::vector<float> across_, along_;
-};
-
-/// The texture of the K-distribution: gamma-distributed at the nodes of a lattice. A bin takes the value of one of the
-/// four nodes around it, chosen at random with bilinear weights, so that textures are correlated and keep their
-/// distribution.
-class speckle_texture {
-  public:
-    speckle_texture(const seabed_speckle& s, side looks)
-        : nodes_(s.seed, looks, speckle_stream::texture),
-          lots_(s.seed, looks, speckle_stream::choice),
-          frequency_(1 / static_cast<double>(s.texture_length)) {}
-
-    float operator()(std::int64_t ping, std::uint32_t bin, float shape) const {
-        const philox_counter lot = lots_(ping, bin, 0);
-        // Rounding a coordinate plus a uniform number chooses either neighbour with its linear weight.
-        const std::int64_t row = numeric::floor_to_int(static_cast<double>(ping) * frequency_ + uniform_open(lot[0]));
-        const auto column = static_cast<std::uint32_t>(numeric::floor_to_int(bin * frequency_ + uniform_open(lot[1])));
-        return static_cast<float>(gamma_of_mean_one(static_cast<double>(shape),
-                                                    [&](std::uint32_t trial) { return nodes_(row, column, trial); }));
-    }
-
-  private:
-    ping_noise nodes_, lots_;
-    double frequency_;
-};
-
 inline void validate(const speckle_law& law) {
     require(law.looks >= 1 && law.looks <= 64, "speckle_law.looks", law.looks, "1 to 64");
     require(law.texture == 0 || (law.texture >= 0.01f && numeric::is_finite(law.texture)), "speckle_law.texture",
             law.texture, "0, or at least 0.01");
     require(law.steady >= 0 && numeric::is_finite(law.steady), "speckle_law.steady", law.steady, "0 or more");
+}
+
+/// The law of each label.
+/// @throws invalid_input for a parameter out of its range
+inline speckle_laws resolved_laws(const seabed_speckle& s) {
+    require(s.along_track >= 0 && s.along_track <= 16, "seabed_speckle.along_track", s.along_track, "0 to 16");
+    require(s.across_track >= 0 && s.across_track <= 16, "seabed_speckle.across_track", s.across_track, "0 to 16");
+    require(s.texture_length >= 1 && s.texture_length <= 1024, "seabed_speckle.texture_length", s.texture_length,
+            "1 to 1024");
+    speckle_laws laws = s.bottom;
+    for (speckle_law& law : laws)
+        if (law.looks == looks_by_seabed_model) law = s.elsewhere;
+    laws[labels::no_seabed] = s.elsewhere;
+    for (const speckle_law& law : laws) validate(law);
+    return laws;
 }
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -25293,24 +24808,14 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
     using detail::require;
     require(types.width() == mean.width(), "types.width()", types.width(), "that of the intensities");
     require(types.height() == mean.height(), "types.height()", types.height(), "that of the intensities");
-    require(s.along_track >= 0 && s.along_track <= 16, "seabed_speckle.along_track", s.along_track, "0 to 16");
-    require(s.across_track >= 0 && s.across_track <= 16, "seabed_speckle.across_track", s.across_track, "0 to 16");
-    require(s.texture_length >= 1 && s.texture_length <= 1024, "seabed_speckle.texture_length", s.texture_length,
-            "1 to 1024");
     require(numbers.step == 1 || numbers.step == -1, "ping_numbers.step", numbers.step, "1 or -1");
-    detail::validate(s.elsewhere);
-    std::vector<speckle_law> laws(s.bottom.begin(), s.bottom.end());
-    for (speckle_law& law : laws)
-        if (law.looks == looks_by_seabed_model) law = s.elsewhere;
-    laws[labels::no_seabed] = s.elsewhere;
-    for (const speckle_law& law : laws) detail::validate(law);
-
+    const speckle_laws laws = detail::resolved_laws(s);
     // All looks are computed for all bins; types use as many as they have.
     int looks = 1;
     for (const speckle_law& law : laws) looks = (std::max)(looks, law.looks);
 
-    const detail::speckle_field field({s.seed, numbers.side, detail::speckle_stream::field}, s, mean.width());
-    const detail::speckle_texture texture(s, numbers.side);
+    const detail::speckle_field field(s.seed, numbers.side, s.along_track, s.across_track, mean.width());
+    const detail::speckle_texture texture(s.seed, numbers.side, s.texture_length);
     image<float> out(mean.width(), mean.height());
     constexpr std::size_t grain = 32;
     bulk_ranges(ex, static_cast<std::size_t>(mean.height()), grain, [&](std::size_t from, std::size_t to) {
@@ -25325,9 +24830,7 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
                 for (std::size_t x = 0; x < row.size(); ++x) {
                     const speckle_law& law = laws[types.row(first + i)[x]];
                     if (look >= law.looks) continue;
-                    const float steady = numeric::square_root(law.steady);
-                    const float re = g[2 * x] + steady, im = g[2 * x + 1];
-                    row[x] += (re * re + im * im) / ((1 + law.steady) * static_cast<float>(law.looks));
+                    row[x] += detail::look_intensity(g[2 * x], g[2 * x + 1], law.steady, law.looks);
                 }
             }
         }
@@ -25829,6 +25332,48 @@ auto occlusion_of(const scene& s, const shadow::any_light& light, const occlusio
                   const Shadow& policy = {}, E&& ex = {}) {
     using built = decltype(policy.build(std::span<const shadow::caster>(), light, shadow::point_bounds{}, ex));
     return scene_occlusion<built>(s, light, within, policy, ex);
+}
+
+}  // namespace INSONIFY_FLAGS
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/sonar/options.hpp ----------------------------------------------------------------
+// The options that pictures of every sonar have, and the default ones of a rig.
+//
+// `render_options` are those of overhead pictures, `record_options` those of side-scan pictures. They share a
+// backscatter law, the spacing `cell` of the seabed's vertices, `with(law)` and `without_labels()`; each adds what its
+// sonar alone has: shadow policy and rasterizer, or the parts of the sonar equation. Code for any rig starts from the
+// rig:
+//
+//     in::render(scene, rig, in::options_for(rig).with(law).without_labels())
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+/// Options of any sonar's pictures.
+template <class O>
+concept sonar_options = requires(const O& o) {
+    { o.law } -> backscatter_law;
+    { o.cell } -> std::convertible_to<double>;
+    o.with(lambert{});
+    o.without_labels();
+};
+
+inline namespace INSONIFY_FLAGS {
+
+/// The default options of pictures by a rig.
+inline render_options<> options_for(const overhead&) {
+    return {};
+}
+template <across_track Axis>
+record_options<> options_for(const side_scan_rig<Axis>&) {
+    return {};
 }
 
 }  // namespace INSONIFY_FLAGS
