@@ -12,7 +12,7 @@ int main() {
     scene.add(in::cube{.size = glm::vec3(0.6f)}, {.position = {-12, 8, 0.25}, .yaw = 20_deg}, "cube");
 
     in::side_scan rig{.altitude = 4, .ping_spacing = 0.05f, .pings = 400, .range = 20, .bins = 700};
-    const auto hear = [&](in::side side) {  // frame.image holds intensities, frame.labels who is where
+    const auto hear = [&](in::side side) {  // frame.image holds intensities, frame.labels their sources
         rig.side = side;
         return in::with_speckle(in::render(scene, rig), {.seed = 7});
     };

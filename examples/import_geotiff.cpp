@@ -1,6 +1,6 @@
 // A GeoTIFF of depths or heights as the bottom of a picture: import_geotiff <file> <out.png> [-1 for depths]
 //
-// GDAL reads it (GeoTIFF and the hundred other formats that it knows); what it calls no data stays a hole up to ten
+// GDAL reads it (GeoTIFF and a hundred other formats); pixels without data stay holes up to ten
 // vertices wide. Where the survey is too coarse for a sonar, sand of the survey's own roughness goes on.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>

@@ -6,10 +6,10 @@
 
 namespace in = insonify;
 
-/// Pixels that lose part of their signal; a share of the rows loses all of it.
+/// Some pixels lose part of their signal, some rows all of it.
 struct dropouts {
-    float pixels = 0.2f;  ///< in [0, 1]: share of pixels that become darker
-    float rows = 0.02f;   ///< in [0, 1]: share of rows that are lost
+    float pixels = 0.2f;  ///< in [0, 1]: fraction of the pixels that become darker
+    float rows = 0.02f;   ///< in [0, 1]: fraction of the rows that are lost
     std::uint64_t seed = 1;
 
     auto pass() const {
@@ -17,11 +17,11 @@ struct dropouts {
         const in::philox_key by_pixel = in::stream_key(seed, 0x6F776E31), by_row = in::stream_key(seed, 0x6F776E32);
         return [=, *this](float value, int x, int y) {
             const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
-            const auto lot = in::philox4x32({column, row, 0, 0}, by_pixel);
-            const double row_lot = in::uniform_open(in::philox4x32({row, 0, 0, 0}, by_row)[0]);
-            if (row_lot < static_cast<double>(rows)) return 0.0f;
-            if (!(in::uniform_open(lot[0]) < static_cast<double>(pixels))) return value;
-            return value * static_cast<float>(in::uniform_open(lot[1]));
+            const auto words = in::philox4x32({column, row, 0, 0}, by_pixel);
+            const double of_row = in::uniform_open(in::philox4x32({row, 0, 0, 0}, by_row)[0]);
+            if (of_row < static_cast<double>(rows)) return 0.0f;
+            if (!(in::uniform_open(words[0]) < static_cast<double>(pixels))) return value;
+            return value * static_cast<float>(in::uniform_open(words[1]));
         };
     }
 };

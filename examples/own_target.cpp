@@ -9,7 +9,7 @@ using namespace in::literals;
 
 int main(int argc, char** argv) try {
     if (argc < 2) return std::fputs("own_target mesh.obj\n", stderr), 2;
-    // Made once: bounds, normals, and what shadows need to know of the shape. Copies refer to the same triangles.
+    // Bounds, normals and what shadows need of the shape are computed once. Copies refer to the same triangles.
     const in::shared_mesh shape = in::transformed(in::load_obj(argv[1]), in::to_world({.roll = 90_deg}));  // y is up
     const glm::dvec3 size = shape.box().size();
     const auto scale = static_cast<float>(1 / (std::max)({size.x, size.y, size.z}));

@@ -1,4 +1,4 @@
-// Somebody's mesh on a rocky seabed: render_mesh [mesh] [out.png] [y|z: which axis is up]
+// An imported mesh on a rocky seabed: render_mesh [mesh] [out.png] [y|z: which axis is up]
 //
 // Reads OBJ by itself, and whatever assimp reads (FBX, glTF, STL, PLY, ...) where it was built with assimp.
 #include <insonify/core/thread_pool.hpp>

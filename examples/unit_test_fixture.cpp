@@ -1,4 +1,4 @@
-// insonify inside somebody else's unit test: a small, deterministic frame as a fixture for a shadow detector.
+// A small, deterministic frame as the fixture of a unit test: here of a shadow detector.
 #include <insonify/insonify.hpp>
 
 #include "../tests/catch.hpp"

@@ -1,5 +1,5 @@
-// A `new` that fails on demand, and a count of what is allocated. It replaces the program's operators: one file of a
-// program may include it.
+// Replaces the global operator new with one that fails on demand and counts allocations. One file of a program may
+// include it.
 #pragma once
 
 #include <atomic>
@@ -13,8 +13,8 @@ namespace failing_new {
 
 inline std::atomic<long> calls{0};         ///< so far
 inline std::atomic<long> in_use{0};        ///< allocated and not freed
-inline std::atomic<long> fails_at{0};      ///< which call fails; 0: none
-inline std::atomic<bool> for_good{false};  ///< and all that follow
+inline std::atomic<long> fails_at{0};      ///< number of the call that fails; 0: none
+inline std::atomic<bool> for_good{false};  ///< whether all later calls fail, too
 
 inline void* allocate(std::size_t size, std::size_t alignment = alignof(std::max_align_t)) noexcept {
     const long number = ++calls, limit = fails_at;
@@ -35,8 +35,8 @@ inline void release(void* memory) noexcept {
     std::free(memory);
 }
 
-/// Runs `use` again and again, and lets each of its allocations fail in turn, first alone, then with all that follow.
-/// std::bad_alloc comes out, or the same result as ever; nothing stays allocated.
+/// Runs `use` once for each of its allocations, which fails: first alone, then with all that follow. Checks that `use`
+/// throws std::bad_alloc or returns its usual result, and leaks nothing.
 /// @returns how many allocations failed
 template <class Use>
 long in_turn(const Use& use) {

@@ -26,7 +26,7 @@ inline in::overhead rig(double azimuth, double elevation, int pixels) {
             .light_azimuth = radians(azimuth)};
 }
 
-/// A scene of a mesh alone, turned so that nothing runs along pixels' rows.
+/// A scene of a mesh alone, rotated so that no edge is parallel to a row of pixels.
 inline in::scene bare(const in::mesh& m, in::pose placement = {.position = {0.0123, 0.0457, 0}, .yaw = 0.3f}) {
     in::scene s;
     s.seabed = in::seabed::none{};
@@ -43,7 +43,7 @@ inline in::scene on_ground(const in::mesh& m, in::pose placement = {.position = 
     return s;
 }
 
-/// A mesh that somebody modelled with y up, 2 m wide or long, its lowest point just below the ground.
+/// A mesh with y up, scaled to 2 m and placed with its lowest point just below the ground.
 inline in::scene standing(in::mesh m) {
     m.normals.clear();
     in::bounding_box box = in::bounds(m);
@@ -81,7 +81,7 @@ inline in::scene hall() {
     return s;
 }
 
-/// A library's seabed as a mesh like any other.
+/// A seabed of the library as a plain mesh.
 inline in::scene bottom_of(const in::seabed::any& seabed, double spacing) {
     const int vertices = static_cast<int>(6 / spacing) + 1;
     return bare(in::seabed::tessellate(in::seabed::sample(seabed, {{-3.0123, -2.9871}, spacing, vertices, vertices})),

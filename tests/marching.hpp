@@ -11,7 +11,7 @@ namespace marching {
 
 namespace in = insonify;
 
-/// Which pixels of a rig's picture of a seabed are dark: they face away from the light, or something is in the way.
+/// The dark pixels of a rig's picture of a seabed: those that face away from the light or are occluded.
 /// @param finest  vertices per pixel
 template <class E>
 in::image<std::uint8_t> dark_pixels(const in::seabed::any& bottom, const in::overhead& rig, double finest, E&& ex) {
@@ -22,7 +22,7 @@ in::image<std::uint8_t> dark_pixels(const in::seabed::any& bottom, const in::ove
     const glm::dvec2 travel(std::cos(azimuth), std::sin(azimuth));
     const double half = 0.5 * pixel * std::max(rig.size.x, rig.size.y);
 
-    // How high and deep it goes, then everything that can be seen or throw a shadow there.
+    // The range of heights, then the ground in view and what can cast a shadow there.
     double low = 1e30, top = -1e30;
     const auto look = [&](double around, double spacing) {
         const glm::dvec2 corner = rig.position - around;

@@ -7,7 +7,7 @@
 //
 // A picture's corners are rounded to sub-pixels, so a centre may miss the triangle shown. The point is then the one of
 // the triangle's outline that is nearest on the screen, and what merely touches it there doesn't block. Such pixels are
-// `beside` and counted apart: which triangle they show is a matter of visibility.
+// `beside` and counted apart: the triangle they show is decided by visibility, not by shadows.
 //
 // Signs are computed in long double, of vectors from the point. What depends on less than 1e-12 of the lengths that are
 // compared, or on whether another triangle passes within 1e-10 altitudes of the point, is undecided. Triangles in the

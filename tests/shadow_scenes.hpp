@@ -1,4 +1,4 @@
-// Scenes whose shadows are compared with somebody else's: three seabeds, each with the four targets, an imported mesh
+// Scenes whose shadows are compared with other renderers': three seabeds, each with the four targets, an imported mesh
 // and an open sheet on it, all of them meshes, so that everyone is given the same triangles.
 #pragma once
 
@@ -42,7 +42,7 @@ inline in::scene make(int kind, double spacing) {
     in::scene s;
     s.seabed = in::seabed::none{};
     const auto bottom = seabed(kind);
-    // No edge of the grid may go through pixels' centres, where it is a matter of taste who is seen.
+    // No edge of the grid may go through a pixel's centre: fill rules differ there.
     const glm::dvec2 corner(-5.0123, -4.9871);
     const int vertices = static_cast<int>(10 / spacing) + 1;
     const auto field = in::seabed::sample(bottom, {corner, spacing, vertices, vertices});

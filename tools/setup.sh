@@ -84,7 +84,7 @@ missing() {
     done <<<"$requirements"
 }
 
-# Installs Debian packages, as root or through sudo, with fresh lists only if the old ones don't know them.
+# Installs Debian packages, as root or through sudo, updating the lists only if they lack a package.
 install_debian() {
     local root=()
     [ "$(id -u)" = 0 ] || root=(sudo)

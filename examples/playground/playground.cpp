@@ -59,7 +59,7 @@ void add_target(in::scene& scene, const settings& s, glm::dvec2 at) {
     }
 }
 
-/// Gray values of a linear picture, as the page's look asks for.
+/// Gray values of a linear picture, by the page's display settings.
 in::image<in::rgb8> shown(const in::image<float>& gray, int look) {
     return look == 0 ? gray | in::colormap::copper : look == 1 ? gray | in::colormap::gray : gray | in::colormap::sea;
 }

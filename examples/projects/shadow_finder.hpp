@@ -1,4 +1,4 @@
-// The code under test, which knows nothing of insonify, and the scene that it is tested on.
+// The code under test, which does not depend on insonify, and the scene that it is tested on.
 #pragma once
 
 #include <insonify/insonify.hpp>

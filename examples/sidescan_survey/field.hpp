@@ -72,7 +72,7 @@ class target_field {
     std::uint64_t seed_;
 };
 
-/// The targets near a part of the track, and the contact numbers by which the survey knows them.
+/// The targets near a part of the track, with the survey's contact numbers.
 struct sight {
     in::scene scene;
     std::vector<std::uint16_t> numbers{0};  ///< by instance

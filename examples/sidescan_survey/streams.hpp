@@ -23,7 +23,7 @@ class pgm_stream {
         file_.write(reinterpret_cast<const char*>(pixels.data()), static_cast<std::streamsize>(pixels.size()));
         check();
     }
-    /// 16 bits, the high one first, as PGM wants it.
+    /// 16 bits, big-endian as in PGM.
     void row(std::span<const std::uint16_t> pixels) {
         bytes_.clear();
         for (const std::uint16_t p : pixels) {

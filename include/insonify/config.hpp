@@ -134,8 +134,8 @@
 #define INSONIFY_RARE
 #endif
 
-// Functions of targets that could fuse products with sums, for g++ without -ffp-contract=off; clang is told by
-// INSONIFY_ARITHMETIC_BEGIN.
+// Functions of targets that could fuse products with sums, for g++ without -ffp-contract=off; for clang,
+// INSONIFY_ARITHMETIC_BEGIN turns that off.
 #if defined(__GNUC__) && !defined(__clang__)
 #define INSONIFY_NEVER_FUSED __attribute__((optimize("fp-contract=off")))
 #else

@@ -1,5 +1,5 @@
 // How long seabeds take: seabeds [threads] prints the least of 25 times, in milliseconds, for 1024 x 1024 samples over
-// 35 m with and without their normals, and for one of 65 x 65 on one thread, as a small scene wants it.
+// 35 m with and without their normals, and for one of 65 x 65 on one thread, the size of a small scene.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 

@@ -43,7 +43,7 @@ piece swath() {
     };
 }
 
-/// What a unit test of somebody else's draws, scene and all.
+/// The fixture of a unit test: scene and frame.
 piece fixture() {
     return [] {
         in::scene scene;

@@ -1,4 +1,4 @@
-// What gives back gray doesn't stand in the place of an image of colours.
+// A filter that returns gray pixels cannot write into an image of colours.
 // expect: same_as|no match|no matching
 #include <insonify/filter/gray.hpp>
 #include <insonify/filter/pipe.hpp>

@@ -1,4 +1,4 @@
-// A chain of which a stage can't take what the stage before it makes doesn't apply to the image.
+// A chain does not apply to an image if a stage does not accept the pixels of the stage before it.
 // expect: filter_for
 #include <insonify/filter/colormap.hpp>
 #include <insonify/filter/histogram.hpp>

@@ -117,7 +117,7 @@ struct comparison {
                     moved += snap * rise;
                     sign = -1;
                 }
-                // A plane of depth moves with its corners, and on a sliver by a lot.
+                // Snapping a triangle's corners moves its depth plane, on slivers far.
                 const bool contested = a != 0 && b != 0 && std::abs(between) <= moved + 1e-5;
                 if (at_edge)
                     ++at_edges;

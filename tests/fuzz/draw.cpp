@@ -1,7 +1,7 @@
-// The rasterizer on any bytes: what a draw promises holds whatever it is given, and coverage is the 128-bit oracle's.
+// Fuzzes the rasterizer: the guarantees of a draw hold for any input, and coverage is that of the 128-bit oracle.
 //
-// Half of the drawings are placed in pixels, with w a power of two, so that where a vertex lies can be told exactly and
-// the oracle can judge. The other half are any clip coordinates, for which only the promises are checked.
+// Half of the drawings are placed in pixels, with w a power of two, so that snapped positions are known exactly and
+// coverage is compared with the oracle. The other half have any clip coordinates; only the guarantees are checked.
 #include <algorithm>
 #include <cmath>
 #include <limits>

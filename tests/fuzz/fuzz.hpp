@@ -1,4 +1,4 @@
-// What the fuzz targets share: bytes taken apart into numbers, and an end for whoever breaks a promise.
+// Shared by the fuzz targets: reads numbers from bytes, and aborts where an invariant does not hold.
 #pragma once
 
 #include <insonify/core/image.hpp>

@@ -69,7 +69,7 @@ def free_ports(count):
 
 
 class Cluster:
-    """Slurm in a folder: started and stopped here, of nobody else's configuration."""
+    """Slurm in a folder: started and stopped by this test, with its own configuration."""
 
     def __init__(self, home):
         self.home, self.processes = home, {}

@@ -269,26 +269,26 @@ inline height_range range_after(const heap& e, const height_range& ground) {
 
 /// Weights of the 16 nodes around a coordinate, four to a length, in the smoothed value: a cubic B-spline, which
 /// preserves slopes.
-inline std::array<float, 16> smooth_shares(float fraction) {
-    std::array<float, 16> shares;
+inline std::array<float, 16> spline_weights(float fraction) {
+    std::array<float, 16> weights;
     for (std::size_t n = 0; n < 16; ++n) {
         const float t = numeric::abs(0.25f * (fraction + 7 - static_cast<float>(n)));
         const float s = 2 - t;
-        shares[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
+        weights[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
     }
-    return shares;
+    return weights;
 }
 
 /// Smooths a row of the ground.
 /// @param ground  fills the heights of rows
 template <class Ground>
 void smooth_row(const smooth& e, const scanline& line, std::span<float> heights, Ground&& ground) {
-    const double step = eight_bits(static_cast<double>(e.length)) / 4;
+    const double step = rounded_to_eight_bits(static_cast<double>(e.length)) / 4;
     const lattice_coordinate v(line.y / step);
     const std::int64_t first = numeric::floor_to_int(line.x(0) / step) - 7;
     const std::int64_t last = numeric::floor_to_int(line.x(heights.size() - 1) / step) + 8;
     std::vector<float> nodes(static_cast<std::size_t>(last - first + 1)), column(nodes.size(), 0.0f);
-    const auto up = smooth_shares(v.fraction);
+    const auto up = spline_weights(v.fraction);
     for (std::size_t j = 0; j < 16; ++j) {
         const double y = step * static_cast<double>(v.cell - 7 + static_cast<std::int64_t>(j));
         ground(scanline{.y = y, .origin = step * static_cast<double>(first), .spacing = step}, std::span(nodes));
@@ -298,7 +298,7 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
         const double x = line.x(i);
         const lattice_coordinate u(x / step);
         const float* const from = &column[static_cast<std::size_t>(u.cell - 7 - first)];
-        const auto across = smooth_shares(u.fraction);
+        const auto across = spline_weights(u.fraction);
         float even = 0;
         for (std::size_t n = 0; n < 16; ++n) even += across[n] * from[n];
         heights[i] = lerp(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));

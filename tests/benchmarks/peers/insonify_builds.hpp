@@ -1,5 +1,5 @@
-// The library as other builds of the same code: for this machine alone, and without vector instructions. What users get
-// who only include it is raced against both.
+// Other builds of the library: for this machine's processor alone, and without vector instructions. Both are compared
+// with the default build.
 #pragma once
 
 #include <cstdint>

@@ -108,7 +108,7 @@ struct runner {
     }
 };
 
-/// What was asked for and can run, with a word about what can't.
+/// The requested renderers that can run; reports those that cannot.
 std::vector<runner> make_runners(const workload::scene& scene, const options& o) {
     const auto pixels = static_cast<std::size_t>(scene.size.pixels);
     const auto is_wanted = [&](const std::string& name) {

@@ -1,5 +1,5 @@
 // What is raced. The reference workload W: a cylinder on a rippled seabed of 40 m x 40 m under a camera 10 m up, lit at
-// 6 degrees; and two that ask for other things: a close-up from 1 m, and a mesh of millions of triangles over rock.
+// 6 degrees; and two of other kinds: a close-up from 1 m, and a mesh of millions of triangles over rock.
 // In the library's own namespace of a build, as its types are: a program may hold several (insonify_builds.hpp).
 #pragma once
 

@@ -25,7 +25,7 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TEST_CASE("masks are compared by their intersection over union, false and missed pixels") {
+TEST_CASE("Masks are compared by their intersection over union, false and missed pixels") {
     const mask truth = rectangle(20, 20, 5, 5, 15, 15), shifted = rectangle(20, 20, 6, 5, 16, 15);
     const auto d = accuracy::compare_masks(shifted, truth);
     CHECK(d.common == 90);
@@ -40,13 +40,13 @@ TEST_CASE("masks are compared by their intersection over union, false and missed
     CHECK(reversed.missed_pixels == 0);
 }
 
-TEST_CASE("growing a mask by a pixel displaces its boundary by about one pixel") {
+TEST_CASE("Growing a mask by a pixel displaces its boundary by about one pixel") {
     const auto d =
         accuracy::compare_masks(rectangle(400, 400, 99, 99, 301, 301), rectangle(400, 400, 100, 100, 300, 300));
     CHECK(d.mean_boundary_displacement() == Approx(1).epsilon(0.02));
 }
 
-TEST_CASE("empty and full masks have an intersection over union of one with themselves and no boundary") {
+TEST_CASE("Empty and full masks have an intersection over union of one with themselves and no boundary") {
     const mask none(8, 4), all(8, 4, 1);
     CHECK(accuracy::compare_masks(none, none).intersection_over_union() == 1);
     CHECK(accuracy::compare_masks(none, none).mean_boundary_displacement() == 0);
@@ -57,13 +57,13 @@ TEST_CASE("empty and full masks have an intersection over union of one with them
     CHECK(accuracy::compare_masks(mask(), mask()).intersection_over_union() == 1);
 }
 
-TEST_CASE("any value but zero is in the mask; strided views are compared by their pixels") {
+TEST_CASE("Any value but zero is in the mask; strided views are compared by their pixels") {
     const mask a{{0, 1, 9}, {0, 2, 9}}, b{{0, 255}, {0, 7}};
     CHECK(accuracy::compare_masks(a.view().part(0, 0, 2, 2), b).intersection_over_union() == 1);
     CHECK(accuracy::compare_masks(a.view().part(0, 0, 2, 2), b).boundary_pixels == 2);
 }
 
-TEST_CASE("images are compared by root mean square, largest difference, and peak signal-to-noise ratio") {
+TEST_CASE("Images are compared by root mean square, largest difference, and peak signal-to-noise ratio") {
     const in::image<float> truth{{0.0f, 0.5f}, {1.0f, 0.25f}}, result{{0.0f, 0.5f}, {0.0f, 0.25f}};
     const auto d = accuracy::compare_images(result, truth);
     CHECK(d.pixels == 4);
@@ -78,7 +78,7 @@ TEST_CASE("images are compared by root mean square, largest difference, and peak
     CHECK(bytes.largest == 1);
 }
 
-TEST_CASE("equal images have no error and an infinite signal-to-noise ratio") {
+TEST_CASE("Equal images have no error and an infinite signal-to-noise ratio") {
     const in::image<float> m(3, 3, 0.1f);
     CHECK(accuracy::compare_images(m, m).rmse() == 0);
     CHECK(accuracy::compare_images(m, m).largest == 0);
@@ -88,7 +88,7 @@ TEST_CASE("equal images have no error and an infinite signal-to-noise ratio") {
     CHECK_THROWS_AS(accuracy::compare_images(m, m).psnr(inf), in::invalid_input);
 }
 
-TEST_CASE("one NaN pixel makes every figure NaN") {
+TEST_CASE("One NaN pixel makes every figure NaN") {
     const in::image<float> truth(50, 50, 0.5f);
     in::image<float> broken = truth;
     broken(10, 10) = std::numeric_limits<float>::quiet_NaN();
@@ -103,7 +103,7 @@ TEST_CASE("one NaN pixel makes every figure NaN") {
     CHECK(accuracy::compare_images(infinite, infinite).largest == 0);
 }
 
-TEST_CASE("images of different sizes are refused") {
+TEST_CASE("Images of different sizes are refused") {
     CHECK_THROWS_AS(accuracy::compare_masks(mask(2, 3), mask(3, 2)), in::invalid_input);
     CHECK_THROWS_AS(accuracy::compare_images(mask(2, 3), mask(2, 2)), in::invalid_input);
     CHECK_THROWS_AS(accuracy::compare_images(in::image<float>(2, 3), in::image<float>(1, 3)), in::invalid_input);

@@ -51,7 +51,7 @@ struct counting_kernel {
 
 }  // namespace
 
-TEST_CASE("Words, logarithms and normal draws are the same one by one and in lanes, at every instruction set") {
+TEST_CASE("Words, logarithms and normal draws are the same in scalar code and in lanes, at every instruction set") {
     const in::isa level = GENERATE(in::isa::scalar, in::isa::baseline, in::isa::avx2, in::isa::avx512);
     constexpr std::size_t count = 20000;
     draws found;

@@ -76,7 +76,7 @@ TEST_CASE("Double doubles keep a hundred bits") {
     CHECK(worst < 0x1p-98);
 }
 
-TEST_CASE("A double double rounds to the float that both halves say") {
+TEST_CASE("A double double rounds once to float, from both halves") {
     // 1 + 2^-24 is the middle between two floats; a double alone would round to even.
     const double middle = 1 + 0x1p-24;
     CHECK(double_double{middle, 0}.to_float() == 1.0f);

@@ -216,8 +216,8 @@ TEST_CASE("Correlated gaussian noise: its variance, and 1 / e at its length") {
     CHECK(correlation(grain, grain, 0, 4) == Approx(std::exp(-1)).margin(0.04));
 }
 
-TEMPLATE_TEST_CASE("Echo noise is independent of its neighbours, of other frames, of other seeds and of its kin", "",
-                   in::rayleigh, in::gamma_speckle, in::k_speckle, in::rician) {
+TEMPLATE_TEST_CASE("Echo noise is independent between pixels, frames, seeds and filters", "", in::rayleigh,
+                   in::gamma_speckle, in::k_speckle, in::rician) {
     const auto base = noisy(TestType{.seed = 1});
     const double most = 4.5 / side;
     CHECK(std::abs(correlation(base, base, 1, 0)) < most);
@@ -230,7 +230,7 @@ TEMPLATE_TEST_CASE("Echo noise is independent of its neighbours, of other frames
     CHECK(noisy(TestType{.seed = 1}) == base);
 }
 
-TEST_CASE("Shapes by pixel and by type of seabed") {
+TEST_CASE("The shape of echo noise may differ by pixel and by type of seabed") {
     in::image<std::uint8_t> types(side, side);
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) types(x, y) = x < side / 2 ? 0 : 1;
@@ -243,7 +243,7 @@ TEST_CASE("Shapes by pixel and by type of seabed") {
     CHECK(noisy(in::gamma_speckle{.looks = looks.view(), .of = in::echo::intensity}) == picture);
 }
 
-TEST_CASE("Shapes that can't be are refused") {
+TEST_CASE("Shapes of echo noise out of range are refused") {
     const in::image<float> source(4, 4, 0.1f);
     for (const float bad : {0.0f, -1.0f, std::nanf(""), std::numeric_limits<float>::infinity(), 2e6f}) {
         CHECK_THROWS_AS((source | in::gamma_speckle{.looks = bad}), in::invalid_input);

@@ -107,7 +107,7 @@ double kolmogorov(const in::image<float>& a, const in::image<float>& b) {
 
 }  // namespace
 
-TEST_CASE("a histogram counts each pixel at the nearest level") {
+TEST_CASE("A histogram counts each pixel at the nearest level") {
     const in::image<float> values{{0, 0.124f, 0.125f, 0.5f, 0.874f, 0.876f, 1, -2, 9, not_a_number}};
     CHECK(in::histogram_of(values, 5).counts == std::vector<std::uint64_t>{3, 1, 1, 1, 3});
     CHECK(in::histogram_of(values, 5).total() == 9);
@@ -120,7 +120,7 @@ TEST_CASE("a histogram counts each pixel at the nearest level") {
     for (const int bins : {-1, 0, 1, 65537}) CHECK_THROWS_AS(in::histogram_of(values, bins), in::invalid_input);
 }
 
-TEST_CASE("a distribution lists the distinct finite values in order") {
+TEST_CASE("A distribution lists the distinct finite values in order") {
     const float inf = std::numeric_limits<float>::infinity();
     const auto d =
         in::distribution_of(in::image<float>{{3, -1, 0.5f, -0.0f, 0.0f, not_a_number}, {inf, 3, -inf, -1e-42f, 3, -1}});
@@ -141,7 +141,7 @@ TEST_CASE("a distribution lists the distinct finite values in order") {
     }
 }
 
-TEST_CASE("exact matching follows scikit-image's rule") {
+TEST_CASE("Exact matching follows scikit-image's rule") {
     const int power = GENERATE(1, 3), steps = GENERATE(7, 300, 1 << 23);
     const auto source = random_image(61, 47, 1, power, steps);
     const auto reference = random_image(53, 71, 2, 2, 100);
@@ -152,7 +152,7 @@ TEST_CASE("exact matching follows scikit-image's rule") {
     }
 }
 
-TEST_CASE("exact matching is monotone, idempotent, and the identity on its own reference") {
+TEST_CASE("Exact matching is monotone, idempotent, and the identity on its own reference") {
     const auto source = random_image(90, 80, 3, 2, GENERATE(5, 1000, 1 << 23));
     const auto reference = random_image(70, 60, 4, 1, GENERATE(3, 200, 1 << 23));
     const in::match_histogram match(reference);
@@ -178,7 +178,7 @@ TEST_CASE("exact matching is monotone, idempotent, and the identity on its own r
     CHECK(kolmogorov(once, reference) <= largest_share + largest_step + 1e-9);
 }
 
-TEST_CASE("matching depends on the reference's distribution alone") {
+TEST_CASE("Matching depends on the reference's distribution alone") {
     const auto source = random_image(40, 40, 6, 1, 500);
     const auto reference = random_image(30, 20, 7, 2, 90);
     in::image<float> shuffled(20, 60);  // every pixel twice, backwards, another shape
@@ -189,7 +189,7 @@ TEST_CASE("matching depends on the reference's distribution alone") {
     CHECK((source | in::match_binned(in::histogram_of(reference, 64))) == (source | in::match_binned(reference)));
 }
 
-TEST_CASE("a constant image takes the reference's largest value, and a constant reference gives its only one") {
+TEST_CASE("A constant image takes the reference's largest value, and a constant reference gives its only one") {
     const in::image<float> flat(9, 9, 0.3f);
     const auto reference = random_image(30, 30, 8, 1, 50);
     const float largest = in::distribution_of(reference).values.back();
@@ -199,7 +199,7 @@ TEST_CASE("a constant image takes the reference's largest value, and a constant 
     CHECK((codes | in::match_histogram(flat)) == in::image<std::uint8_t>(3, 3, in::quantize<std::uint8_t>(0.3f)));
 }
 
-TEST_CASE("codes of 8 bits are matched as floats are, and rounded") {
+TEST_CASE("Codes of 8 bits are matched as floats are, and rounded") {
     const auto source = random_image(50, 40, 9, 1, 200) | in::to_uint8;
     const auto reference = random_image(50, 40, 10, 2, 200);
     CHECK((source | in::match_histogram(reference)) ==
@@ -230,7 +230,7 @@ TEST_CASE("NaN stays NaN, is not counted, and changes no other pixel") {
     CHECK_THROWS_AS(in::match_binned(reference, 1), in::invalid_input);
 }
 
-TEST_CASE("binned matching follows histeq's rule") {
+TEST_CASE("Binned matching follows histeq's rule") {
     const int bins = GENERATE(2, 10, 64, 256, 1000);
     const auto source = random_image(100, 90, 11, GENERATE(1, 3), 255);
     const auto reference = random_image(64, 64, 12, 2, 255);
@@ -244,7 +244,7 @@ TEST_CASE("binned matching follows histeq's rule") {
     CHECK(levels.size() <= static_cast<std::size_t>(bins));
 }
 
-TEST_CASE("equalization is histeq: a flat histogram of 64 levels") {
+TEST_CASE("Equalization is histeq: a flat histogram of 64 levels") {
     const auto source = random_image(128, 128, 13, 3, 255);
     const in::histogram flat{std::vector<std::uint64_t>(64, 1)};
     const auto map = histeq_rule(in::histogram_of(source).counts, flat.counts);
@@ -257,7 +257,7 @@ TEST_CASE("equalization is histeq: a flat histogram of 64 levels") {
     CHECK_THROWS_AS((source | in::equalize{.levels = 1}), in::invalid_input);
 }
 
-TEST_CASE("codes of 16 bits: counted at 65536 levels, matched by exact ranks and by bins") {
+TEST_CASE("Codes of 16 bits: counted at 65536 levels, matched by exact ranks and by bins") {
     in::image<std::uint16_t> all(256, 256);
     for (std::size_t i = 0; i < all.size(); ++i) all.pixels()[i] = static_cast<std::uint16_t>(i);
     CHECK(in::histogram_of(all, 65536).counts == std::vector<std::uint64_t>(65536, 1));
@@ -281,7 +281,7 @@ TEST_CASE("codes of 16 bits: counted at 65536 levels, matched by exact ranks and
         REQUIRE(binned.pixels()[i] == static_cast<std::uint16_t>(65535 * map[source.pixels()[i]] + 0.5));
 }
 
-TEST_CASE("histograms of parts add up, on any executor") {
+TEST_CASE("Histograms of parts add up, on any executor") {
     const auto source = random_image(300, 401, 16, 2, 999);
     for (const int bins : {64, 256, 65536}) {
         in::histogram sum = in::histogram_of(source.view().part(0, 0, 300, 100), bins);
@@ -302,7 +302,7 @@ TEST_CASE("histograms of parts add up, on any executor") {
     CHECK(apply(source, in::equalize{}, pool) == (source | in::equalize{}));
 }
 
-TEST_CASE("matching in a chain gives the result of matching alone, with and without NaN") {
+TEST_CASE("Matching in a chain gives the result of matching alone, with and without NaN") {
     const auto reference = random_image(30, 30, 18, 2, 255);
     const auto double_it = [](float v) { return 2 * v - 0.3f; };  // beyond both ends, too
     const auto same = [](const in::image<float>& a, const in::image<float>& b) {
@@ -329,7 +329,7 @@ TEST_CASE("matching in a chain gives the result of matching alone, with and with
     CHECK_THROWS_AS(source | (in::filter_chain<>{} | double_it | in::equalize{.levels = 1}), in::invalid_input);
 }
 
-TEST_CASE("bins and equalization of images without contrast, without pixels and without numbers") {
+TEST_CASE("Bins and equalization of images without contrast, without pixels and without numbers") {
     const in::image<float> flat(5, 5, 0.4f), reference = random_image(30, 30, 17, 1, 255);
     CHECK(in::distribution_of(flat | in::match_binned(reference)).values.size() == 1);
     // histeq: the level at which half of the reference's pixels are reached.

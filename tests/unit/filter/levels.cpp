@@ -64,8 +64,7 @@ floats by_gamma(int count, double shape, in::isa level) {
     std::vector<double> shapes(static_cast<std::size_t>(count), shape), drawn(shapes.size());
     pixel_list list;
     for (int i = 0; i < count; ++i) add_if(true, i, list.places, list.count);
-    dispatch(rejection_kernel<gamma_rejection>{{}, shapes.data(), drawn.data(), &list, {1, 2, count, 0}, key},
-             level);
+    dispatch(rejection_kernel<gamma_rejection>{{}, shapes.data(), drawn.data(), &list, {1, 2, count, 0}, key}, level);
     floats to;
     for (const double d : drawn) to.push_back(static_cast<float>(d));
     return to;
@@ -99,7 +98,7 @@ TEST_CASE("Kernels of filters make the same bytes at every instruction set") {
     same_at_all_levels([](int n, isa level) { return by_gamma(n, 7, level); });
 }
 
-TEST_CASE("What isn't a number is counted at every instruction set") {
+TEST_CASE("NaN is counted at every instruction set") {
     for (const in::isa level : {in::isa::scalar, in::isa::baseline, in::isa::avx2, in::isa::avx512}) {
         for (const int count : {1, 8, 50}) {
             int found = -1;

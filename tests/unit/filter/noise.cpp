@@ -77,7 +77,7 @@ double correlation(const in::image<float>& a, const in::image<float>& b, int dx,
 
 }  // namespace
 
-TEST_CASE("clipped noise has the moments that integrals of the laws give") {
+TEST_CASE("Clipped noise has the moments that integrals of the laws give") {
     const std::uint64_t seed = 11;
     check_moments(flat(0.5f) | in::gaussian{.variance = 0.05f, .seed = seed}, 0.50000, 0.04775, 1e-5, 1e-5);
     check_moments(flat(0.25f) | in::gaussian{.variance = 0.05f, .seed = seed}, 0.26478, 0.03945, 1e-5, 1e-5);
@@ -91,7 +91,7 @@ TEST_CASE("clipped noise has the moments that integrals of the laws give") {
     check_moments(flat(0.1f) | in::rayleigh{.seed = seed}, 0.1, 0.01 * (4 / in::numeric::pi - 1), 0, 0);
 }
 
-TEST_CASE("clipped poisson noise has the moments of MATLAB's uint8 rule") {
+TEST_CASE("Clipped poisson noise has the moments of MATLAB's uint8 rule") {
     const auto counts = [](float code) {
         return flat(code / 255) | in::poisson{.seed = 12} | [](float v) { return 255 * v; };
     };
@@ -101,7 +101,7 @@ TEST_CASE("clipped poisson noise has the moments of MATLAB's uint8 rule") {
     check_moments(counts(255), 248.631, 84.82, 1e-3, 1e-2);
 }
 
-TEST_CASE("noise follows its law") {
+TEST_CASE("Noise follows its law") {
     const double limit = 1.95 / side;
     CHECK(ks_distance(flat(0.5f) | in::gaussian{.mean = 0.02f, .variance = 0.0025f, .seed = 21},
                       [](double v) { return normal_cdf((v - 0.52) / 0.05); }) < limit);
@@ -113,7 +113,7 @@ TEST_CASE("noise follows its law") {
                       [](double v) { return 1 - std::exp(-(v / 0.125) * (v / 0.125) * in::numeric::pi / 4); }) < limit);
 }
 
-TEST_CASE("poisson counts follow the Poisson law on both sides of the change of method") {
+TEST_CASE("Poisson counts follow the Poisson law on both sides of the change of method") {
     const float mean = GENERATE(0.05f, 0.7f, 1.0f, 4.5f, 9.99f, 10.0f, 10.5f, 30.5f, 128.2f, 255.9f, 400.0f);
     const float photons = 4096;
     const auto image = flat(mean / photons) | in::poisson{.photons = photons, .seed = 31};
@@ -143,7 +143,7 @@ TEST_CASE("poisson counts follow the Poisson law on both sides of the change of 
     CHECK(std::abs(z) < 4);
 }
 
-TEST_CASE("poisson noise is right at the extremes of its scale") {
+TEST_CASE("Poisson noise follows its law at the smallest and the largest number of photons") {
     CHECK((in::image<float>{{0, -1}} | in::poisson{}) == in::image<float>{{0, 0}});
     check_moments(flat(0.5f) | in::poisson{.photons = 1e9f, .seed = 1}, 0.5, 0.5e-9, 0, 0);
     const auto rare = flat(1) | in::poisson{.photons = 0.01f, .seed = 1};
@@ -159,7 +159,7 @@ TEST_CASE("poisson noise is right at the extremes of its scale") {
     }
 }
 
-TEMPLATE_TEST_CASE("pixels of noise are independent of their neighbours, of other frames and of other seeds", "",
+TEMPLATE_TEST_CASE("Pixels of noise are independent of their neighbours, of other frames and of other seeds", "",
                    in::gaussian, in::speckle, in::gaussian_speckle, in::rayleigh, in::poisson) {
     const auto base = flat(0.25f) | TestType{.seed = 1};
     const double limit = 4.5 / side;
@@ -172,7 +172,7 @@ TEMPLATE_TEST_CASE("pixels of noise are independent of their neighbours, of othe
     CHECK((flat(0.25f) | TestType{.seed = 1}) == base);
 }
 
-TEST_CASE("kinds of noise under one seed are independent") {
+TEST_CASE("Different kinds of noise under one seed are independent") {
     const std::vector<in::image<float>> kinds = {
         flat(0.25f) | in::gaussian{.seed = 5}, flat(0.25f) | in::speckle{.seed = 5},
         flat(0.25f) | in::gaussian_speckle{.seed = 5}, flat(0.25f) | in::rayleigh{.seed = 5},
@@ -182,7 +182,7 @@ TEST_CASE("kinds of noise under one seed are independent") {
     }
 }
 
-TEMPLATE_TEST_CASE("the noise of a pixel depends on its place alone, not on the size of the image or other pixels", "",
+TEMPLATE_TEST_CASE("The noise of a pixel depends on its place alone, not on the size of the image or other pixels", "",
                    in::gaussian, in::speckle, in::gaussian_speckle, in::rayleigh, in::poisson) {
     const TestType noise{.seed = 9, .frame = 3};
     const auto large = in::image<float>(37, 29, 0.4f) | noise;
@@ -201,7 +201,7 @@ TEMPLATE_TEST_CASE("the noise of a pixel depends on its place alone, not on the 
     for (int y = 0; y < 29; ++y) CHECK(column(0, y) == large(0, y));
 }
 
-TEST_CASE("noise without variance clips and does no more") {
+TEST_CASE("Noise of zero variance only clips") {
     const in::image<float> source{{-1, 0, 0.3f, 1, 2}};
     const in::image<float> clipped{{0, 0, 0.3f, 1, 1}};
     CHECK((source | in::gaussian{.variance = 0}) == clipped);
@@ -212,7 +212,7 @@ TEST_CASE("noise without variance clips and does no more") {
     CHECK(std::any_of(noisy.pixels().begin(), noisy.pixels().end(), [](float v) { return v < 0.9f; }));
 }
 
-TEST_CASE("parameters that can't be are refused before a pixel changes") {
+TEST_CASE("Parameters out of range are refused before a pixel changes") {
     const in::image<float> source(2, 2, 0.5f);
     const float inf = std::numeric_limits<float>::infinity();
     for (const float bad : {-0.1f, std::nanf(""), inf}) {
@@ -227,7 +227,7 @@ TEST_CASE("parameters that can't be are refused before a pixel changes") {
                       ContainsSubstring("speckle.variance is -1") && ContainsSubstring("at least 0"));
 }
 
-TEST_CASE("noise on ten million pixels: moments after clipping, tails to 5 sigma, the law itself", "[.slow]") {
+TEST_CASE("Noise on ten million pixels: moments after clipping, tails to 5 sigma, the law itself", "[.slow]") {
     const in::image<float> half(4096, 2560, 0.5f);
     const auto n = static_cast<double>(half.size());
     for (const std::uint64_t seed : {1u, 2u}) {

@@ -42,7 +42,7 @@ struct backwards {
 
 }  // namespace
 
-TEST_CASE("a chain touches no pixel until it is applied, and then each pixel once per stage") {
+TEST_CASE("A chain touches no pixel until it is applied, and then each pixel once per stage") {
     int calls = 0;
     const auto chain = in::filter_chain<>{} | counting{&calls} | counting{&calls};
     CHECK(calls == 0);
@@ -51,7 +51,7 @@ TEST_CASE("a chain touches no pixel until it is applied, and then each pixel onc
     CHECK(out == ramp(5, 4));
 }
 
-TEST_CASE("a chain gives the result of its stages applied one by one") {
+TEST_CASE("A chain gives the result of its stages applied one by one") {
     const in::image<float> source = ramp(300, 250);
     const in::image<float> reference = ramp(17, 3);
     const in::match_histogram match(reference);
@@ -83,7 +83,7 @@ TEST_CASE("a chain gives the result of its stages applied one by one") {
     }
 }
 
-TEST_CASE("an image may be filtered by a function of a pixel, of a pixel and its place, or of the image") {
+TEST_CASE("An image may be filtered by a function of a pixel, of a pixel and its place, or of the image") {
     const in::image<float> source{{0, 0.25f}, {0.5f, 1}};
     CHECK((source | [](float v) { return v * 0.5f; }) == in::image<float>{{0, 0.125f}, {0.25f, 0.5f}});
     CHECK((source | [](float v, int x, int y) { return v + static_cast<float>(10 * x + 100 * y); }) ==
@@ -94,7 +94,7 @@ TEST_CASE("an image may be filtered by a function of a pixel, of a pixel and its
     CHECK((source | in::filter_chain<>{}) == source);
 }
 
-TEST_CASE("an image that is moved in lends its memory") {
+TEST_CASE("An image that is moved in lends its memory") {
     in::image<float> source = ramp(64, 64);
     const float* const memory = source.pixels().data();
     const in::image<float> out = std::move(source) | (in::speckle{.seed = 1} | in::gaussian{.seed = 2});
@@ -102,7 +102,7 @@ TEST_CASE("an image that is moved in lends its memory") {
     CHECK(out == (ramp(64, 64) | in::speckle{.seed = 1} | in::gaussian{.seed = 2}));
 }
 
-TEST_CASE("a filtered part of a larger image is packed and leaves the rest alone") {
+TEST_CASE("A filtered part of a larger image is packed and leaves the rest alone") {
     const in::image<float> source = ramp(10, 10);
     const in::image<float> before = source;
     const auto part = source.view().part(3, 4, 5, 2);
@@ -112,7 +112,7 @@ TEST_CASE("a filtered part of a larger image is packed and leaves the rest alone
     CHECK(source == before);
 }
 
-TEST_CASE("results don't depend on the executor") {
+TEST_CASE("Results don't depend on the executor") {
     in::thread_pool pool(3);
     const in::image<float> source = ramp(1031, 517);
     const auto look = in::match_histogram(ramp(50, 50)) | in::speckle{.seed = 3} | in::gaussian{.seed = 3} |
@@ -124,7 +124,7 @@ TEST_CASE("results don't depend on the executor") {
     CHECK(apply(source, look) == serial);
 }
 
-TEST_CASE("empty and thin images pass through every filter") {
+TEST_CASE("Empty and thin images pass through every filter") {
     const auto look = in::match_histogram(ramp(5, 5)) | in::speckle{} | in::colormap::copper | in::to_gray{};
     CHECK((in::image<float>() | look).empty());
     CHECK((in::image<float>(0, 7) | look).height() == 7);
@@ -133,7 +133,7 @@ TEST_CASE("empty and thin images pass through every filter") {
     CHECK((in::image<float>(1, 70000, 0.5f) | look).height() == 70000);
 }
 
-TEST_CASE("library filters compose with any callable, and reject pixel types they do not accept") {
+TEST_CASE("Library filters compose with any callable, and reject pixel types they do not accept") {
     const auto lambda = [](float v) { return v; };
     STATIC_REQUIRE(in::detail::library_filter<in::speckle>);
     STATIC_REQUIRE_FALSE(in::detail::library_filter<decltype(lambda)>);
@@ -148,7 +148,7 @@ TEST_CASE("library filters compose with any callable, and reject pixel types the
     STATIC_REQUIRE_FALSE(in::filter_for<in::match_histogram, in::rgb8>);
 }
 
-TEST_CASE("quantization rounds to nearest, ties up, and has an exact inverse") {
+TEST_CASE("Quantization rounds to nearest, ties up, and has an exact inverse") {
     CHECK(in::quantize<std::uint8_t>(0.5f) == 128);  // 127.5
     CHECK(in::quantize<std::uint8_t>(std::nextafter(0.5f, 0.0f)) == 127);
     CHECK(in::quantize<std::uint8_t>(-1.0f) == 0);
@@ -174,7 +174,7 @@ TEST_CASE("quantization rounds to nearest, ties up, and has an exact inverse") {
     CHECK((in::image<in::rgb<float>>{{{1, 0, 0.2f}}} | in::to_uint8) == in::image<in::rgb8>{{{255, 0, 51}}});
 }
 
-TEST_CASE("gray has MATLAB's weights by default") {
+TEST_CASE("Gray has MATLAB's weights by default") {
     // rgb2gray of the pure colours and of white, as documented by MathWorks: 76, 150, 29 and 255.
     const in::image<in::rgb8> colors{{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}, {0, 0, 0}}};
     CHECK((colors | in::to_gray{}) == in::image<std::uint8_t>{{76, 150, 29, 255, 0}});
@@ -190,7 +190,7 @@ TEST_CASE("gray has MATLAB's weights by default") {
     CHECK_THROWS_AS((colors | in::to_gray{{std::nan(""), 0.6, 0.1}}), in::invalid_input);
 }
 
-TEST_CASE("copper is MATLAB's copper(256)") {
+TEST_CASE("Copper is MATLAB's copper(256)") {
     const auto& colors = in::colormap::copper.colors;
     CHECK(colors[0] == in::rgb8{0, 0, 0});
     CHECK(colors[255] == in::rgb8{255, 199, 127});
@@ -205,7 +205,7 @@ TEST_CASE("copper is MATLAB's copper(256)") {
     }
 }
 
-TEST_CASE("a colour map takes floats, codes and users' tables") {
+TEST_CASE("A colour map takes floats, codes and users' tables") {
     const in::image<float> values{{0, 0.5f, 1, -3, 7, std::nanf("")}};
     CHECK((values | in::colormap::copper) == (values | in::to_uint8 | in::colormap::copper));
     CHECK((values | in::colormap::gray) ==
@@ -216,7 +216,7 @@ TEST_CASE("a colour map takes floats, codes and users' tables") {
     CHECK((values | red)(1, 0) == in::rgb8{128, 0, 0});
 }
 
-TEST_CASE("hot is MATLAB's hot(256), and all maps of echoes rise from dark to light") {
+TEST_CASE("Hot is MATLAB's hot(256), and all maps of echoes rise from dark to light") {
     const auto& hot = in::colormap::hot.colors;
     for (std::size_t i = 0; i < 256; ++i) {
         // r = (1:n) / n over the first n = fix(3/8 m), then ones; g the same, n later; b over the rest.

@@ -109,7 +109,7 @@ TEST_CASE("Correlated noise doesn't depend on parts, rows or threads either") {
     CHECK(apply(source, noise, in::serial_executor{}, {-40, -7}).size() == source.size());
 }
 
-TEST_CASE("Filters into the caller's memory, and where the pixels are") {
+TEST_CASE("Filters write into the caller's memory, and in place") {
     const auto source = ramp(700, 5);
     const auto look = in::speckle{.seed = 1} | shifted{} | in::to_uint8;
     in::image<std::uint8_t> codes(800, 7, 9);
@@ -186,7 +186,7 @@ TEST_CASE("Under a mask, a filter changes and measures the chosen pixels alone")
     CHECK_THROWS_AS((source | in::where(mask.view().part(0, 0, 599, 30), in::speckle{})), in::invalid_input);
 }
 
-TEST_CASE("poisson on codes of 16 bits with 65535 photons: the codes are the counts") {
+TEST_CASE("Poisson on codes of 16 bits with 65535 photons: the codes are the counts") {
     const in::image<std::uint16_t> wide(300, 200, 1000);
     double mean = 0, square = 0;
     const auto counts = wide | in::poisson{.photons = 65535, .seed = 4};
@@ -198,7 +198,7 @@ TEST_CASE("poisson on codes of 16 bits with 65535 photons: the codes are the cou
     CHECK(std::abs(square - 1000) < 4 * 1000 * std::sqrt(2 / 6e4));
 }
 
-TEST_CASE("Codes reach all of their range") {
+TEST_CASE("Noise on codes reaches the lowest and the highest code") {
     const auto struck = in::image<std::uint16_t>(64, 64, 777) | in::salt_and_pepper{.density = 0.5f};
     CHECK(std::count(struck.pixels().begin(), struck.pixels().end(), 65535) > 800);
     CHECK(std::count(struck.pixels().begin(), struck.pixels().end(), 0) > 800);
@@ -233,7 +233,7 @@ TEMPLATE_TEST_CASE("No pixel, one pixel, one row and one column", "", in::gaussi
     }
 }
 
-TEST_CASE("Means of all sizes make counts: 1e-6, 1, 1e9, and infinite pixels are white") {
+TEST_CASE("Poisson counts exist for means from 1e-6 to 1e9, and infinite pixels are white") {
     const float inf = std::numeric_limits<float>::infinity();
     CHECK((in::image<float>{{0, -inf, 1e-6f}} | in::poisson{.photons = 1}) == in::image<float>{{0, 0, 0}});
     const auto white = in::image<float>{{inf, 1}} | in::poisson{.photons = 1e9f};

@@ -91,7 +91,7 @@ TEST_CASE("A lattice's normals follow its vertices") {
     CHECK(found->normals == m.normals);
 }
 
-TEST_CASE("What is almost a lattice keeps its numbers and has no grid") {
+TEST_CASE("A mesh that is almost a lattice keeps its vertex order and has no grid") {
     const auto is_left_alone = [](const in::mesh& m) {
         in::mesh ordered = m;
         const bool is_lattice = in::detail::order_by_lattice(ordered);

@@ -101,7 +101,7 @@ std::string reference_directory() {
 
 }  // namespace
 
-TEST_CASE("a face is read the same in every spelling of its indices and lines") {
+TEST_CASE("A face is read the same in every spelling of its indices and lines") {
     const std::string face =
         GENERATE("f 1 2 3", "f -4 -3 -2", "f 1/7 2/8 3/9", "f 1/ 2/ 3/", "f 1// 2// 3//", "f 1/1/ 2/1/ 3/1/",
                  "f 1 2 3\r\n", "f\t1  2 \t3 \n", "f 1 2 3 # 4", "f 1 2 3#4", "f 1 \\\n2 3", "f 1 2\\\r\n 3",
@@ -114,7 +114,7 @@ TEST_CASE("a face is read the same in every spelling of its indices and lines") 
     CHECK(m.normals == std::vector<glm::vec3>(3, {0, 0, 1}));
 }
 
-TEST_CASE("numbers are read without the locale, at any length; coordinates past the third are ignored") {
+TEST_CASE("Numbers are read without the locale, at any length; coordinates past the third are ignored") {
     const in::mesh m = in::read_obj(
         "\xEF\xBB\xBFv +1.5 -2e-3 .25 0.5 0.5 0.5\nv 0.123456789012345678901234567890123 1E2 1. nonsense\n"
         "v 0 0 1e-60\nf 1 2 3");
@@ -122,7 +122,7 @@ TEST_CASE("numbers are read without the locale, at any length; coordinates past 
           std::vector<glm::vec3>{{1.5f, -2e-3f, 0.25f}, {0.12345678901234567f, 100.0f, 1.0f}, {0, 0, 0}});
 }
 
-TEST_CASE("lines of other kinds are passed over, and unused positions are dropped") {
+TEST_CASE("Lines of other kinds are skipped, and unused positions are dropped") {
     // Facts of assimp PR 1654: a line element before the face.
     const in::mesh m = in::read_obj("o 1\nv 0 0 0\nv 9 9 9\nv 1 1 1\nv 2 2 2\nl 1\np 1\ncurv2 1 2\nf 1 3 4");
     CHECK(m.positions.size() == 3);
@@ -134,7 +134,7 @@ TEST_CASE("lines of other kinds are passed over, and unused positions are droppe
     CHECK(in::read_obj("\\\n\\\r\n\\\r").triangles.empty());
 }
 
-TEST_CASE("each pair of position and normal is one vertex; missing and zero normals are computed") {
+TEST_CASE("Each pair of position and normal is one vertex; missing and zero normals are computed") {
     const std::string normals = "vn 0 0 2\nvn 1 0 0\nvn 0 0 0\n";
     const in::mesh m = in::read_obj(square + normals + "f 1//1 2//1 3//1\nf 1//2 3//1 4//3\nf 1 3 4");
     CHECK(m.positions.size() == 8);  // 1//1 1//2 1, 2//1, 3//1 3, 4//3 4
@@ -149,7 +149,7 @@ TEST_CASE("each pair of position and normal is one vertex; missing and zero norm
     CHECK(in::read_obj(square + normals + "f 1//1 2 3\nf 1//2 2 3\nf 1//1 3 4\nf 1//2 3 4").positions.size() == 5);
 }
 
-TEST_CASE("broken input is refused with the name of the text and the line") {
+TEST_CASE("Malformed input is refused with the name of the text and the line") {
     CHECK(refusal("v 0 0 0\nv 1 1\n") == "a.obj:2: a vertex or normal has fewer than 3 numbers");
     CHECK(refusal("vn 0 0 x") == "a.obj:1: 'x' is not a number");
     CHECK(refusal(square + "f 1 2\n") == "a.obj:5: a face has 2 corners, expected at least 3");
@@ -164,7 +164,7 @@ TEST_CASE("broken input is refused with the name of the text and the line") {
     CHECK_THROWS_WITH(in::read_obj(square + face, "b.obj"), ContainsSubstring("b.obj:5: "));
 }
 
-TEST_CASE("coordinates must be finite numbers that a float can hold") {
+TEST_CASE("Coordinates must be finite numbers that a float can hold") {
     const std::string number = GENERATE("nan", "NaN", "inf", "-inf", "infinity", "1e999", "-1e999", "1e39", "1,5",
                                         "0x10", "--1", "+-1", "1e", "e5", "+", "-", ".", "1.2.3");
     CAPTURE(number);
@@ -172,13 +172,13 @@ TEST_CASE("coordinates must be finite numbers that a float can hold") {
     CHECK_THROWS_AS(in::read_obj("vn " + number + " 0 0\n"), in::io_error);
 }
 
-TEST_CASE("line numbers count continued lines and every line ending") {
+TEST_CASE("Line numbers count continued lines and every line ending") {
     CHECK(refusal("# \\\nv 0 \\\n0 0\r\n\r\nv x").rfind("a.obj:5:", 0) == 0);
     CHECK(refusal("\r\r\nv x").rfind("a.obj:3:", 0) == 0);
     CHECK(refusal("mtllib a\\\nb\nv x").rfind("a.obj:3:", 0) == 0);
 }
 
-TEST_CASE("a text cut off anywhere is read or refused, never worse") {
+TEST_CASE("A text truncated anywhere is read or refused, without a crash") {
     const std::string text = square + "vn 0 0 1\r\nf 1//1 \\\n 2//-1 3//1 4//1\n# end \\\nf -1 -2 -3\n";
     for (std::size_t length = 0; length <= text.size(); ++length) {
         try {
@@ -188,7 +188,7 @@ TEST_CASE("a text cut off anywhere is read or refused, never worse") {
     }
 }
 
-TEST_CASE("polygons are covered exactly, convex or concave, whichever corner comes first") {
+TEST_CASE("Polygons are covered exactly, convex or concave, whichever corner comes first") {
     const double tilt = std::sqrt(1 + 0.25 + 0.0625);  // area of a plane z = x / 2 - y / 4 over its shadow
     const auto area = [&](const std::string& text) {
         const in::mesh m = in::read_obj(text);
@@ -223,7 +223,7 @@ TEST_CASE("polygons are covered exactly, convex or concave, whichever corner com
     }
 }
 
-TEST_CASE("a concave prism stays closed when its faces are cut") {
+TEST_CASE("A concave prism stays closed when its faces are cut") {
     // An L: the two caps are concave.
     std::string text;
     const glm::ivec2 outline[] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
@@ -239,13 +239,13 @@ TEST_CASE("a concave prism stays closed when its faces are cut") {
     CHECK(absolute_area_of(m) == Approx(2 * 3 + 8));
 }
 
-TEST_CASE("polygons that cross themselves or have no area give as many triangles as others") {
+TEST_CASE("Polygons that cross themselves or have no area give as many triangles as others") {
     CHECK(in::read_obj("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4").triangles.size() == 2);
     CHECK(in::read_obj("v 0 0 0\nf 1 1 1 1 1 1").triangles.size() == 4);
     CHECK(in::read_obj("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 3 2 4 1").triangles.size() == 3);
 }
 
-TEST_CASE("hostile sizes cost linear time") {
+TEST_CASE("Hostile sizes cost linear time") {
     const double bound = 10;
     SECTION("a polygon with hundreds of thousands of corners, convex or jagged") {
         const bool jagged = GENERATE(false, true);
@@ -288,7 +288,7 @@ TEST_CASE("hostile sizes cost linear time") {
     }
 }
 
-TEST_CASE("a file is read like its text, and one that can't be read is refused by name and reason") {
+TEST_CASE("A file is read like its text, and a file that cannot be read is refused by name and reason") {
     const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
     const std::string path =
         (std::filesystem::temp_directory_path() / ("insonify_obj_" + std::to_string(now) + ".obj")).string();
@@ -303,7 +303,7 @@ TEST_CASE("a file is read like its text, and one that can't be read is refused b
     CHECK_THROWS_AS(in::load_obj("."), in::io_error);
 }
 
-TEST_CASE("spot, a mesh of other people, is a closed surface of one piece") {
+TEST_CASE("Spot, a public mesh, is a closed surface of one piece") {
     const std::string path = reference_directory() + "/meshes/spot.obj";
     std::FILE* file = std::fopen(path.c_str(), "rb");
     if (file == nullptr) {

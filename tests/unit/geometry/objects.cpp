@@ -94,7 +94,7 @@ in::aeroplane aeroplane_of(float size) {
 
 }  // namespace
 
-TEST_CASE("a truncated cone is solid, of its size, and a frustum without its fittings") {
+TEST_CASE("A truncated cone is solid, of its size, and a frustum without its fittings") {
     for (const float size : {1e-3f, 1.0f, 1e3f})
         for (const int segments : {6, 7, 64})
             for (const float shoulder : {0.0f, 0.05f}) {
@@ -126,7 +126,7 @@ TEST_CASE("a truncated cone is solid, of its size, and a frustum without its fit
     CHECK_THROWS_WITH(to_mesh(in::truncated_cone{.segments = 5}), ContainsSubstring("truncated_cone.segments is 5"));
 }
 
-TEST_CASE("a wedge is solid, of its size, and has the volume of its sections") {
+TEST_CASE("A wedge is solid, of its size, and has the volume of its sections") {
     for (const float size : {1e-3f, 1.0f, 1e4f}) {
         const in::wedge w{.length = 1.02f * size,
                           .width = 0.8f * size,
@@ -162,7 +162,7 @@ TEST_CASE("a wedge is solid, of its size, and has the volume of its sections") {
     CHECK_THROWS_WITH(to_mesh(in::wedge{.side_slope = 5}), ContainsSubstring("wedge.side_slope is 5"));
 }
 
-TEST_CASE("a tyre is solid and of its size, with the volume of Pappus' theorem") {
+TEST_CASE("A tyre is solid and of its size, with the volume of Pappus' theorem") {
     for (const float size : {1e-2f, 1.0f, 1e3f})
         for (const int segments : {6, 33, 64})
             for (const float fill : {0.0f, 0.001f, 0.5f, 1.0f}) {
@@ -200,7 +200,7 @@ TEST_CASE("a tyre is solid and of its size, with the volume of Pappus' theorem")
     CHECK_THROWS_WITH(to_mesh(in::tyre{.segments = 3}), ContainsSubstring("tyre.segments is 3"));
 }
 
-TEST_CASE("a pipe is solid, of its size, and has the volume of its wall") {
+TEST_CASE("A pipe is solid, of its size, and has the volume of its wall") {
     for (const float length : {0.01f, 12.0f, 1000.0f})
         for (const int segments : {6, 48})
             for (const float flange : {0.0f, 0.2f})
@@ -231,7 +231,7 @@ TEST_CASE("a pipe is solid, of its size, and has the volume of its wall") {
     CHECK_THROWS_WITH(to_mesh(in::open_pipe{.segments = 2}), ContainsSubstring("open_pipe.segments is 2"));
 }
 
-TEST_CASE("a boulder is solid, fills its box, and depends on its seed alone") {
+TEST_CASE("A boulder is solid, fills its box, and depends on its seed alone") {
     for (const glm::vec3 size : {glm::vec3(1.2f, 1, 0.75f), glm::vec3(1e-3f), glm::vec3(1e4f, 1e3f, 100)})
         for (const float angularity : {0.0f, 0.5f, 1.0f})
             for (const float roughness : {0.0f, 1.0f})
@@ -260,7 +260,7 @@ TEST_CASE("a boulder is solid, fills its box, and depends on its seed alone") {
     CHECK_THROWS_WITH(to_mesh(in::boulder{.segments = 1}), ContainsSubstring("boulder.segments is 1"));
 }
 
-TEST_CASE("a crate is solid and of its size, and loses boards with damage") {
+TEST_CASE("A crate is solid and of its size, and loses boards with damage") {
     for (const float size : {1e-2f, 1.0f, 1e3f})
         for (const int boards : {1, 5, 20})
             for (const float damage : {0.0f, 0.3f, 1.0f})
@@ -291,7 +291,7 @@ TEST_CASE("a crate is solid and of its size, and loses boards with damage") {
     CHECK_THROWS_WITH(to_mesh(in::crate{.damage = nan_value}), ContainsSubstring("crate.damage"));
 }
 
-TEST_CASE("a lobster pot is solid and of its size within a bar") {
+TEST_CASE("A lobster pot is solid and of its size within a bar") {
     for (const float size : {1e-2f, 1.0f, 1e3f})
         for (const int hoops : {2, 3, 4, 16})
             for (const float mesh_size : {0.0f, 0.07f, 0.3f})
@@ -328,7 +328,7 @@ TEST_CASE("a lobster pot is solid and of its size within a bar") {
     CHECK_THROWS_WITH(to_mesh(in::lobster_pot{.segments = 4}), ContainsSubstring("lobster_pot.segments is 4"));
 }
 
-TEST_CASE("a hull is solid and of its length and beam") {
+TEST_CASE("A hull is solid and of its length and beam") {
     for (const float size : {1e-2f, 1.0f, 1e3f})
         for (const in::stern_type stern : {in::stern_type::cruiser, in::stern_type::transom})
             for (const int hatches : {0, 1, 3, 8})
@@ -373,7 +373,7 @@ TEST_CASE("a hull is solid and of its length and beam") {
     CHECK(volume_of(parts.parts[0].shape) < 0.3 * 45 * 8.2 * 4);
 }
 
-TEST_CASE("a hull stays solid while it collapses and breaks, and sinks lower") {
+TEST_CASE("A hull stays solid while it collapses and breaks, and sinks lower") {
     double height = 1e9;
     for (const float collapse : {0.0f, 0.01f, 0.3f, 0.5f, 0.8f, 1.0f}) {
         for (const float gap : {0.0f, 4.0f})
@@ -402,7 +402,7 @@ TEST_CASE("a hull stays solid while it collapses and breaks, and sinks lower") {
         check_stands(to_mesh(in::hull{.has_funnel = false, .masts = 0, .break_gap = 6, .break_roll = roll}));
 }
 
-TEST_CASE("a hull refuses parameters out of range by name and value") {
+TEST_CASE("A hull refuses parameters out of range by name and value") {
     const auto check = [](const in::hull& h, const char* text) {
         CHECK_THROWS_WITH(to_mesh(h), ContainsSubstring(text));
     };
@@ -428,7 +428,7 @@ TEST_CASE("a hull refuses parameters out of range by name and value") {
     check({.segments = 8}, "hull.segments is 8");
 }
 
-TEST_CASE("an aeroplane is solid and of its length and span") {
+TEST_CASE("An aeroplane is solid and of its length and span") {
     for (const float size : {1e-2f, 1.0f, 1e3f})
         for (const int engines : {0, 1, 2, 3, 4})
             for (const int segments : {8, 24})
@@ -452,7 +452,7 @@ TEST_CASE("an aeroplane is solid and of its length and span") {
     CHECK(volume_of(fuselage) < cylinder);
 }
 
-TEST_CASE("an aeroplane stays solid without its wings and tail") {
+TEST_CASE("An aeroplane stays solid without its wings and tail") {
     for (const float left : {0.0f, 0.01f, 0.3f, 0.97f, 0.999f})
         for (const float torn : {0.0f, 3.0f})
             for (const float gap : {0.0f, 2.0f}) {
@@ -489,7 +489,7 @@ TEST_CASE("an aeroplane stays solid without its wings and tail") {
     check({.segments = 4}, "aeroplane.segments is 4");
 }
 
-TEST_CASE("a compound is one mesh with the part of each triangle") {
+TEST_CASE("A compound is one mesh with the part of each triangle") {
     in::compound c;
     c.add(in::cube{}, {.position = {0, 0, 0.5}}, 0.4f)
         .add(in::sphere{.segments = 16}, {.position = {3, 0, 1}, .scale = 2});

@@ -73,7 +73,7 @@ void check_second_order(Build build, double area, double volume) {
 
 }  // namespace
 
-TEST_CASE("every primitive is a closed surface with outward triangles and unit normals") {
+TEST_CASE("Every primitive is a closed surface with outward triangles and unit normals") {
     check_closed_and_outward(to_mesh(in::cube{.size = {1, 2, 3}}));
     const int segments = GENERATE(3, 4, 5, 8, 64, 97);
     CAPTURE(segments);
@@ -86,7 +86,7 @@ TEST_CASE("every primitive is a closed surface with outward triangles and unit n
     check_closed_and_outward(to_mesh(in::capsule{.radius = 1, .length = 2, .segments = segments + 3}));
 }
 
-TEST_CASE("a cube has the area and volume of its size, and normals along the axes") {
+TEST_CASE("A cube has the area and volume of its size, and normals along the axes") {
     const in::mesh m = to_mesh(in::cube{.size = {1, 2, 4}});
     CHECK(m.positions.size() == 24);
     CHECK(m.triangles.size() == 12);
@@ -99,7 +99,7 @@ TEST_CASE("a cube has the area and volume of its size, and normals along the axe
     }
 }
 
-TEST_CASE("area and volume converge to the closed forms with the square of the segments") {
+TEST_CASE("Area and volume converge to the closed forms with the square of the segments") {
     SECTION("cylinder") {
         check_second_order([](int n) { return to_mesh(in::cylinder{.radius = 0.25f, .length = 2, .segments = n}); },
                            2 * pi * 0.25 * (2 + 0.25), pi * 0.0625 * 2);
@@ -135,7 +135,7 @@ TEST_CASE("area and volume converge to the closed forms with the square of the s
     }
 }
 
-TEST_CASE("vertices and shading normals are those of the true surface") {
+TEST_CASE("Vertices and shading normals are those of the true surface") {
     const in::mesh m = to_mesh(in::sphere{.radius = 2, .aspect = {1, 2, 0.5f}, .segments = 33});
     for (std::size_t i = 0; i < m.positions.size(); ++i) {
         // (x/2)^2 + (y/4)^2 + z^2 = 1 and its gradient.
@@ -146,7 +146,7 @@ TEST_CASE("vertices and shading normals are those of the true surface") {
     }
 }
 
-TEST_CASE("a cone's tip is shaded by segment, its side by the slope, and its base flat") {
+TEST_CASE("A cone's tip is shaded by segment, its side by the slope, and its base flat") {
     const in::mesh m = to_mesh(in::cone{.radius = 3, .height = 4, .segments = 16});
     std::size_t at_tip = 0;
     for (const glm::uvec3& t : m.triangles) {
@@ -164,7 +164,7 @@ TEST_CASE("a cone's tip is shaded by segment, its side by the slope, and its bas
     CHECK(at_tip == 16);
 }
 
-TEST_CASE("a sphere and a capsule share every vertex, and a sphere has two poles") {
+TEST_CASE("A sphere and a capsule share every vertex, and a sphere has two poles") {
     const in::mesh ball = to_mesh(in::sphere{.segments = 16});
     CHECK(ball.positions.size() == 2 + 7 * 16);
     CHECK(in::inspect(ball).vertices == ball.positions.size());
@@ -172,7 +172,7 @@ TEST_CASE("a sphere and a capsule share every vertex, and a sphere has two poles
     CHECK(in::inspect(float_body).vertices == float_body.positions.size());
 }
 
-TEST_CASE("cylinders lie along x, cones stand along z, hemispheres stand on z = 0") {
+TEST_CASE("Cylinders lie along x, cones stand along z, hemispheres stand on z = 0") {
     const auto extent = [](const in::mesh& m) {
         glm::vec3 lower = m.positions[0], upper = lower;
         for (const glm::vec3& p : m.positions) {
@@ -191,7 +191,7 @@ TEST_CASE("cylinders lie along x, cones stand along z, hemispheres stand on z = 
     CHECK(extent(to_mesh(in::hemisphere{.radius = 1, .aspect = {1, 1, 2}})) == box({-1, -1, 0}, {1, 1, 2}));
 }
 
-TEST_CASE("an outline turns about any axis without being mirrored") {
+TEST_CASE("An outline turns about any axis without being mirrored") {
     const std::vector<in::outline_point> can = {{0, 0, 0, -1}, {1, 0, 0, -1}, {1, 0, 1, 0},
                                                 {1, 2, 1, 0},  {1, 2, 0, 1},  {0, 2, 0, 1}};
     const auto around = GENERATE(in::axis::x, in::axis::y, in::axis::z);
@@ -227,7 +227,7 @@ TEST_CASE("segments_for gives the fewest segments within the chord error") {
     CHECK_THROWS_AS(in::segments_for(nan_value, 1), in::invalid_input);
 }
 
-TEST_CASE("a primitive refuses sizes and segments that cannot be") {
+TEST_CASE("A primitive refuses sizes and segments out of range") {
     const float bad = GENERATE(0.0f, -1.0f, nan_value, std::numeric_limits<float>::infinity());
     CHECK_THROWS_AS(to_mesh(in::cube{.size = {1, bad, 1}}), in::invalid_input);
     CHECK_THROWS_AS(to_mesh(in::cylinder{.radius = bad}), in::invalid_input);
@@ -247,7 +247,7 @@ TEST_CASE("a primitive refuses sizes and segments that cannot be") {
                       ContainsSubstring("cylinder.radius") && ContainsSubstring("-2"));
 }
 
-TEST_CASE("topology distinguishes open, tangled and closed surfaces") {
+TEST_CASE("Topology distinguishes open, tangled and closed surfaces") {
     in::mesh m;
     m.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     m.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
@@ -307,7 +307,7 @@ TEST_CASE("topology distinguishes open, tangled and closed surfaces") {
     }
 }
 
-TEST_CASE("smooth normals weight by angle: a cube's corner points along the diagonal however its faces are cut") {
+TEST_CASE("Smooth normals weight by angle: a cube's corner points along the diagonal however its faces are cut") {
     in::mesh cube = to_mesh(in::cube{});
     const std::vector<std::uint32_t> first = in::weld(cube.positions);
     for (glm::uvec3& t : cube.triangles) t = {first[t.x], first[t.y], first[t.z]};

@@ -32,7 +32,7 @@ in::mesh grid_of(int columns, int rows, bool is_rising = true, int turned = 0, b
 
 }  // namespace
 
-TEST_CASE("A grid is known by its size, its steps and the way its cells are cut") {
+TEST_CASE("A regular grid is recognized by its size, its steps and the diagonals of its cells") {
     for (const auto& [is_rising, sinks] : {std::pair{true, false}, {false, false}, {true, true}, {false, true}})
         for (int turned = 0; turned < 3; ++turned)
             for (const auto& [columns, rows] : {std::pair{2, 2}, {2, 9}, {9, 2}, {3, 4}, {41, 67}}) {
@@ -53,7 +53,7 @@ TEST_CASE("A grid is known by its size, its steps and the way its cells are cut"
     CHECK(in::regular_grid_of(grid_of(100, 200), pool));
 }
 
-TEST_CASE("Whatever else a mesh is, it isn't a grid") {
+TEST_CASE("Meshes that are no regular grid are not taken for one") {
     const auto refused = [](const auto& change) {
         in::mesh m = grid_of(21, 30);
         change(m);

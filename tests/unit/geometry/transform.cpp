@@ -27,21 +27,21 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TEST_CASE("positive angles turn counter-clockwise seen against their axis") {
+TEST_CASE("Positive angles turn counter-clockwise seen against their axis") {
     const auto turned = [](const in::pose& p, const glm::dvec3& v) { return transform_direction(to_world(p), v); };
     CHECK(distance(turned({.yaw = 90_deg}, {1, 0, 0}), {0, 1, 0}) < 1e-7);
     CHECK(distance(turned({.pitch = 90_deg}, {1, 0, 0}), {0, 0, -1}) < 1e-7);
     CHECK(distance(turned({.roll = 90_deg}, {0, 1, 0}), {0, 0, 1}) < 1e-7);
 }
 
-TEST_CASE("a pose rolls first, then pitches, then yaws") {
+TEST_CASE("A pose rolls first, then pitches, then yaws") {
     const in::affine all = to_world({.yaw = 20_deg, .pitch = 30_deg, .roll = 50_deg});
     const in::affine steps =
         compose(to_world({.yaw = 20_deg}), compose(to_world({.pitch = 30_deg}), to_world({.roll = 50_deg})));
     for (int i = 0; i < 3; ++i) CHECK(distance(all.linear[i], steps.linear[i]) < 1e-15);
 }
 
-TEST_CASE("a pose scales lengths, keeps angles and handedness, and sinks by the burial") {
+TEST_CASE("A pose scales lengths, keeps angles and handedness, and sinks by the burial") {
     in::pose p = skewed;
     p.burial = 0.25f;
     const in::affine map = to_world(p);
@@ -68,7 +68,7 @@ TEST_CASE("inverse undoes a map, and composing applies the inner one first") {
     CHECK_THROWS_AS(inverse(in::affine{.linear = glm::dmat3(inf)}), in::invalid_input);
 }
 
-TEST_CASE("ten thousand kilometres from the origin a millimetre is still a millimetre") {
+TEST_CASE("At 10^7 m from the origin a millimetre is preserved") {
     const glm::dvec3 far_away(1e7, -1e7, 50);
     const in::affine object = to_world({.position = far_away + glm::dvec3(1, 2, 3), .yaw = 1});
     const in::affine camera = to_world({.position = far_away, .pitch = 0.5f, .roll = 2});
@@ -80,7 +80,7 @@ TEST_CASE("ten thousand kilometres from the origin a millimetre is still a milli
     }
 }
 
-TEST_CASE("normals stay square to a sheared surface and outside of a mirrored one") {
+TEST_CASE("Normals stay square to a sheared surface and outside of a mirrored one") {
     in::affine map = to_world(skewed);
     map.linear[1] += 0.7 * map.linear[0];
     map.linear[2] *= 0.3;
@@ -99,7 +99,7 @@ TEST_CASE("normals stay square to a sheared surface and outside of a mirrored on
     CHECK(transform_normal(map, glm::dvec3(0)) == glm::dvec3(0));
 }
 
-TEST_CASE("a pose that is not finite, or scales by nothing, is refused by name") {
+TEST_CASE("A pose that is not finite, or scales by nothing, is refused by name") {
     const float bad = GENERATE(std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity());
     CHECK_THROWS_WITH(to_world({.position = {0, static_cast<double>(bad), 0}}), ContainsSubstring("pose.position.y"));
     CHECK_THROWS_WITH(to_world({.yaw = bad}), ContainsSubstring("pose.yaw"));
@@ -111,7 +111,7 @@ TEST_CASE("a pose that is not finite, or scales by nothing, is refused by name")
     CHECK_THROWS_AS(to_world({.scale = -1}), in::invalid_input);
 }
 
-TEST_CASE("a bounding box starts empty, grows by points and boxes, and passes over non-finite points") {
+TEST_CASE("A bounding box starts empty, grows by points and boxes, and skips non-finite points") {
     in::bounding_box box;
     CHECK(box.empty());
     CHECK(box.size() == glm::dvec3(0));

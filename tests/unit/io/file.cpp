@@ -69,7 +69,7 @@ TEST_CASE("write_file() writes any bytes unchanged") {
     CHECK(folder.names() == std::set<std::string>{"bytes"});
 }
 
-TEST_CASE("a file that isn't committed leaves the old one, and nothing else") {
+TEST_CASE("A file that is not committed leaves the old one and no temporary") {
     const scratch_folder folder;
     const std::string path = folder / "table.csv";
     in::write_file(path, "old");
@@ -83,7 +83,7 @@ TEST_CASE("a file that isn't committed leaves the old one, and nothing else") {
     CHECK(folder.names() == std::set<std::string>{"table.csv"});
 }
 
-TEST_CASE("a write that fails says why and leaves nothing behind") {
+TEST_CASE("A write that fails says why and leaves nothing behind") {
     const scratch_folder folder;
     CHECK_THROWS_WITH(in::write_file(folder / "no/such/folder", "x"),
                       ContainsSubstring("no/such/folder") && ContainsSubstring("can't open for writing"));
@@ -99,7 +99,7 @@ TEST_CASE("a write that fails says why and leaves nothing behind") {
 }
 
 #if defined(__unix__)
-TEST_CASE("a full disk loses the new file, not the old one") {
+TEST_CASE("A full disk loses the new file, not the old one") {
     const scratch_folder folder;
     const std::string path = folder / "image.pgm";
     in::write_file(path, "old");
@@ -128,7 +128,7 @@ TEST_CASE("a full disk loses the new file, not the old one") {
 }
 #endif
 
-TEST_CASE("writers of one path don't mix their bytes") {
+TEST_CASE("Writers of one path don't mix their bytes") {
     const scratch_folder folder;
     const std::string path = folder / "shared";
     std::vector<std::thread> writers;
@@ -143,7 +143,7 @@ TEST_CASE("writers of one path don't mix their bytes") {
     CHECK(folder.names() == std::set<std::string>{"shared"});
 }
 
-TEST_CASE("a temporary name in use is skipped") {
+TEST_CASE("A temporary name in use is skipped") {
     const scratch_folder folder;
     in::write_file(folder / "image.pgm.tmp0", "left by a crash");
     in::write_file(folder / "image.pgm", "new");
@@ -152,7 +152,7 @@ TEST_CASE("a temporary name in use is skipped") {
     CHECK(folder.names().size() == 2);
 }
 
-TEST_CASE("an image goes through a file, whole or in part") {
+TEST_CASE("An image, whole or a part, is the same after writing and reading") {
     const scratch_folder folder;
     const std::string path = folder / "image.pgm";
     const in::image<std::uint8_t> gray{{0, 10, 255}, {'#', ' ', '\n'}};
@@ -164,7 +164,7 @@ TEST_CASE("an image goes through a file, whole or in part") {
     CHECK_THROWS_WITH(in::read_netpbm<in::rgb8>(path), ContainsSubstring(path) && ContainsSubstring("a gray image"));
 }
 
-TEST_CASE("a table quotes fields as RFC 4180 requires") {
+TEST_CASE("A table quotes fields as RFC 4180 requires") {
     in::csv_table table{"name", "note"};
     table.add("plain", "two words");
     table.add("comma, here", "she said \"ping\"");
@@ -178,7 +178,7 @@ TEST_CASE("a table quotes fields as RFC 4180 requires") {
           ", edges \r\n");
 }
 
-TEST_CASE("a table writes numbers so that they read back as the same") {
+TEST_CASE("A table writes numbers so that they read back as the same") {
     in::csv_table table{"i", "f", "d", "b", "u"};
     table.add(-12, 0.1f, 1.0 / 3, true, std::uint8_t{200});
     table.add(std::uint64_t{18446744073709551615u}, 1e-42f, 1e300, false, std::uint16_t{65535});
@@ -187,7 +187,7 @@ TEST_CASE("a table writes numbers so that they read back as the same") {
           "18446744073709551615,1e-42,1e+300,false,65535\r\n");
 }
 
-TEST_CASE("a table has a cell for every column and is written whole") {
+TEST_CASE("A table has a cell for every column and is written whole") {
     const scratch_folder folder;
     in::csv_table table{"only"};
     table.add("");
@@ -201,7 +201,7 @@ TEST_CASE("a table has a cell for every column and is written whole") {
 }
 
 #if defined(INSONIFY_TEST_PNG)
-TEST_CASE("a PNG that can't be written throws and leaves nothing behind") {
+TEST_CASE("A PNG that can't be written throws and leaves nothing behind") {
     const scratch_folder folder;
     CHECK_THROWS_AS(in::write_png(folder / "empty.png", in::image<float>()), in::invalid_input);
     CHECK_THROWS_AS(in::write_png(folder / "no/folder.png", in::image<float>(2, 2)), in::io_error);
@@ -210,7 +210,7 @@ TEST_CASE("a PNG that can't be written throws and leaves nothing behind") {
 #endif
 
 #if defined(INSONIFY_TEST_PNG_PIXELS)
-TEST_CASE("a PNG holds the pixels, of a part of an image too") {
+TEST_CASE("A PNG holds the pixels, of a part of an image too") {
     const scratch_folder folder;
     const std::string path = folder / "image.png";
     const auto read = [&path](int channels) {

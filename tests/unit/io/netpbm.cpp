@@ -24,7 +24,7 @@ std::string complaint(const std::string& bytes) {
 
 }  // namespace
 
-TEST_CASE("written images read back as the same pixels") {
+TEST_CASE("Written images read back as the same pixels") {
     const in::image<std::uint8_t> gray{{0, 10, 255}, {'#', ' ', '\n'}};
     const in::image<std::uint16_t> instances{{0, 1, 256}, {65535, 4660, 13}};
     const in::image<in::rgb8> color{{{1, 2, 3}, {255, 0, 9}}};
@@ -39,7 +39,7 @@ TEST_CASE("written images read back as the same pixels") {
     CHECK(in::parse_netpbm<in::rgb<float>>(in::format_netpbm(light)) == light);
 }
 
-TEST_CASE("files are written byte by byte as the formats say") {
+TEST_CASE("Files are written byte by byte as the formats say") {
     const in::image<std::uint8_t> gray{{1, 2, 3}};
     const in::image<std::uint16_t> instances{{0x1234}, {0xABCD}};
     const in::image<in::rgb8> color{{{1, 2, 3}}};
@@ -50,7 +50,7 @@ TEST_CASE("files are written byte by byte as the formats say") {
     CHECK(in::format_netpbm(linear) == "Pf\n1 2\n-1.0\n\x00\x00\x00\x40\x00\x00\x80\x3F"s);
 }
 
-TEST_CASE("plain files, comments and all white space are read") {
+TEST_CASE("Plain files, comments and all white space are read") {
     const in::image<std::uint8_t> expected{{0, 1}, {2, 15}};
     CHECK(in::parse_netpbm<std::uint8_t>("P2 2 2 15 0 1 2 15") == expected);
     CHECK(in::parse_netpbm<std::uint8_t>("P2\n# CREATOR: hand\r\n2\t2#size\n15\n0 1\v2\f15\n") == expected);
@@ -60,7 +60,7 @@ TEST_CASE("plain files, comments and all white space are read") {
     CHECK(in::parse_netpbm<std::uint8_t>("P5 1 1 255\n7P5 1 1 255\n8") == in::image<std::uint8_t>{{'7'}});
 }
 
-TEST_CASE("samples keep their values as integers and become shares of maxval as floats") {
+TEST_CASE("Samples keep their values as integers and become shares of maxval as floats") {
     CHECK(in::parse_netpbm<std::uint16_t>("P2 3 1 1000 0 500 1000") == in::image<std::uint16_t>{{0, 500, 1000}});
     CHECK(in::parse_netpbm<float>("P2 3 1 1000 0 500 1000") == in::image<float>{{0, 0.5f, 1}});
     CHECK(in::parse_netpbm<float>("P5 1 1 65535\n\xFF\xFF") == in::image<float>{{1}});
@@ -68,7 +68,7 @@ TEST_CASE("samples keep their values as integers and become shares of maxval as 
     CHECK(in::parse_netpbm<in::rgb<float>>("P3 1 1 4 0 1 4") == in::image<in::rgb<float>>{{{0, 0.25f, 1}}});
 }
 
-TEST_CASE("float maps are read in both byte orders, from the bottom up") {
+TEST_CASE("Float maps are read in both byte orders, from the bottom up") {
     const in::image<float> expected{{2}, {1}};
     CHECK(in::parse_netpbm<float>("Pf\n1 2\n-1.0\n\x00\x00\x80\x3F\x00\x00\x00\x40"s) == expected);
     CHECK(in::parse_netpbm<float>("Pf\n1 2\n1.0\n\x3F\x80\x00\x00\x40\x00\x00\x00"s) == expected);
@@ -76,7 +76,7 @@ TEST_CASE("float maps are read in both byte orders, from the bottom up") {
           in::image<in::rgb<float>>{{{1, 2, 0}}});
 }
 
-TEST_CASE("headers that lie are refused by name and reason, before memory is taken for them") {
+TEST_CASE("Headers with sizes that the file does not have are refused before memory is allocated") {
     CHECK(complaint<std::uint8_t>("") == "hostile.pgm: not a netpbm file");
     CHECK(complaint<std::uint8_t>("\x89PNG\r\n") == "hostile.pgm: not a netpbm file");
     CHECK_THAT(complaint<std::uint8_t>("P4 8 1\n1"), ContainsSubstring("format P4"));
@@ -111,7 +111,7 @@ TEST_CASE("headers that lie are refused by name and reason, before memory is tak
     CHECK_THAT(complaint<std::uint8_t>("P2 1 1 100 101"), ContainsSubstring("sample is \"101\", expected 0 to 100"));
 }
 
-TEST_CASE("a file that doesn't fit the pixel type is refused") {
+TEST_CASE("A file that doesn't fit the pixel type is refused") {
     CHECK_THAT(complaint<std::uint8_t>("P6 1 1 255\n123"), ContainsSubstring("a colour image, expected gray"));
     CHECK_THAT(complaint<in::rgb8>("P5 1 1 255\n1"), ContainsSubstring("a gray image, expected colour"));
     CHECK_THAT(complaint<std::uint8_t>("P5 1 1 256\n12"), ContainsSubstring("maxval is 256, expected at most 255"));
@@ -119,7 +119,7 @@ TEST_CASE("a file that doesn't fit the pixel type is refused") {
     CHECK_THROWS_AS(in::format_netpbm(in::image_view<const float>()), in::invalid_input);
 }
 
-TEST_CASE("no bytes make the parser read out of bounds or take more memory than they are worth") {
+TEST_CASE("No input makes the parser read out of bounds, or allocate more than the input's size justifies") {
     in::random_sequence draws(GENERATE(range(std::uint64_t{0}, std::uint64_t{200})));
     std::string bytes = draws.below(2) == 0 ? "P5 3 2 255\n123456" : "P2 3 2 9 1 2 3 4 5 6";
     for (std::uint32_t i = draws.below(4); i > 0; --i)

@@ -207,7 +207,7 @@ TEST_CASE("Triangles with NaN or infinite vertices are skipped and counted, and 
     CHECK(stats.triangles == good.triangles.size());
 }
 
-TEST_CASE("Every triangle is accounted for once") {
+TEST_CASE("Every triangle is counted exactly once in the statistics") {
     in::mesh m{{{1, 1, 0}, {6, 1, 0}, {1, 6, 0}, {3, 3, 0}, {100, 100, 0}, {101, 100, 0}, {100, 101, 0}, {2, 6, 5}},
                {},
                {{0, 1, 2}, {0, 2, 1}, {3, 3, 3}, {4, 6, 5}, {0, 7, 1}}};
@@ -283,7 +283,7 @@ TEST_CASE("Clipped triangles keep their indices") {
     CHECK(winner == sliced);
 }
 
-TEST_CASE("Facing follows the winding") {
+TEST_CASE("The front side follows the winding") {
     const in::mesh m{{{1, 1, 0}, {1, 6, 0}, {6, 1, 0}}, {}, {{0, 1, 2}}};  // counter-clockwise, y being down
     in::mesh back = m;
     back.triangles = {{0, 2, 1}};
@@ -300,7 +300,7 @@ TEST_CASE("Facing follows the winding") {
     CHECK(drawn(back, in::cull_mode::front) > 0);
 }
 
-TEST_CASE("Empty meshes and odd sizes draw") {
+TEST_CASE("Empty meshes and pictures of odd sizes are drawn") {
     const auto [width, height] = GENERATE(std::pair{1, 1}, std::pair{1, 500}, std::pair{2047, 3}, std::pair{0, 5});
     in::image<float> depth(width, height, 7.0f);
     CHECK(in::draw(in::mesh{}, place_only, in::depth_target{depth}) == in::draw_stats{});
@@ -323,7 +323,7 @@ TEST_CASE("Input out of range is refused before any pixel changes") {
     REQUIRE_THROWS_WITH(in::draw(fine, place_only, in::depth_target{depth}, {.tile = 48}), ContainsSubstring("tile"));
     REQUIRE_THROWS_WITH(in::draw(fine, place_only, in::depth_target{depth}, {.subpixel_bits = 3}),
                         ContainsSubstring("subpixel_bits is 3"));
-    // A view of that many pixels which aren't there: nobody looks at them.
+    // A view of that many pixels without memory behind them: the draw is refused before it reads one.
     const auto wide = [&](int width) {
         return in::depth_target{in::image_view<float>(depth.pixels().data(), width, 1)};
     };

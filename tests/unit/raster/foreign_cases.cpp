@@ -180,7 +180,7 @@ TEST_CASE("Culling follows the sign of the snapped area") {
     }
 }
 
-TEST_CASE("Triangles on a grid of sixteenths, in sizes of powers of two") {
+TEST_CASE("Triangles at sixteenths of a pixel, of sizes in powers of two, cover the oracle's pixels") {
     // piglit, tests/general/triangle-rasterization, its random part.
     in::random_sequence random(6);
     for (int n = 0; n < 2000; ++n) {

@@ -54,7 +54,7 @@ double false_swell(const sb::any& source, double spacing, bool band_limited) {
 
 }  // namespace
 
-TEST_CASE("a grid keeps waves of four samples and drops those of two") {
+TEST_CASE("A grid keeps waves of four samples and drops those of two") {
     CHECK(sb::carried(1, 0) == 1);
     CHECK(sb::carried(1, 0.25) == 1);
     CHECK(sb::carried(1, 1.0 / 3) == Approx(2.0f / 3));
@@ -62,7 +62,7 @@ TEST_CASE("a grid keeps waves of four samples and drops those of two") {
     CHECK(sb::carried(1, 1e9) == 0);
 }
 
-TEST_CASE("ripples on a grid coarser than they are vanish; without the limit they turn up as longer ones") {
+TEST_CASE("Ripples on a grid coarser than they are vanish; without the limit they turn up as longer ones") {
     const sb::ripples ripples{.wavelength = 0.5f, .steepness = 0.12f, .surface = smooth};
     // Each spacing folds the ripples to waves of several samples: what an eye takes for a real swell.
     for (const double spacing : {0.25, 0.4, 0.45, 0.55, 0.9, 1.05, 40.0}) {
@@ -80,7 +80,7 @@ TEST_CASE("ripples on a grid coarser than they are vanish; without the limit the
     CHECK(sampled(ripples, 0.5 / 8).heights == sampled(ripples, 0.5 / 8, false).heights);
 }
 
-TEST_CASE("roughness keeps the octaves that a grid carries, and their heights") {
+TEST_CASE("Roughness keeps the octaves that a grid carries, and their heights") {
     const sb::flat bottom{.surface = {.rms = 0.01f, .longest = 8, .shortest = 0.03125f, .exponent = 2.5f}};
     for (const double spacing : {0.0625, 0.25, 1.0}) {
         CAPTURE(spacing);
@@ -103,7 +103,7 @@ TEST_CASE("roughness keeps the octaves that a grid carries, and their heights") 
     CHECK(rms(sampled(bottom, 8)) == 0);
 }
 
-TEST_CASE("means over the ground are those of a fine grid, however coarse the samples") {
+TEST_CASE("Means over the ground are those of a fine grid, however coarse the samples") {
     const sb::any seabeds[] = {sb::flat{.surface = {.rms = 0.02f, .longest = 3}}, sb::ripples{},
                                sb::ripples{.wavelength = 0.5f, .steepness = 0.12f, .direction = 0.3f}, sb::mud{}};
     for (const sb::any& seabed : seabeds) {
@@ -118,7 +118,7 @@ TEST_CASE("means over the ground are those of a fine grid, however coarse the sa
     }
 }
 
-TEST_CASE("ten kilometres at once cost as many samples as forty metres, and are level where nothing is large enough") {
+TEST_CASE("Ten kilometres at once cost as many samples as forty metres, and are level where nothing is large enough") {
     const sb::mud bottom{};
     const auto wide = sampled(bottom, 10e3 / 192), fine = sampled(bottom, 40.0 / 192);
     CHECK(wide.heights.size() == fine.heights.size());

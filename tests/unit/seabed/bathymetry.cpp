@@ -49,7 +49,7 @@ TEST_CASE("An Esri grid may name centres, write its words in any case and end it
     CHECK(field.heights(1, 0) == 4);
 }
 
-TEST_CASE("What is no Esri grid is refused with the line and the reason") {
+TEST_CASE("Text that is not an Esri grid is refused with the line and the reason") {
     const std::string head = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
     const auto read = [](const std::string& text) { return sb::parse_esri_grid(text, 1, "bottom.asc"); };
     CHECK_THROWS_WITH(read(""), ContainsSubstring("bottom.asc:1: ncols is missing"));
@@ -68,7 +68,7 @@ TEST_CASE("What is no Esri grid is refused with the line and the reason") {
                       ContainsSubstring("1e9"));
 }
 
-TEST_CASE("Soundings come onto a grid in any order, averaged where there are several, missing where there are none") {
+TEST_CASE("Soundings in any order are gridded: averaged where there are several, missing where there are none") {
     const sb::heightfield field =
         sb::parse_xyz("x,y,depth\n10,20,3\n11,20,4\n# a remark\n10.4,19.6,5\n\n11;22;7;quality 3\n", 1, -1);
     REQUIRE(field.heights.width() == 2);
@@ -81,7 +81,7 @@ TEST_CASE("Soundings come onto a grid in any order, averaged where there are sev
     CHECK(missing(field.heights(0, 2)));
 }
 
-TEST_CASE("Soundings stay within their lines, however lines end") {
+TEST_CASE("Soundings are read line by line, with any line ending") {
     CHECK_THROWS_WITH(sb::parse_xyz("0 0 1\n1 0\n2 0 3\n", 1, 1, "bottom.xyz"),
                       ContainsSubstring("bottom.xyz:2: the line ends before a z"));
     CHECK_THROWS_WITH(sb::parse_xyz("0 0 1\r1\r2 0 3\r", 1, 1, "bottom.xyz"),
@@ -96,7 +96,7 @@ TEST_CASE("Soundings stay within their lines, however lines end") {
     for (int i = 0; i < 100; ++i) CHECK(field.heights(i, 0) == 2.0f * static_cast<float>(i));
 }
 
-TEST_CASE("What are no soundings is refused") {
+TEST_CASE("Text that is not a list of soundings is refused") {
     CHECK_THROWS_WITH(sb::parse_xyz("", 1), ContainsSubstring("no soundings"));
     CHECK_THROWS_WITH(sb::parse_xyz("1 2", 1), ContainsSubstring("ends before a z"));
     CHECK_THROWS_WITH(sb::parse_xyz("1 2 z", 1), ContainsSubstring("'z' is not a number"));
@@ -115,7 +115,7 @@ TEST_CASE("A 16-bit image keeps its steps, and its no-data value becomes NaN") {
     CHECK(field.heights(1, 0) == Approx(3.0));
 }
 
-TEST_CASE("Gaps are filled from their edges up to the given reach") {
+TEST_CASE("Gaps are filled from their edges up to the given distance") {
     sb::heightfield field{.heights = in::image<float>(9, 9, 2.0f)};
     for (int j = 2; j < 7; ++j)
         for (int i = 2; i < 7; ++i) field.heights(i, j) = std::numeric_limits<float>::quiet_NaN();

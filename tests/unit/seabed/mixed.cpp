@@ -19,7 +19,7 @@ sb::type type_at(const sb::mixed& m, double x, double y) {
 
 }  // namespace
 
-TEST_CASE("Shapes lie where they are put, later ones on earlier ones") {
+TEST_CASE("Layers lie where their shapes are, later ones above earlier ones") {
     const sb::mixed bed{.base = sb::mud{},
                         .layers = {{sb::flat{}, sb::disc{{10, 0}, 5}, 0.1f, 0},
                                    {sb::ripples{}, sb::band{{{0, 20}, {20, 20}, {20, 40}}, 4}, 0.1f, 0},
@@ -36,7 +36,7 @@ TEST_CASE("Shapes lie where they are put, later ones on earlier ones") {
     CHECK(type_at(bed, -1.8, 20) == sb::type::ripples);  // its end is round
 }
 
-TEST_CASE("A stencil puts a bottom where a picture is bright") {
+TEST_CASE("A stencil's layer lies where its image is above one half") {
     in::image<float> picture(4, 3, 0.0f);
     picture(2, 1) = 1;
     const sb::mixed bed{.layers = {{sb::rock{}, sb::stencil{picture, {100, 200}, 10}, 0.1f, 0}}};

@@ -54,7 +54,7 @@ TEST_CASE("The range of a detailed survey bounds its vertices, the interpolation
     check(sb::detailed{.field = survey}, 3);
 }
 
-TEST_CASE("Nothing has no range") {
+TEST_CASE("Seabed::none has an empty range of heights") {
     CHECK(sb::prepare(sb::any(sb::none{})).range().empty());
 }
 

@@ -87,7 +87,7 @@ static_assert(sb::model<sb::blend> && sb::model<sb::heightfield> && sb::model<sb
 
 }  // namespace
 
-TEST_CASE("heights and types depend on the position alone, for any patch, cut, order and thread") {
+TEST_CASE("Heights and types depend on the position alone, for any patch, cut, order and thread") {
     const double far_away = GENERATE(0.0, -10000000.0);
     for (const sb::any& kind : kinds()) {
         const double spacing = 1.0 / 32;
@@ -131,7 +131,7 @@ struct raise_blocks {
 
 }  // namespace
 
-TEST_CASE("every instruction set gives the same bits, of dense samples and of sparse ones") {
+TEST_CASE("Every instruction set gives the same bits, of dense samples and of sparse ones") {
     using namespace sb::detail;
     const double origin = GENERATE(0.0, -10000000.0), spacing = GENERATE(0.001, 0.03, 5.3);
     const sb::power_law_noise noise({.rms = 0.1f, .longest = 2}, 3, stream::sand);
@@ -172,7 +172,7 @@ TEST_CASE("A point of a recipe is that of its sampler, and seeds differ") {
     CHECK(sb::at(sb::blend{}, 2.0, 1.0).kind == sb::at(sb::blend{}.prepare(), 2.0, 1.0).kind);
 }
 
-TEST_CASE("relief is as continuous 10^7 m from the origin as at it") {
+TEST_CASE("Relief is as continuous 10^7 m from the origin as at it") {
     const double origin = GENERATE(0.0, 10000000.0);
     for (const sb::any& kind : kinds()) {
         const auto field =
@@ -187,7 +187,7 @@ TEST_CASE("relief is as continuous 10^7 m from the origin as at it") {
     }
 }
 
-TEST_CASE("gradient noise has mean 0, variance 1 and the slope that its integrals give") {
+TEST_CASE("Gradient noise has mean 0, variance 1 and the slope that its integrals give") {
     const sb::flat noise{.surface{.rms = 1, .longest = 1, .shortest = 1}, .seed = 3};
     const auto prepared = noise.prepare();
     double mean = 0, square = 0, slope = 0;
@@ -209,7 +209,7 @@ TEST_CASE("gradient noise has mean 0, variance 1 and the slope that its integral
     CHECK(2 * slope == Approx(static_cast<double>(sb::gradient_noise::mean_square_slope)).epsilon(0.02));
 }
 
-TEST_CASE("the spectrum of a roughness falls with its exponent, and its rms is the parameter's") {
+TEST_CASE("The spectrum of a roughness falls with its exponent, and its rms is the parameter's") {
     const float exponent = GENERATE(2.6f, 3.25f, 3.8f);
     const sb::flat sand{.surface{.rms = 0.02f, .longest = 64, .shortest = 0.1f, .exponent = exponent}, .seed = 11};
     // Rows far apart are independent. A cut through an isotropic K^-g spectrum has a spectrum k^-(g - 1).
@@ -237,13 +237,13 @@ TEST_CASE("the spectrum of a roughness falls with its exponent, and its rms is t
     CHECK(std::sqrt(m.variance) == Approx(0.02).epsilon(0.03));
 }
 
-TEST_CASE("flat sand without roughness is a plane at the datum") {
+TEST_CASE("Flat sand without roughness is a plane at the datum") {
     const auto m = moments_of(sb::sample(sb::flat{.surface = smooth}, {.width = 20, .height = 20}).heights);
     CHECK(m.low == 0);
     CHECK(m.high == 0);
 }
 
-TEST_CASE("ripples have one amplitude everywhere, not that of a Gaussian field") {
+TEST_CASE("Ripples have one amplitude everywhere, not that of a Gaussian field") {
     sb::ripples recipe{.wavelength = 0.8f, .steepness = 0.125f, .sharpness = 0, .surface = smooth, .seed = 4};
     const sb::grid area{.spacing = 0.0625, .width = 800, .height = 800};
     const auto plain = moments_of(sb::sample(recipe, area).heights);
@@ -264,7 +264,7 @@ TEST_CASE("ripples have one amplitude everywhere, not that of a Gaussian field")
     }
 }
 
-TEST_CASE("the spectrum of ripples peaks at their wavelength, along their direction") {
+TEST_CASE("The spectrum of ripples peaks at their wavelength, along their direction") {
     const bool along_y = GENERATE(false, true);
     const float wavelength = GENERATE(0.3f, 1.2f);
     const sb::ripples recipe{.wavelength = wavelength,
@@ -289,7 +289,7 @@ TEST_CASE("the spectrum of ripples peaks at their wavelength, along their direct
     CHECK(peak == Approx(n / 16.0).epsilon(0.1));
 }
 
-TEST_CASE("interpolating the envelope of ripples costs less than a hundredth of their height") {
+TEST_CASE("Interpolating the envelope of ripples costs less than a hundredth of their height") {
     const double origin = GENERATE(0.0, 10000000.0);
     const float spread = GENERATE(0.0f, 0.09f, 0.4f);
     const sb::ripples recipe{.wavelength = 0.8f, .steepness = 0.5f, .spread = spread, .surface = smooth, .seed = 9};
@@ -314,7 +314,7 @@ TEST_CASE("interpolating the envelope of ripples costs less than a hundredth of 
     CHECK(std::sqrt(square) < 0.001);
 }
 
-TEST_CASE("slopes of ripples stay bounded, at forks as elsewhere") {
+TEST_CASE("Slopes of ripples stay bounded, at forks as elsewhere") {
     const sb::ripples recipe{.wavelength = 1, .steepness = 0.1f, .sharpness = 0, .surface = smooth, .seed = 3};
     const double spacing = 1.0 / 64;
     const auto field = sb::sample(recipe, {.spacing = spacing, .width = 1500, .height = 300});
@@ -330,7 +330,7 @@ TEST_CASE("slopes of ripples stay bounded, at forks as elsewhere") {
     CHECK(steepest < 3 * pi * 0.1);
 }
 
-TEST_CASE("mounds and pock marks of mud have the density, height and volume of their parameters") {
+TEST_CASE("Mounds and pock marks of mud have the density, height and volume of their parameters") {
     const float share = GENERATE(0.0f, 1.0f);
     const sb::mud recipe{.surface = smooth,
                          .density = 0.3f,
@@ -348,7 +348,7 @@ TEST_CASE("mounds and pock marks of mud have the density, height and volume of t
     CHECK(m.mean == Approx(0.3 * pi / 3 * 0.16 * height * 0.406).epsilon(0.05));
 }
 
-TEST_CASE("under a light at six degrees rock is full of shadows, ripples striped, sand and mud all but free of them") {
+TEST_CASE("Under a light at six degrees rock is full of shadows, ripples striped, sand and mud all but free of them") {
     const sb::grid area{.spacing = 0.025, .width = 800, .height = 200};
     const auto share = [&](const sb::any& kind) { return shadowed(sb::sample(kind, area), 6); };
     const double sand = share(sb::flat{}), ripples = share(sb::ripples{}), mud = share(sb::mud{}),
@@ -360,7 +360,7 @@ TEST_CASE("under a light at six degrees rock is full of shadows, ripples striped
     CHECK(rock > 0.3);
 }
 
-TEST_CASE("rock stands on the datum, about as high as its relief, with faces of the given steepness") {
+TEST_CASE("Rock stands on the datum, about as high as its relief, with faces of the given steepness") {
     const sb::rock recipe{.relief = 0.8f, .steepness = 2.5f, .surface = smooth};
     const double spacing = 0.01;
     const auto field = sb::sample(recipe, {.spacing = spacing, .width = 2000, .height = 200});
@@ -378,7 +378,7 @@ TEST_CASE("rock stands on the datum, about as high as its relief, with faces of 
     CHECK(moments_of(sb::sample(sb::rock{.relief = 0, .surface = smooth}, {}).heights).high == 0);
 }
 
-TEST_CASE("a blend covers its given fraction and is the pure model at fractions of 0 and 1") {
+TEST_CASE("A blend covers its given fraction and is the pure model at fractions of 0 and 1") {
     const float coverage = GENERATE(0.1f, 0.35f, 0.5f, 0.8f);
     const sb::blend recipe{.first = sb::mud{}, .second = sb::flat{}, .coverage = coverage, .patch = 3, .border = 0.5f};
     const auto field = sb::sample(recipe, {.spacing = 0.73, .width = 500, .height = 500});
@@ -405,13 +405,13 @@ struct ramp {
 
 }  // namespace
 
-TEST_CASE("blends take recipes of the user's own") {
+TEST_CASE("Blends take recipes of the user's own") {
     const sb::blend recipe{.first = ramp{}, .coverage = 1};
     CHECK(sb::at(recipe, 3.5, 0).height == 3.5f);
     CHECK(sb::at(recipe, 3.5, 0).kind == sb::type::rock);
 }
 
-TEST_CASE("recipes name the parameter they refuse") {
+TEST_CASE("Recipes name the parameter they refuse") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK_THROWS_WITH(sb::ripples{.wavelength = 0}.prepare(), ContainsSubstring("ripples.wavelength is 0"));
     CHECK_THROWS_WITH(sb::ripples{.steepness = -1}.prepare(), ContainsSubstring("ripples.steepness is -1"));

@@ -48,7 +48,7 @@ TEST_CASE("Flattened ground is level but for its edge") {
     CHECK(sb::at(bed, 5, 0).height == sb::at(sb::ripples{}, 5, 0).height);
 }
 
-TEST_CASE("Ramps rise evenly from one end to the other") {
+TEST_CASE("Ramps rise linearly from one end to the other") {
     const std::vector<sb::edit> edits{sb::ramp{{1, 1}, {5, 4}, 2, 0.1f, 1.1f}};
     for (const double t : {0.0, 0.25, 0.5, 1.0})
         CHECK(height(edits, 1 + 4 * t, 1 + 3 * t) == Approx(0.1 + t).margin(1e-6));
@@ -111,7 +111,7 @@ TEST_CASE("A moat follows its outline, deepest where the current arrives, and he
     CHECK_THROWS_WITH(prepare(sb::moat{.tail = -1}), ContainsSubstring("moat.tail is -1"));
 }
 
-TEST_CASE("A current scours deepest where it comes from, and lays tails behind the target") {
+TEST_CASE("Scour is deepest on the upstream side, with deposits down-current of the target") {
     const sb::scour moat{.centre = {10, 0}, .radius = 0.5f, .depth = 0.2f, .width = 0.6f, .current = 0, .tail = 2};
     const auto at = [&](double x, double y) { return height({moat}, x, y); };
     CHECK(at(10 - 0.5, 0) == Approx(-0.2));
@@ -144,7 +144,7 @@ TEST_CASE("Smoothing removes short relief and keeps slopes") {
         CHECK(static_cast<double>(sb::at(sloped, x, 1.1).height) == Approx(x + 0.55).margin(1e-5));
 }
 
-TEST_CASE("Edits are done in order") {
+TEST_CASE("Edits apply in order") {
     const sb::edit hill = sb::raise{{0, 0}, 2, 0.5f}, level = sb::flatten{{0, 0}, 2, 0.1f};
     CHECK(height({hill, level}, 0, 0) == 0.1f);
     CHECK(height({level, hill}, 0, 0) == Approx(0.6f));
@@ -153,7 +153,8 @@ TEST_CASE("Edits are done in order") {
     CHECK(height({sb::smooth{{0, 0}, 2, 0.5f}, sb::raise{{0, 0}, 0.2f, 0.5f}}, 0, 0) == 0.5f);
 }
 
-TEST_CASE("What is sculpted depends on the position alone, and is the ground elsewhere, here and far away") {
+TEST_CASE(
+    "Sculpted heights depend on the position alone and equal the base outside of the edits, also far from the origin") {
     const double origin = GENERATE(0.0, 10000000.0);
     const sb::blend ground{.first = sb::rock{}, .patch = 3};
     const sb::sculpted bed{.ground = ground,

@@ -45,7 +45,7 @@ TEST_CASE("The relief of a sediment is that of its spectrum: 2 pi w2 K^-1.25 / 1
     CHECK(std::sqrt(square / 160000) == Approx(static_cast<double>(rough.rms)).epsilon(0.05));
 }
 
-TEST_CASE("One word sets relief, brightness and speckle together") {
+TEST_CASE("A sediment's name sets relief, brightness and speckle together") {
     const auto sample = [](in::sediment s) {
         return sb::sample(sb::bottom_of(s), {.spacing = 0.05, .width = 64, .height = 64});
     };

@@ -143,7 +143,9 @@ TEST_CASE("The radially averaged periodogram of a roughness falls with its expon
     CHECK(slope(sand, 1.0 / 10) == Approx(-static_cast<double>(exponent)).margin(0.15));
 }
 
-TEST_CASE("So do those of sand, mud, sediments and rock, as they come and at a sonar's resolution") {
+TEST_CASE(
+    "The periodograms of sand, mud, sediments and rock fall with their exponents, by default and at a sonar's "
+    "resolution") {
     const double spacing = 0.05;
     CHECK(slope([](std::uint64_t seed) { return sb::flat{.seed = seed}; }, spacing) == Approx(-3.25).margin(0.15));
     CHECK(slope([](std::uint64_t seed) { return sb::mud{.density = 0, .seed = seed}; }, spacing) ==
@@ -227,7 +229,7 @@ TEST_CASE("Blocks of rock come in the numbers that their exponent says") {
         return static_cast<double>(count) / 40000;
     };
     // An octagon of radius r covers 8 (sqrt 2 - 1) r^2, and r = 0.6 +- 0.3 t^2 for a uniform t: r^2 is 0.36 + 0.09 / 5
-    // on average. Blocks that overlap by lot leave exp(-cover) of the ground free, nearly.
+    // on average. Blocks that overlap at random leave about exp(-cover) of the ground free.
     const double one = 8 * (std::sqrt(2.0) - 1) * (0.36 + 0.09 / 5);
     CHECK(covered(1, 0.2f) == Approx(1 - std::exp(-0.2 * one)).epsilon(0.05));
     CHECK(covered(2, 0.2f) == Approx(1 - std::exp(-0.2 * one)).epsilon(0.08));

@@ -167,7 +167,7 @@ TEST_CASE("Seabeds of every kind at every elevation, cut either way, in order an
             }
 }
 
-TEST_CASE("A turned, scaled and tilted grid casts where it is put") {
+TEST_CASE("A rotated, scaled and tilted grid casts its shadow from its pose") {
     const in::affine place =
         in::to_world({.position = {4000, -2500, 3}, .yaw = 0.7f, .pitch = 0.2f, .roll = -0.15f, .scale = 1.7f});
     const in::affine near_by{place.linear, place.offset - glm::dvec3(4000, -2500, 0)};
@@ -274,7 +274,7 @@ TEST_CASE("A heightfield on a grid is swept, and its own points and others come 
                 }
 }
 
-TEST_CASE("Points before a grid, behind it, beside it and above it") {
+TEST_CASE("Points in front of a grid, behind it, beside it and above it are tested as by rays") {
     const lit::mesh wall(grid_of(31, false, [](double x, double) { return x > 1.25 && x < 1.35 ? 0.2 : 0.0; }),
                          parallel(0, 45));
     const double infinity = std::numeric_limits<double>::infinity(), nan = std::nan("");
@@ -342,7 +342,7 @@ TEST_CASE("Light from a point: shadows spread as similar triangles do") {
     }
 }
 
-TEST_CASE("A point far away lights as its direction does") {
+TEST_CASE("A distant point light casts the shadows of a parallel light") {
     const glm::dvec3 to_light = shadow::light_frame(parallel(200, 6)).to_light();
     const lit::mesh far_away(rough(), shadow::point_light{1e9 * to_light}), parallel_light(rough(), parallel(200, 6));
     const lit::point_list points = parallel_light.facing(3000, 8);
@@ -353,7 +353,7 @@ TEST_CASE("A point far away lights as its direction does") {
     CHECK(count_dark(one) > 300);
 }
 
-TEST_CASE("Lights low over the bottom, on it, in it, beside and inside of a target: as rays tried one by one") {
+TEST_CASE("Lights just above, on and below the bottom, beside and inside of a target cast the shadows of rays") {
     const in::mesh bottom = rough(1.0 / 16);
     const glm::dvec3 on_vertex(bottom.positions[500]);
     const glm::dvec3 on_facet =
@@ -391,7 +391,7 @@ TEST_CASE("Light exactly along a face or an edge: the face casts no more than it
     CHECK_FALSE(grazed.is_dark({1.2, 0, -0.1}));
 }
 
-TEST_CASE("One vertical wall of a seabed, and one flat as a table") {
+TEST_CASE("A seabed with a vertical step, and a level one, are tested as by rays") {
     in::seabed::heightfield field{.heights = in::image<float>(65, 65), .origin = {-1, -1}, .spacing = 1.0 / 32};
     const lit::mesh flat(in::seabed::tessellate(field), parallel(30, 0.01));
     CHECK(count_dark(flat.dark(flat.facing(500, 1))) == 0);
@@ -445,7 +445,7 @@ TEST_CASE("Exact answers are the same for any executor and however points are ba
     }
 }
 
-TEST_CASE("Nothing blocks where nothing is, and triangles that are not finite block nothing") {
+TEST_CASE("An empty scene casts no shadow, and neither do triangles that are not finite") {
     CHECK_FALSE(lit::mesh({}, parallel(0, 45)).is_dark({0, 0, 0}));
     CHECK_FALSE(lit::mesh({}, shadow::point_light{{0, 0, 1}}).is_dark({0, 0, 0}));
     const double nan = std::nan("");
@@ -468,7 +468,7 @@ TEST_CASE("Nothing blocks where nothing is, and triangles that are not finite bl
     }
 }
 
-TEST_CASE("One vertex at the end of what floats hold takes no shadow away from the others") {
+TEST_CASE("A vertex at the largest float changes no other triangle's shadow") {
     in::mesh m = rough(1.0 / 16);
     const lit::mesh before(m, parallel(25, 6));
     const lit::point_list points = before.facing(600, 5);
@@ -484,7 +484,7 @@ TEST_CASE("One vertex at the end of what floats hold takes no shadow away from t
     }
 }
 
-TEST_CASE("An index without a position is refused, and so are lights that cannot be") {
+TEST_CASE("An index without a position is refused, and so are lights out of range") {
     in::mesh m = box({1, 1, 1}, {0, 0, 0.5});
     m.triangles[3].y = static_cast<std::uint32_t>(m.positions.size());
     CHECK_THROWS_WITH(lit::mesh(m, parallel(0, 45)).is_dark({0, 0, 0}), ContainsSubstring("mesh.triangles is"));

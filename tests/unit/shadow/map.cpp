@@ -135,7 +135,7 @@ TEST_CASE("On a rough seabed the map agrees with rays marched one by one") {
     }
 }
 
-TEST_CASE("PCF softens an edge and leaves the rest") {
+TEST_CASE("PCF softens shadow edges and changes no other point") {
     const double texel = 0.02;
     const shadow::light_frame light({0, radians(20)});
     const auto map = map_of(standing_cube(), light, texel);
@@ -153,12 +153,12 @@ TEST_CASE("PCF softens an edge and leaves the rest") {
     CHECK(halfway);
 }
 
-TEST_CASE("PCF finds nothing in the way beyond the map's border") {
+TEST_CASE("PCF takes points beyond the map's border as lit") {
     const shadow::light_frame light({radians(30), radians(45)});
     shadow::map_extent extent;
     extent.include({0, 0, 0});
     extent.include({1, 1, 0.5});
-    const shadow::height_map map(light, extent, 0.05);  // nobody casts
+    const shadow::height_map map(light, extent, 0.05);  // no casters
     constexpr int soft = 3;
     for (const double u : {-0.5, -0.1, -0.01, 0.01, 0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 1.5})
         for (const double v : {-0.5, -0.1, -0.01, 0.01, 0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 1.5}) {
@@ -193,7 +193,7 @@ TEST_CASE("More texels than allowed become coarser texels") {
     CHECK(map.texel() > 1e-4);
 }
 
-TEST_CASE("Lights and maps that can't be are refused") {
+TEST_CASE("Lights and maps out of range are refused") {
     REQUIRE_THROWS_WITH(shadow::light_frame({0, 0}), ContainsSubstring("elevation is 0"));
     REQUIRE_THROWS_AS(shadow::light_frame({0, 2}), in::invalid_input);
     REQUIRE_THROWS_AS(shadow::light_frame({std::nan(""), 1}), in::invalid_input);

@@ -79,7 +79,7 @@ TEMPLATE_TEST_CASE("No policy shades a sheet by itself, whichever way its triang
             }
 }
 
-TEST_CASE("Under maps a grazed facet is dark by itself, or by a caster of a lower number") {
+TEST_CASE("Under maps a facet at grazing light is shaded by itself, or by a caster of a lower number") {
     // Inclined to the light by 0.3 degrees: 1.5 % of what level ground gets.
     const double rise = -std::tan(radians(19.7));
     const in::mesh m = sheet(rise), cube = to_mesh(in::cube{});
@@ -196,7 +196,7 @@ TEST_CASE("A penumbra is the same point by point and for many batches at once") 
     CHECK(std::count_if(one.lit.begin(), one.lit.end(), [](float share) { return share > 0 && share < 1; }) > 100);
 }
 
-TEST_CASE("Parameters that cannot be are refused by name, and so is light from nearby by maps") {
+TEST_CASE("Parameters out of range are refused by name, and so are point lights by maps") {
     const shadow::caster casters[] = {caster_of(sheet(0))};
     const auto build = [&](const auto& policy, const shadow::any_light& light) {
         in::serial_executor ex;

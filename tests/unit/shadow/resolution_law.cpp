@@ -78,7 +78,7 @@ TEST_CASE("An edge on level ground is off by half a texel at most and a quarter 
     }
 }
 
-TEST_CASE("With the light across the world's axes it is no different") {
+TEST_CASE("The error of an edge does not depend on the light's azimuth") {
     constexpr double texel = 0.02;
     for (const double azimuth : {23.7, 45.0, 90.0, 200.0}) {
         const auto off = measured(radians(6), radians(azimuth), 0, texel);
@@ -87,7 +87,7 @@ TEST_CASE("With the light across the world's axes it is no different") {
     }
 }
 
-TEST_CASE("On a slope that rises along the light edges are sharper, on one that falls away they blur without bound") {
+TEST_CASE("On slopes that face the light edges are sharper; on slopes that fall away their error grows without bound") {
     constexpr double texel = 0.02;
     const double elevation = radians(6), tangent = std::tan(elevation);
     for (const double share : {2.0, 1.0, 0.5, -0.3, -0.6}) {
@@ -100,7 +100,7 @@ TEST_CASE("On a slope that rises along the light edges are sharper, on one that 
     }
 }
 
-TEST_CASE("A low light costs columns for the relief, and none for the ground") {
+TEST_CASE("A low light adds texels for the relief, and none for level ground") {
     constexpr double texel = 0.05, length = 20, width = 12, relief = 0.7;
     const in::bounding_box box{{0, 0, 0}, {length, width, relief}};
     for (const double elevation : {1.0, 6.0, 20.0, 60.0, 90.0}) {

@@ -128,7 +128,7 @@ TEST_CASE("Ground of two triangles 20000 km wide looks the same at every instruc
         CHECK(differences(at_level(level), one_by_one, 0) == 0);
 }
 
-TEST_CASE("Pictures of any shape, of any scene") {
+TEST_CASE("Pictures of any shape of any scene are drawn") {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(1, 300), glm::ivec2(300, 1), glm::ivec2(2047, 3)}) {
         const auto frame = in::render(scene_at({0, 0, 0}), in::overhead{.altitude = 5, .size = size});
         CHECK(frame.image.width() == size.x);

@@ -274,7 +274,7 @@ TEST_CASE("A pitched fan leans forward: the first return is A / cos(pitch) away,
         // Its nearest edge.
         const double down = (5 - 0.4) / std::cos(pitch);
         CHECK(nearest * 0.01 == Approx(std::hypot(8.8, down)).margin(0.15));
-        // Level ground is met at a sine of A / R as ever: the sum of sine^2 over x.
+        // Level ground has a grazing sine of A / R: the sum of sine^2 over x.
         double sum = 0;
         for (int bin = 0; bin < 900; ++bin) sum += static_cast<double>(heard.image(bin, 1));
         const double depth = 5 / std::cos(pitch), edge = std::sqrt(81 - depth * depth);
@@ -335,7 +335,7 @@ TEST_CASE("Overhead pictures and recordings have one result: legend, statistics 
     CHECK((drawn.rows.step == 1 && drawn.stats.cell > 0 && drawn.labels.legend[0].name == "mud"));
 }
 
-TEST_CASE("One piece of code draws by any rig: options start from the rig and share law, cell and labels") {
+TEST_CASE("The same code draws with any rig: options_for(rig) shares law, cell and labels") {
     static_assert(in::sonar_options<in::render_options<>> && in::sonar_options<in::record_options<>>);
     in::scene s;
     s.seabed = in::seabed::mud{};

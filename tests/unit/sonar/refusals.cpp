@@ -160,16 +160,15 @@ TEST_CASE("Both sonars refuse each field of a backscatter law by name") {
 TEST_CASE("Options of pictures and recordings are refused by name") {
     static_assert(members<in::render_options<>>() == 7 && members<in::record_options<>>() == 3);
     for (const bool has_bottom : {true, false})
-        walk<in::render_options<>>(
-            "", {},
-            [&](const in::render_options<>& o) {
-                in::scene s = small_scene();
-                if (!has_bottom) s.seabed = in::seabed::none{};
-                (void)in::render(s, small_rig, o);
-                (void)in::visible_triangles(s, small_rig, o);
-            },
-            {FIELD(cell, below_0), FIELD(reach, below_0), FIELD(subpixel_bits, outside_whole(4, 16)),
-             FIELD(tile, {0, -1, 4, 24, 512})});
+        walk<in::render_options<>>("", {},
+                                   [&](const in::render_options<>& o) {
+                                       in::scene s = small_scene();
+                                       if (!has_bottom) s.seabed = in::seabed::none{};
+                                       (void)in::render(s, small_rig, o);
+                                       (void)in::visible_triangles(s, small_rig, o);
+                                   },
+                                   {FIELD(cell, below_0), FIELD(reach, below_0),
+                                    FIELD(subpixel_bits, outside_whole(4, 16)), FIELD(tile, {0, -1, 4, 24, 512})});
     walk<in::record_options<>>(
         "", {}, [&](const in::record_options<>& o) { (void)in::render(small_scene(), small_side_scan, o); },
         {FIELD(cell, below_0)});
@@ -237,7 +236,7 @@ TEST_CASE("with_speckle() refuses each field of a speckle by name") {
                ContainsSubstring("ping_numbers.step"));
 }
 
-TEST_CASE("Looks of a recording refuse each field by name") {
+TEST_CASE("Filters of recordings refuse each field by name") {
     const in::image<float> heard(6, 4, 0.5f);
     const auto use = [&](const auto& filter) { (void)(heard | filter); };
     static_assert(members<in::range_gain_error>() == 4 && members<in::ping_banding>() == 6);

@@ -16,7 +16,7 @@ namespace {
 
 using exact_options = in::render_options<in::shadow::exact>;
 
-/// Which triangle a pixel shows is a matter of its own: with vertices rounded to 1/65536 pixel it is the oracle's.
+/// Visibility is tested elsewhere: with vertices rounded to 1/65536 pixel, each pixel shows the oracle's triangle.
 exact_options finely_drawn() {
     exact_options options;
     options.subpixel_bits = 16;
@@ -70,7 +70,7 @@ class oracle {
 
     /// Compares a picture's mask with rays towards a light, parallel from `light` or, if it is near, starting there.
     scenes::difference compare(const in::labels& labels, const glm::dvec3& light, bool is_near = false) const {
-        // Slabs along the light, so that not all pixels ask all triangles. They overlap by their width.
+        // Slabs along the light, so that each pixel tests few triangles. They overlap by their width.
         const glm::dvec3 side = std::abs(light.x) + std::abs(light.y) > 0
                                     ? glm::normalize(glm::dvec3(-light.y, light.x, 0))
                                     : glm::dvec3(1, 0, 0);

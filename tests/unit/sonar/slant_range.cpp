@@ -518,7 +518,7 @@ TEST_CASE("Gaps in the seabed return nothing, and do not occlude") {
     CHECK(heard.image(static_cast<int>(rg::slant_range(6.5, 2) / rig.bin()), 0) > 0);
 }
 
-TEST_CASE("Whatever the scene and the rig, intensities are finite and not negative") {
+TEST_CASE("Intensities are finite and not negative in random scenes and rigs") {
     for (std::uint64_t n = 0; n < 120; ++n) {
         in::random_sequence random(n, 3);
         const auto real = [&](double low, double high) { return static_cast<float>(random.uniform(low, high)); };

@@ -146,8 +146,8 @@ class projection {
         std::memcpy(&into, &bits, sizeof into);
     }
 
-    /// Clamps a corner that rounding left outside of a plane: by little, or next to the eye by a lot. The result
-    /// depends on the position alone, so triangles that share a corner still do.
+    /// Clamps a corner that rounding left outside of a plane, which next to the eye may be far outside. The result
+    /// depends on the position alone, so that adjacent triangles keep their shared corner.
     void move_inside(glm::dvec4& p) const {
         p.w = (std::max)(p.w, smallest_w);
         p.x = std::clamp(p.x, -widest_x_ * p.w, widest_x_ * p.w);

@@ -36,7 +36,7 @@ struct tile_kernel {
         const drawn_area<N> area(triangles.grid(), triangles.pixels);
         run_reader left(triangles.runs());
         while (!left.empty()) {
-            draw_small_ones<N>(left, area);
+            draw_small_runs<N>(left, area);
             if (left.empty()) break;
             const triangle_run run = left.take_run();
             for (std::uint32_t i = 0; i < run.count; ++i) draw_one<N>(run.first + i);
@@ -80,7 +80,7 @@ struct tile_kernel {
     /// few. While a group of them is drawn, the next group's vertices and the indices of the one after that are
     /// prefetched: of every second and every fourth triangle, because neighbours share vertices and cache lines.
     template <int N>
-    INSONIFY_INLINE void draw_small_ones(run_reader& left, const drawn_area<N>& area) const {
+    INSONIFY_INLINE void draw_small_runs(run_reader& left, const drawn_area<N>& area) const {
         struct group {
             std::uint32_t ids[static_cast<unsigned>(2 * N)];  // see take_small
             int count;
@@ -91,16 +91,16 @@ struct tile_kernel {
             g.count = left.template take_small<N>(g.ids);
             for (int k = 0; k < g.count; k += 4) triangles.prefetch_indices(g.ids[k]);
         };
-        const auto approach = [&](int i) INSONIFY_INLINE_LAMBDA {
+        const auto prefetch_vertices = [&](int i) INSONIFY_INLINE_LAMBDA {
             const group& g = groups[i % 3];
             for (int k = 0; k < g.count; k += 2) triangles.prefetch_vertices(g.ids[k]);
         };
         take(0);
         take(1);
-        approach(0);
+        prefetch_vertices(0);
         for (int i = 0; groups[i % 3].count > 0; ++i) {
             take(i + 2);
-            approach(i + 1);
+            prefetch_vertices(i + 1);
             draw_small<N>(groups[i % 3].ids, groups[i % 3].count, area);
         }
     }

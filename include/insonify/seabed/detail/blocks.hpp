@@ -42,7 +42,7 @@ class block_layer {
             visit_columns(lattice_, part, 1, [&](std::int64_t first, std::int64_t count) INSONIFY_INLINE_LAMBDA {
                 for (std::int64_t column = first; column < first + count; column += N) {
                     found<N> some;
-                    if (!some.look(*this, hash, dy, static_cast<std::uint32_t>(column), first + count - column))
+                    if (!some.find(*this, hash, dy, static_cast<std::uint32_t>(column), first + count - column))
                         continue;
                     for (int k = 0; k < N; ++k)
                         if (some.is_crossed[k] != 0) draw<N>(part, values, column + k, block(*this, some, k));
@@ -56,7 +56,7 @@ class block_layer {
     double upper_bound() const { return 1.00001 * (0.99 + 0.5 * 1.41422 * 0.975) * static_cast<double>(height_); }
 
   private:
-    /// Which blocks of N adjacent cells a row crosses; rejects most cells.
+    /// The blocks of N adjacent cells that a row crosses; most cells have none.
     template <int N>
     struct found {
         static constexpr std::size_t size = static_cast<std::size_t>(N);
@@ -64,14 +64,14 @@ class block_layer {
         alignas(32) std::uint32_t seeds[size];
         alignas(32) float x[size], y[size], radius[size], chord[size];  // in cells, from the block's centre
 
-        INSONIFY_INLINE bool look(const block_layer& layer, const cell_hash::row& hash, float dy, std::uint32_t column,
+        INSONIFY_INLINE bool find(const block_layer& layer, const cell_hash::row& hash, float dy, std::uint32_t column,
                                   std::int64_t most) {
             using words = lanes<std::uint32_t, N>;
             using ints = lanes<std::int32_t, N>;
             using floats = lanes<float, N>;
             words number, first, second;
             insonify::detail::iota<std::uint32_t, N>(number);
-            hash.mixed(first, words(number + column));
+            hash.hash_lanes(first, words(number + column));
             second = (first ^ (first >> 15)) * 0x2C1B3C6Du;
             second = (second ^ (second >> 12)) * 0x297A2D39u;
             second = second ^ (second >> 15);

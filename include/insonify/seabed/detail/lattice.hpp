@@ -67,7 +67,7 @@ class cell_hash {
         /// 32 bits for each of several columns at once, from the last 32 bits of their indices, so with a period of
         /// 2^32 columns. They differ from those above.
         template <class Columns>
-        INSONIFY_INLINE void mixed(Columns& bits, const Columns& columns) const {
+        INSONIFY_INLINE void hash_lanes(Columns& bits, const Columns& columns) const {
             bits = columns ^ static_cast<std::uint32_t>(key_);
             bits = (bits ^ (bits >> 16)) * 0x7FEB352Du;
             bits = bits + static_cast<std::uint32_t>(key_ >> 32);
@@ -87,9 +87,9 @@ class cell_hash {
 };
 
 /// Two numbers in [-1, 1) from 64 bits.
-struct pair_of_bits {
+struct signed_pair {
     float a, b;
-    explicit constexpr pair_of_bits(std::uint64_t bits)
+    explicit constexpr signed_pair(std::uint64_t bits)
         : a(static_cast<float>(static_cast<std::int32_t>(static_cast<std::uint32_t>(bits))) * 0x1p-31f),
           b(static_cast<float>(static_cast<std::int32_t>(bits >> 32)) * 0x1p-31f) {}
 };
@@ -101,7 +101,7 @@ struct lattice {
 
     /// Shifted by its own hash, so that the lattice lines of a sum's layers do not coincide.
     static lattice shifted(double cell, const cell_hash& hash) {
-        const pair_of_bits shift(hash[0x7FFFFFFF](0x7FFFFFFF));
+        const signed_pair shift(hash[0x7FFFFFFF](0x7FFFFFFF));
         return {1 / cell, static_cast<double>(shift.a), static_cast<double>(shift.b)};
     }
     double u(double x) const { return x * frequency + offset_x; }
@@ -110,7 +110,7 @@ struct lattice {
 
 /// The nearest length of eight bits. Its multiples are exact, so that nodes at multiples of it are the same in every
 /// row.
-inline double eight_bits(double length) {
+inline double rounded_to_eight_bits(double length) {
     double unit = 1;
     while (unit * 256 <= length) unit *= 2;
     while (unit * 128 > length) unit /= 2;

@@ -120,7 +120,7 @@ class gradient_noise {
                                              const words<N>& column) {
             using ints = lanes<std::int32_t, N>;
             words<N> bits;
-            row.mixed(bits, column);
+            row.hash_lanes(bits, column);
             insonify::detail::convert(x, ints(ints(bits << 16) >> 16));
             insonify::detail::convert(y, ints(ints(bits) >> 16));
             x = x * 0x1p-15f;

@@ -19,43 +19,6 @@ namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Rises of a surface at the vertices of a row, by central differences: twice the rise per cell. Beside an edge or a
-/// missing neighbour the one-sided difference is doubled; it is 0 at a vertex without data.
-class row_rises {
-  public:
-    row_rises(const image<float>& heights, int j)
-        : here_(heights.row(j).data()),
-          back_(heights.row((std::max)(j - 1, 0)).data()),
-          ahead_(heights.row((std::min)(j + 1, heights.height() - 1)).data()),
-          width_(static_cast<std::size_t>(heights.width())),
-          inner_(j > 0 && j + 1 < heights.height()) {}
-
-    float x(std::size_t i) const {
-        const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width_ ? i + 1 : i;
-        return rise(here_[left], here_[i], here_[right], right - left == 2);
-    }
-    float y(std::size_t i) const { return rise(back_[i], here_[i], ahead_[i], inner_); }
-
-    /// Unit normal of the surface at a vertex.
-    glm::vec3 normal(std::size_t i, float spacing) const {
-        const float dx = x(i), dy = y(i), dz = 2 * spacing;
-        const float inverse = 1 / numeric::square_root(dx * dx + dy * dy + dz * dz);
-        return {(0.0f - dx) * inverse, (0.0f - dy) * inverse, dz * inverse};
-    }
-
-  private:
-    static float rise(float before, float at, float after, bool both) {
-        if (!numeric::is_finite(at)) return 0;
-        const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
-        if (has_before && has_after) return both ? after - before : 2 * (after - before);
-        return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
-    }
-
-    const float *here_, *back_, *ahead_;
-    std::size_t width_;
-    bool inner_;
-};
-
 /// The normals of one row of vertices.
 class row_normals {
   public:
@@ -67,7 +30,6 @@ class row_normals {
           ahead_(field.heights.row(row + 1 < field.heights.height() ? row + 1 : row).data()),
           inner_(row > 0 && row + 1 < field.heights.height()),
           z_(2 * static_cast<float>(field.spacing)),
-          rises_(field.heights, row),
           out_(out) {}
 
     void compute(isa level = best_isa()) const { insonify::detail::dispatch(*this, level); }
@@ -109,13 +71,27 @@ class row_normals {
     }
 
   private:
-    void one(std::size_t i) const { out_[i] = rises_.normal(i, 0.5f * z_); }
+    void one(std::size_t i) const {
+        const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width_ ? i + 1 : i;
+        const float dx = rise(here_[left], here_[i], here_[right], right - left == 2);
+        const float dy = rise(back_[i], here_[i], ahead_[i], inner_);
+        const float inverse = 1 / numeric::square_root(dx * dx + dy * dy + z_ * z_);
+        out_[i] = {(0.0f - dx) * inverse, (0.0f - dy) * inverse, z_ * inverse};
+    }
+
+    /// Twice the rise per cell, by central differences. Beside an edge or a missing neighbour the one-sided difference
+    /// is doubled; it is 0 at a vertex without data.
+    static float rise(float before, float at, float after, bool both) {
+        if (!numeric::is_finite(at)) return 0;
+        const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
+        if (has_before && has_after) return both ? after - before : 2 * (after - before);
+        return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
+    }
 
     std::size_t width_;
     const float *here_, *back_, *ahead_;
     bool inner_;
     float z_;  // twice the spacing
-    row_rises rises_;
     glm::vec3* out_;
 };
 

@@ -71,7 +71,7 @@ class round_marks {
         template <int N>
         INSONIFY_INLINE void draw(float kept, float up, std::int64_t column, std::uint64_t bits) const {
             const lattice& l = marks.lattice_;
-            const pair_of_bits centre(bits), traits(scramble(bits));
+            const signed_pair centre(bits), traits(scramble(bits));
             const float chance = 0.5f * traits.b + 0.5f;
             if (chance >= marks.filled_) return;
             const float radius = 0.175f + 0.075f * traits.a;  // in cells; a quarter at most

@@ -82,7 +82,7 @@ class trawl_furrows {
         ints cell;
         locate<N>(off, cell, &part.x[i], -f.sine * f.per_lane, across, static_cast<double>(first));
         words bits;
-        hash_[static_cast<std::int64_t>(n)].mixed(bits, words(words(cell) + static_cast<std::uint32_t>(first)));
+        hash_[static_cast<std::int64_t>(n)].hash_lanes(bits, words(words(cell) + static_cast<std::uint32_t>(first)));
         insonify::detail::convert(lot, ints(ints(bits << 16) >> 16));
         insonify::detail::convert(bends, ints(ints(bits) >> 16));
         // A furrow stays within its strip, so that a sample meets one furrow at most.

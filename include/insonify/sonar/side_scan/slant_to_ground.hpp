@@ -19,8 +19,7 @@ inline namespace INSONIFY_FLAGS {
 /// @param from       its rig
 /// @param to         first_range, range and bins are the columns of the result
 /// @param altitudes  of the sonar above the seabed, one per row from the top; empty for the rig's altitude
-/// @throws invalid_input for a rig out of range, a number of altitudes that is neither 0 nor that of rows, or an
-/// altitude
+/// @throws invalid_input for a rig out of range, a number of altitudes other than 0 or that of the rows, or an altitude
 ///         that is not finite
 template <class Labels>
 frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from, const ground_range& to,

@@ -40,7 +40,7 @@ class bottom_tiles {
     /// Rounds a length so that its multiples are exact: a vertex has the same coordinates in every row.
     static double even(double length) {
         require(length > 1e-9 && length < 1e9, "cell", length, "metres above 0");
-        return seabed::detail::eight_bits(length);
+        return seabed::detail::rounded_to_eight_bits(length);
     }
 
     /// Samples the seabed below some pings, and discards all other tiles.
@@ -48,61 +48,11 @@ class bottom_tiles {
     template <executor E>
     void cover(std::span<const ping_frame> pings, double from, double reach, E& ex) {
         if (is_empty_) return;
-        const double side = cells * spacing_;
-        // Steps of half a tile along each ping's fan: the rectangles around the steps contain every tile that it
-        // touches.
-        const double looked_at = reach - from;
-        const int steps = static_cast<int>(numeric::floor_to_int(2 * looked_at / side)) + 1;
-        const auto step = [&](int i) { return from + looked_at * i / steps; };
-        const auto tile_of = [&](const glm::dvec2& p) {
-            require(p.x > -1e9 && p.x < 1e9 && p.y > -1e9 && p.y < 1e9, "ping.position", p.x, "within 1e9 metres");
-            return std::pair{numeric::floor_to_int(p.x / side), numeric::floor_to_int(p.y / side)};
-        };
-        std::int64_t last_x = -(std::int64_t{1} << 60), last_y = last_x;
-        first_x_ = first_y_ = -last_x;
-        for (const ping_frame& p : pings) {
-            const auto [least, most] = depths(p);
-            for (const double x : {from, step(steps + 1)})
-                for (const double down : {least, most}) {
-                    const auto [tile_x, tile_y] = tile_of(p.below(x, down));
-                    first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
-                    last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
-                }
-        }
-        columns_ = last_x - first_x_ + 1;
-        const std::int64_t rows = last_y - first_y_ + 1;
-        require(columns_ * rows < (1 << 26), "seabed tiles", columns_ * rows, "below 2^26: take larger cells");
-        slots_.assign(static_cast<std::size_t>(columns_ * rows), absent);
-        for (const ping_frame& p : pings) {
-            const auto [least, most] = depths(p);
-            for (int i = 0; i < steps; ++i) {
-                auto [ax, ay] = tile_of(p.below(step(i), least));
-                std::int64_t bx = ax, by = ay;
-                for (const auto& [x, y] : {tile_of(p.below(step(i + 1), least)), tile_of(p.below(step(i), most)),
-                                           tile_of(p.below(step(i + 1), most))}) {
-                    ax = (std::min)(ax, x), ay = (std::min)(ay, y);
-                    bx = (std::max)(bx, x), by = (std::max)(by, y);
-                }
-                for (std::int64_t y = ay; y <= by; ++y)
-                    for (std::int64_t x = ax; x <= bx; ++x) slots_[slot_of(x, y)] = 0;
-            }
-        }
-
-        // Tiles that are neighbours along x are sampled together: long rows cost less per sample.
-        std::vector<tile_run> runs;
-        std::uint32_t tiles = 0;
-        for (std::int64_t y = 0; y < rows; ++y)
-            for (std::int64_t x = 0; x < columns_; ++x) {
-                std::uint32_t& slot = slots_[static_cast<std::size_t>(y * columns_ + x)];
-                if (slot == absent) continue;
-                slot = tiles++;
-                const bool goes_on = !runs.empty() && runs.back().count < longest_run && x > 0 &&
-                                     slots_[static_cast<std::size_t>(y * columns_ + x - 1)] != absent;
-                if (goes_on)
-                    ++runs.back().count;
-                else
-                    runs.push_back({first_x_ + x, first_y_ + y, slot, 1});
-            }
+        const fan_steps steps(from, reach, side());
+        lay_out(pings, steps);
+        mark(pings, steps);
+        const std::vector<tile_run> runs = number_marked();
+        const std::size_t tiles = runs.empty() ? 0 : std::size_t{runs.back().slot} + runs.back().count;
         vertices_.reset(new bottom_vertex[tiles * tile_size]);
         ex.bulk(runs.size(), [&](std::size_t i) { sample(runs[i]); });
         sampled_ += tiles * tile_size;
@@ -146,6 +96,60 @@ class bottom_tiles {
     static constexpr std::uint32_t absent = 0xFFFFFFFFu;
     static_assert(1 << shift == cells);
 
+    /// Steps of half a tile along a ping's fan: the rectangles around them contain every tile that it touches.
+    struct fan_steps {
+        double from, width;
+        int count;
+
+        fan_steps(double first, double reach, double side)
+            : from(first), width(reach - first), count(static_cast<int>(numeric::floor_to_int(2 * width / side)) + 1) {}
+        double operator[](int i) const { return from + width * i / count; }
+    };
+
+    double side() const { return cells * spacing_; }
+
+    std::pair<std::int64_t, std::int64_t> tile_of(const glm::dvec2& p) const {
+        require(p.x > -1e9 && p.x < 1e9 && p.y > -1e9 && p.y < 1e9, "ping.position", p.x, "within 1e9 metres");
+        return {numeric::floor_to_int(p.x / side()), numeric::floor_to_int(p.y / side())};
+    }
+
+    /// Clears the slots of the rectangle of tiles around all fans.
+    void lay_out(std::span<const ping_frame> pings, const fan_steps& steps) {
+        std::int64_t last_x = -(std::int64_t{1} << 60), last_y = last_x;
+        first_x_ = first_y_ = -last_x;
+        for (const ping_frame& p : pings) {
+            const auto [least, most] = depths(p);
+            for (const double x : {steps.from, steps[steps.count + 1]})
+                for (const double down : {least, most}) {
+                    const auto [tile_x, tile_y] = tile_of(p.below(x, down));
+                    first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
+                    last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
+                }
+        }
+        columns_ = last_x - first_x_ + 1;
+        rows_ = last_y - first_y_ + 1;
+        require(columns_ * rows_ < (1 << 26), "seabed tiles", columns_ * rows_, "below 2^26: take larger cells");
+        slots_.assign(static_cast<std::size_t>(columns_ * rows_), absent);
+    }
+
+    /// Marks the tiles that the fans touch.
+    void mark(std::span<const ping_frame> pings, const fan_steps& steps) {
+        for (const ping_frame& p : pings) {
+            const auto [least, most] = depths(p);
+            for (int i = 0; i < steps.count; ++i) {
+                auto [ax, ay] = tile_of(p.below(steps[i], least));
+                std::int64_t bx = ax, by = ay;
+                for (const auto& [x, y] : {tile_of(p.below(steps[i + 1], least)), tile_of(p.below(steps[i], most)),
+                                           tile_of(p.below(steps[i + 1], most))}) {
+                    ax = (std::min)(ax, x), ay = (std::min)(ay, y);
+                    bx = (std::max)(bx, x), by = (std::max)(by, y);
+                }
+                for (std::int64_t y = ay; y <= by; ++y)
+                    for (std::int64_t x = ax; x <= bx; ++x) slots_[slot_of(x, y)] = 0;
+            }
+        }
+    }
+
     std::size_t slot_of(std::int64_t x, std::int64_t y) const {
         return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
     }
@@ -159,12 +163,32 @@ class bottom_tiles {
                 (p.position().z - range_.lowest) / p.cosine_pitch()};
     }
 
-    /// Neighbouring tiles along x.
+    /// Adjacent tiles along x, sampled together: long rows cost less per sample.
     struct tile_run {
         std::int64_t x, y;
         std::uint32_t slot, count;
     };
     static constexpr std::uint32_t longest_run = 8;
+
+    /// Numbers the marked tiles.
+    /// @returns their runs, in the order of the numbers
+    std::vector<tile_run> number_marked() {
+        std::vector<tile_run> runs;
+        std::uint32_t next = 0;
+        for (std::int64_t y = 0; y < rows_; ++y)
+            for (std::int64_t x = 0; x < columns_; ++x) {
+                std::uint32_t& slot = slots_[static_cast<std::size_t>(y * columns_ + x)];
+                if (slot == absent) continue;
+                slot = next++;
+                const bool continues = !runs.empty() && runs.back().count < longest_run && x > 0 &&
+                                       slots_[static_cast<std::size_t>(y * columns_ + x - 1)] != absent;
+                if (continues)
+                    ++runs.back().count;
+                else
+                    runs.push_back({first_x_ + x, first_y_ + y, slot, 1});
+            }
+        return runs;
+    }
 
     /// Samples a run, with a margin of one vertex for the slopes.
     void sample(const tile_run& run) const {
@@ -199,7 +223,7 @@ class bottom_tiles {
     seabed::any_sampler prepared_;
     seabed::height_range range_;
     double spacing_, scale_;
-    std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0;
+    std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0, rows_ = 0;
     std::vector<std::uint32_t> slots_;
     std::unique_ptr<bottom_vertex[]> vertices_;
     std::uint64_t sampled_ = 0;

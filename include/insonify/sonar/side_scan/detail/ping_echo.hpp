@@ -80,7 +80,7 @@ class ping_tracer {
         if (!(altitude > lowest_) || profile_[0].down <= 0) return bins_;  // the sonar is below the seabed
         gather_targets(p);
         trace_bottom(p);
-        if (some_target_) add_target_echoes();
+        if (has_targets_) add_target_echoes();
         if constexpr (Labelled) label_bins();
         return bins_;
     }
@@ -173,16 +173,16 @@ class ping_tracer {
     double x_of(std::size_t i) const { return profile_step_ * static_cast<double>(first_point_ + i); }
 
     void gather_targets(const ping_frame& p) {
-        some_target_ = false;
+        has_targets_ = false;
         for (std::size_t i = 0; i < targets_.size(); ++i) {
             if (!targets_[i].is_met_by(p, farthest_)) continue;
-            if (!some_target_) hits_.begin(fan_);
-            some_target_ = true;
+            if (!has_targets_) hits_.begin(fan_);
+            has_targets_ = true;
             targets_[i].cut(p, [&](const cut_segment& segment) {
                 hits_.add(segment, static_cast<std::uint16_t>(i + 1), scene_.targets[i].surface.reflectivity);
             });
         }
-        if (some_target_) hits_.resolve();
+        if (has_targets_) hits_.resolve();
     }
 
     /// Walks outwards along the profile. Rays meet it in order; bottom below the last ray that met it is in shadow.
@@ -190,7 +190,7 @@ class ping_tracer {
         double horizon_x = 0, horizon_down = 1;
         // Rays that meet the bottom in front of the profile go no further.
         std::size_t k = first_point_ > 0 ? fan_.first_over(x_of(0), profile_[0].down) : 0;
-        if (some_target_)
+        if (has_targets_)
             for (std::size_t j = 0; j < k; ++j) hits_.cut_off(j, 0);
         const std::size_t rays = fan_.size();
         for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
@@ -214,7 +214,7 @@ class ping_tracer {
                 const double before = ping_fan::beyond(ray, px, p.down);
                 const double f = before / (before - ping_fan::beyond(ray, qx, q.down));
                 const double range = (px + f * dx) * ray.sine + (p.down + f * ddown) * ray.cosine;
-                if (Labelled && some_target_ && k > first) {
+                if (Labelled && has_targets_ && k > first) {
                     const double between = 0.5 * (last_met + f);
                     label(p, q, px, dx, from, between, occluder(k - 1, px + last_met * dx, p.down + last_met * ddown));
                     from = between;
@@ -225,7 +225,7 @@ class ping_tracer {
             }
             if constexpr (Labelled)
                 label(p, q, px, dx, from, 1,
-                      some_target_ ? occluder(k > first ? k - 1 : k, px + last_met * dx, p.down + last_met * ddown)
+                      has_targets_ ? occluder(k > first ? k - 1 : k, px + last_met * dx, p.down + last_met * ddown)
                                    : labels::is_lit);
             horizon_x = qx, horizon_down = q.down;
         }
@@ -234,16 +234,16 @@ class ping_tracer {
     void add_bottom_echo(const ping_frame& ping, const ping_fan::ray& ray, std::size_t k, double range, double dx,
                          double ddown, const bottom_point& p, const bottom_point& q, float f) {
         // Removes targets that are buried or behind a rise.
-        const double covered = some_target_ ? hits_.cut_off(k, range) : 0;
+        const double covered = has_targets_ ? hits_.cut_off(k, range) : 0;
         if (covered >= 1) return;
         const float at = column(ray, range), half = (std::min)(half_length(ray, range, dx, ddown), widest);
         const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
         const float slope = p.slope + f * (q.slope - p.slope);
         const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
         const auto upright = static_cast<float>(ping.cosine_pitch()), ahead = static_cast<float>(ping.sine_pitch());
-        const float facing = (slope * sine + cosine * (upright + slope_along * ahead)) /
-                             numeric::square_root(1 + slope * slope + slope_along * slope_along);
-        const float power = static_cast<float>(1 - covered) * power_of(k, range, facing) *
+        const float grazing_sine = (slope * sine + cosine * (upright + slope_along * ahead)) /
+                                   numeric::square_root(1 + slope * slope + slope_along * slope_along);
+        const float power = static_cast<float>(1 - covered) * power_of(k, range, grazing_sine) *
                             materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
         distribute(at - half, at + half,
                    [&](std::size_t bin, float fraction, float) { bins_[bin].bottom += power * fraction; });
@@ -252,7 +252,8 @@ class ping_tracer {
     void add_target_echoes() {
         hits_.for_each([&](std::size_t k, const target_hit& hit) {
             const double range = numeric::square_root(hit.square_range());
-            const float power = static_cast<float>(hit.fraction) * power_of(k, range, hit.facing) * hit.reflectivity;
+            const float power =
+                static_cast<float>(hit.fraction) * power_of(k, range, hit.grazing_sine) * hit.reflectivity;
             const double a = column(hit.x0, hit.down0), b = column(hit.x1, hit.down1);
             distribute(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
                        [&](std::size_t bin, float fraction, float) {
@@ -269,7 +270,7 @@ class ping_tracer {
                 const auto [type, length] = types_.largest(b, labels::no_seabed);
                 if (length > bins_[b].of_seabed) bins_[b].seabed = static_cast<std::uint8_t>(type);
             }
-        if (some_target_)
+        if (has_targets_)
             for (std::size_t b = 0; b < bins_.size(); ++b) {
                 echo_bin& bin = bins_[b];
                 bin.instance = echoing_.largest(b, labels::no_instance).label;
@@ -285,7 +286,7 @@ class ping_tracer {
     }
     /// The caster of a shadow below the horizon: a target, if one occludes the point, or the seabed.
     std::uint16_t caster_below_horizon(double x, double down) const {
-        const std::uint16_t target = some_target_ ? occluder(fan_.first_over(x, down), x, down) : labels::is_lit;
+        const std::uint16_t target = has_targets_ ? occluder(fan_.first_over(x, down), x, down) : labels::is_lit;
         return target == labels::is_lit ? labels::by_seabed : target;
     }
 
@@ -350,8 +351,8 @@ class ping_tracer {
 
     /// Power that a surface of reflectivity 1 returns from a ray: the ray's cross-section over the sine of the grazing
     /// angle, times the law.
-    float power_of(std::size_t k, double range, float facing) const {
-        const float sine = (std::min)((std::max)(facing, 1e-3f), 1.0f);
+    float power_of(std::size_t k, double range, float grazing_sine) const {
+        const float sine = (std::min)((std::max)(grazing_sine, 1e-3f), 1.0f);
         return static_cast<float>(range) * ray_power_[k] * law_(sine) / sine;
     }
 
@@ -372,7 +373,7 @@ class ping_tracer {
     std::vector<float> ray_power_;
     std::vector<bottom_point> profile_;
     target_hits hits_;
-    bool some_target_ = false;
+    bool has_targets_ = false;
     std::vector<echo_bin> bins_;
     label_tally echoing_, casting_, types_;
 };

@@ -65,13 +65,13 @@ class recorder {
                 if constexpr (footprint_part<decltype(part)>) blur_along_track(part, ex);
             });
         if constexpr (Equation::has_noise || Equation::has_gain) amplify(ex);
-        const auto cut = [&](auto& picture) {
+        const auto crop = [&](auto& picture) {
             picture = std::remove_reference_t<decltype(picture)>(
                 picture.view().part(0, margin, picture.width(), picture.height() - 2 * margin));
         };
-        if (margin > 0) cut(out_.image);
+        if (margin > 0) crop(out_.image);
         if constexpr (labelled) {
-            if (margin > 0) cut(out_.labels.instance), cut(out_.labels.shadow), cut(out_.labels.seabed);
+            if (margin > 0) crop(out_.labels.instance), crop(out_.labels.shadow), crop(out_.labels.seabed);
             measure_targets(out_.labels);
         }
         return std::move(out_);

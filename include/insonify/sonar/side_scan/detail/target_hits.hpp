@@ -1,8 +1,8 @@
 // First hits of a ping's rays with the targets, with exact fractional coverage of each ray's width.
 //
 // The cross-section of the targets with a ping's plane is a set of line segments. Their ends divide each ray's width
-// into parts; in each part the nearest segment is hit, weighted by the part's fraction of the width. A bar that is
-// thinner than the spacing of rays so returns its own energy in every ping that meets it.
+// into parts; in each part the nearest segment is hit, weighted by the part's fraction of the width. A bar
+// thinner than the spacing of rays therefore returns its energy in every ping that meets it.
 #pragma once
 
 #include <insonify/sonar/labels.hpp>
@@ -26,7 +26,7 @@ struct target_hit {
     double fraction;              ///< of the ray's width
     double x, down;               ///< of its middle, metres
     double x0, down0, x1, down1;  ///< of its ends
-    float facing;                 ///< sine of the grazing angle on the surface
+    float grazing_sine;           ///< sine of the grazing angle on the surface
     float reflectivity;
     std::uint16_t instance;
 
@@ -59,7 +59,7 @@ class target_hits {
         const std::size_t first = static_cast<std::size_t>(from) - fan_->first();
         const std::size_t last = (std::min)(static_cast<std::size_t>(to) - fan_->first(), fan_->size() - 1);
         for (std::size_t k = first; k <= last; ++k) {
-            const double low = (std::max)(from, number(k)), high = (std::min)(to, number(k) + 1);
+            const double low = (std::max)(from, ray_start(k)), high = (std::min)(to, ray_start(k) + 1);
             if (!(low < high)) continue;
             if (high - low < 1) {
                 partial_.push_back({static_cast<std::uint32_t>(k), id, low, high});
@@ -85,7 +85,7 @@ class target_hits {
             if (next != end)
                 divide(k, {next, end}, is_met);
             else if (is_met)
-                add_hit(nearest_[k].segment, number(k), number(k) + 1);
+                add_hit(nearest_[k].segment, ray_start(k), ray_start(k) + 1);
             next = end;
             find_occluder(k, hits_.size());
         }
@@ -140,7 +140,7 @@ class target_hits {
     };
 
     /// The coordinate at which ray k begins.
-    double number(std::size_t k) const { return static_cast<double>(fan_->first() + k); }
+    double ray_start(std::size_t k) const { return static_cast<double>(fan_->first() + k); }
 
     static void cut_at_nadir(cut_segment::end& from, const cut_segment::end& to) {
         if (from.x > 0) return;
@@ -169,13 +169,13 @@ class target_hits {
         const glm::dvec2 at(o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down));
         const glm::dvec2 from = point(o, fan_->at(low)), to = point(o, fan_->at(high));
         if (!(at.x * at.x + at.y * at.y > 0)) return;
-        hits_.push_back({high - low, at.x, at.y, from.x, from.y, to.x, to.y, facing(o, static_cast<float>(f), middle),
-                         p.reflectivity, p.instance});
+        hits_.push_back({high - low, at.x, at.y, from.x, from.y, to.x, to.y,
+                         grazing_sine(o, static_cast<float>(f), middle), p.reflectivity, p.instance});
     }
 
     /// Sine of the grazing angle. The facet decides which side is insonified, and the sign of the normal; it replaces
     /// normals that are zero or not finite.
-    static float facing(const cut_segment& o, float f, const ping_fan::direction& d) {
+    static float grazing_sine(const cut_segment& o, float f, const ping_fan::direction& d) {
         const auto sine = static_cast<float>(d.sine), cosine = static_cast<float>(d.cosine);
         glm::vec3 n = o.a.normal + f * (o.b.normal - o.a.normal);
         float square = numeric::dot(n, n);
@@ -186,14 +186,14 @@ class target_hits {
 
     /// Divides a ray between segments that cover parts of its width and the nearest one that covers all of it.
     void divide(std::size_t k, std::span<const part> parts, bool is_met) {
-        // Too many segments are sampled at fixed positions instead.
+        // Above most_parts segments, the ray is sampled at fixed positions.
         ends_.clear();
-        ends_.push_back(number(k)), ends_.push_back(number(k) + 1);
+        ends_.push_back(ray_start(k)), ends_.push_back(ray_start(k) + 1);
         if (parts.size() <= most_parts) {
             for (const part& p : parts) ends_.push_back(p.low), ends_.push_back(p.high);
         } else {
             for (std::size_t i = 1; i < most_parts; ++i)
-                ends_.push_back(number(k) + static_cast<double>(i) / static_cast<double>(most_parts));
+                ends_.push_back(ray_start(k) + static_cast<double>(i) / static_cast<double>(most_parts));
         }
         std::sort(ends_.begin(), ends_.end());
         for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
