@@ -165,8 +165,8 @@
 #define INSONIFY_RARE
 #endif
 
-// Functions of targets that could fuse products with sums, for g++ without -ffp-contract=off; clang is told by
-// INSONIFY_ARITHMETIC_BEGIN.
+// Functions of targets that could fuse products with sums, for g++ without -ffp-contract=off; for clang,
+// INSONIFY_ARITHMETIC_BEGIN turns that off.
 #if defined(__GNUC__) && !defined(__clang__)
 #define INSONIFY_NEVER_FUSED __attribute__((optimize("fp-contract=off")))
 #else
@@ -7895,7 +7895,7 @@ class cell_hash {
         /// 32 bits for each of several columns at once, from the last 32 bits of their indices, so with a period of
         /// 2^32 columns. They differ from those above.
         template <class Columns>
-        INSONIFY_INLINE void mixed(Columns& bits, const Columns& columns) const {
+        INSONIFY_INLINE void hash_lanes(Columns& bits, const Columns& columns) const {
             bits = columns ^ static_cast<std::uint32_t>(key_);
             bits = (bits ^ (bits >> 16)) * 0x7FEB352Du;
             bits = bits + static_cast<std::uint32_t>(key_ >> 32);
@@ -7915,9 +7915,9 @@ class cell_hash {
 };
 
 /// Two numbers in [-1, 1) from 64 bits.
-struct pair_of_bits {
+struct signed_pair {
     float a, b;
-    explicit constexpr pair_of_bits(std::uint64_t bits)
+    explicit constexpr signed_pair(std::uint64_t bits)
         : a(static_cast<float>(static_cast<std::int32_t>(static_cast<std::uint32_t>(bits))) * 0x1p-31f),
           b(static_cast<float>(static_cast<std::int32_t>(bits >> 32)) * 0x1p-31f) {}
 };
@@ -7929,7 +7929,7 @@ struct lattice {
 
     /// Shifted by its own hash, so that the lattice lines of a sum's layers do not coincide.
     static lattice shifted(double cell, const cell_hash& hash) {
-        const pair_of_bits shift(hash[0x7FFFFFFF](0x7FFFFFFF));
+        const signed_pair shift(hash[0x7FFFFFFF](0x7FFFFFFF));
         return {1 / cell, static_cast<double>(shift.a), static_cast<double>(shift.b)};
     }
     double u(double x) const { return x * frequency + offset_x; }
@@ -7938,7 +7938,7 @@ struct lattice {
 
 /// The nearest length of eight bits. Its multiples are exact, so that nodes at multiples of it are the same in every
 /// row.
-inline double eight_bits(double length) {
+inline double rounded_to_eight_bits(double length) {
     double unit = 1;
     while (unit * 256 <= length) unit *= 2;
     while (unit * 128 > length) unit /= 2;
@@ -8210,7 +8210,7 @@ class gradient_noise {
                                              const words<N>& column) {
             using ints = lanes<std::int32_t, N>;
             words<N> bits;
-            row.mixed(bits, column);
+            row.hash_lanes(bits, column);
             insonify::detail::convert(x, ints(ints(bits << 16) >> 16));
             insonify::detail::convert(y, ints(ints(bits) >> 16));
             x = x * 0x1p-15f;
@@ -8469,7 +8469,7 @@ class round_marks {
         template <int N>
         INSONIFY_INLINE void draw(float kept, float up, std::int64_t column, std::uint64_t bits) const {
             const lattice& l = marks.lattice_;
-            const pair_of_bits centre(bits), traits(scramble(bits));
+            const signed_pair centre(bits), traits(scramble(bits));
             const float chance = 0.5f * traits.b + 0.5f;
             if (chance >= marks.filled_) return;
             const float radius = 0.175f + 0.075f * traits.a;  // in cells; a quarter at most
@@ -8888,7 +8888,7 @@ class trawl_furrows {
         ints cell;
         locate<N>(off, cell, &part.x[i], -f.sine * f.per_lane, across, static_cast<double>(first));
         words bits;
-        hash_[static_cast<std::int64_t>(n)].mixed(bits, words(words(cell) + static_cast<std::uint32_t>(first)));
+        hash_[static_cast<std::int64_t>(n)].hash_lanes(bits, words(words(cell) + static_cast<std::uint32_t>(first)));
         insonify::detail::convert(lot, ints(ints(bits << 16) >> 16));
         insonify::detail::convert(bends, ints(ints(bits) >> 16));
         // A furrow stays within its strip, so that a sample meets one furrow at most.
@@ -9149,7 +9149,7 @@ class block_layer {
             visit_columns(lattice_, part, 1, [&](std::int64_t first, std::int64_t count) INSONIFY_INLINE_LAMBDA {
                 for (std::int64_t column = first; column < first + count; column += N) {
                     found<N> some;
-                    if (!some.look(*this, hash, dy, static_cast<std::uint32_t>(column), first + count - column))
+                    if (!some.find(*this, hash, dy, static_cast<std::uint32_t>(column), first + count - column))
                         continue;
                     for (int k = 0; k < N; ++k)
                         if (some.is_crossed[k] != 0) draw<N>(part, values, column + k, block(*this, some, k));
@@ -9163,7 +9163,7 @@ class block_layer {
     double upper_bound() const { return 1.00001 * (0.99 + 0.5 * 1.41422 * 0.975) * static_cast<double>(height_); }
 
   private:
-    /// Which blocks of N adjacent cells a row crosses; rejects most cells.
+    /// The blocks of N adjacent cells that a row crosses; most cells have none.
     template <int N>
     struct found {
         static constexpr std::size_t size = static_cast<std::size_t>(N);
@@ -9171,14 +9171,14 @@ class block_layer {
         alignas(32) std::uint32_t seeds[size];
         alignas(32) float x[size], y[size], radius[size], chord[size];  // in cells, from the block's centre
 
-        INSONIFY_INLINE bool look(const block_layer& layer, const cell_hash::row& hash, float dy, std::uint32_t column,
+        INSONIFY_INLINE bool find(const block_layer& layer, const cell_hash::row& hash, float dy, std::uint32_t column,
                                   std::int64_t most) {
             using words = lanes<std::uint32_t, N>;
             using ints = lanes<std::int32_t, N>;
             using floats = lanes<float, N>;
             words number, first, second;
             insonify::detail::iota<std::uint32_t, N>(number);
-            hash.mixed(first, words(number + column));
+            hash.hash_lanes(first, words(number + column));
             second = (first ^ (first >> 15)) * 0x2C1B3C6Du;
             second = (second ^ (second >> 12)) * 0x297A2D39u;
             second = second ^ (second >> 15);
@@ -11648,8 +11648,8 @@ class projection {
         std::memcpy(&into, &bits, sizeof into);
     }
 
-    /// Clamps a corner that rounding left outside of a plane: by little, or next to the eye by a lot. The result
-    /// depends on the position alone, so triangles that share a corner still do.
+    /// Clamps a corner that rounding left outside of a plane, which next to the eye may be far outside. The result
+    /// depends on the position alone, so that adjacent triangles keep their shared corner.
     void move_inside(glm::dvec4& p) const {
         p.w = (std::max)(p.w, smallest_w);
         p.x = std::clamp(p.x, -widest_x_ * p.w, widest_x_ * p.w);
@@ -13127,7 +13127,7 @@ struct tile_kernel {
         const drawn_area<N> area(triangles.grid(), triangles.pixels);
         run_reader left(triangles.runs());
         while (!left.empty()) {
-            draw_small_ones<N>(left, area);
+            draw_small_runs<N>(left, area);
             if (left.empty()) break;
             const triangle_run run = left.take_run();
             for (std::uint32_t i = 0; i < run.count; ++i) draw_one<N>(run.first + i);
@@ -13171,7 +13171,7 @@ struct tile_kernel {
     /// few. While a group of them is drawn, the next group's vertices and the indices of the one after that are
     /// prefetched: of every second and every fourth triangle, because neighbours share vertices and cache lines.
     template <int N>
-    INSONIFY_INLINE void draw_small_ones(run_reader& left, const drawn_area<N>& area) const {
+    INSONIFY_INLINE void draw_small_runs(run_reader& left, const drawn_area<N>& area) const {
         struct group {
             std::uint32_t ids[static_cast<unsigned>(2 * N)];  // see take_small
             int count;
@@ -13182,16 +13182,16 @@ struct tile_kernel {
             g.count = left.template take_small<N>(g.ids);
             for (int k = 0; k < g.count; k += 4) triangles.prefetch_indices(g.ids[k]);
         };
-        const auto approach = [&](int i) INSONIFY_INLINE_LAMBDA {
+        const auto prefetch_vertices = [&](int i) INSONIFY_INLINE_LAMBDA {
             const group& g = groups[i % 3];
             for (int k = 0; k < g.count; k += 2) triangles.prefetch_vertices(g.ids[k]);
         };
         take(0);
         take(1);
-        approach(0);
+        prefetch_vertices(0);
         for (int i = 0; groups[i % 3].count > 0; ++i) {
             take(i + 2);
-            approach(i + 1);
+            prefetch_vertices(i + 1);
             draw_small<N>(groups[i % 3].ids, groups[i % 3].count, area);
         }
     }
@@ -14017,43 +14017,6 @@ namespace seabed {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// Rises of a surface at the vertices of a row, by central differences: twice the rise per cell. Beside an edge or a
-/// missing neighbour the one-sided difference is doubled; it is 0 at a vertex without data.
-class row_rises {
-  public:
-    row_rises(const image<float>& heights, int j)
-        : here_(heights.row(j).data()),
-          back_(heights.row((std::max)(j - 1, 0)).data()),
-          ahead_(heights.row((std::min)(j + 1, heights.height() - 1)).data()),
-          width_(static_cast<std::size_t>(heights.width())),
-          inner_(j > 0 && j + 1 < heights.height()) {}
-
-    float x(std::size_t i) const {
-        const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width_ ? i + 1 : i;
-        return rise(here_[left], here_[i], here_[right], right - left == 2);
-    }
-    float y(std::size_t i) const { return rise(back_[i], here_[i], ahead_[i], inner_); }
-
-    /// Unit normal of the surface at a vertex.
-    glm::vec3 normal(std::size_t i, float spacing) const {
-        const float dx = x(i), dy = y(i), dz = 2 * spacing;
-        const float inverse = 1 / numeric::square_root(dx * dx + dy * dy + dz * dz);
-        return {(0.0f - dx) * inverse, (0.0f - dy) * inverse, dz * inverse};
-    }
-
-  private:
-    static float rise(float before, float at, float after, bool both) {
-        if (!numeric::is_finite(at)) return 0;
-        const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
-        if (has_before && has_after) return both ? after - before : 2 * (after - before);
-        return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
-    }
-
-    const float *here_, *back_, *ahead_;
-    std::size_t width_;
-    bool inner_;
-};
-
 /// The normals of one row of vertices.
 class row_normals {
   public:
@@ -14065,7 +14028,6 @@ class row_normals {
           ahead_(field.heights.row(row + 1 < field.heights.height() ? row + 1 : row).data()),
           inner_(row > 0 && row + 1 < field.heights.height()),
           z_(2 * static_cast<float>(field.spacing)),
-          rises_(field.heights, row),
           out_(out) {}
 
     void compute(isa level = best_isa()) const { insonify::detail::dispatch(*this, level); }
@@ -14107,13 +14069,27 @@ class row_normals {
     }
 
   private:
-    void one(std::size_t i) const { out_[i] = rises_.normal(i, 0.5f * z_); }
+    void one(std::size_t i) const {
+        const std::size_t left = i > 0 ? i - 1 : i, right = i + 1 < width_ ? i + 1 : i;
+        const float dx = rise(here_[left], here_[i], here_[right], right - left == 2);
+        const float dy = rise(back_[i], here_[i], ahead_[i], inner_);
+        const float inverse = 1 / numeric::square_root(dx * dx + dy * dy + z_ * z_);
+        out_[i] = {(0.0f - dx) * inverse, (0.0f - dy) * inverse, z_ * inverse};
+    }
+
+    /// Twice the rise per cell, by central differences. Beside an edge or a missing neighbour the one-sided difference
+    /// is doubled; it is 0 at a vertex without data.
+    static float rise(float before, float at, float after, bool both) {
+        if (!numeric::is_finite(at)) return 0;
+        const bool has_before = numeric::is_finite(before), has_after = numeric::is_finite(after);
+        if (has_before && has_after) return both ? after - before : 2 * (after - before);
+        return has_after ? 2 * (after - at) : has_before ? 2 * (at - before) : 0.0f;
+    }
 
     std::size_t width_;
     const float *here_, *back_, *ahead_;
     bool inner_;
     float z_;  // twice the spacing
-    row_rises rises_;
     glm::vec3* out_;
 };
 
@@ -21735,26 +21711,26 @@ inline height_range range_after(const heap& e, const height_range& ground) {
 
 /// Weights of the 16 nodes around a coordinate, four to a length, in the smoothed value: a cubic B-spline, which
 /// preserves slopes.
-inline std::array<float, 16> smooth_shares(float fraction) {
-    std::array<float, 16> shares;
+inline std::array<float, 16> spline_weights(float fraction) {
+    std::array<float, 16> weights;
     for (std::size_t n = 0; n < 16; ++n) {
         const float t = numeric::abs(0.25f * (fraction + 7 - static_cast<float>(n)));
         const float s = 2 - t;
-        shares[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
+        weights[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
     }
-    return shares;
+    return weights;
 }
 
 /// Smooths a row of the ground.
 /// @param ground  fills the heights of rows
 template <class Ground>
 void smooth_row(const smooth& e, const scanline& line, std::span<float> heights, Ground&& ground) {
-    const double step = eight_bits(static_cast<double>(e.length)) / 4;
+    const double step = rounded_to_eight_bits(static_cast<double>(e.length)) / 4;
     const lattice_coordinate v(line.y / step);
     const std::int64_t first = numeric::floor_to_int(line.x(0) / step) - 7;
     const std::int64_t last = numeric::floor_to_int(line.x(heights.size() - 1) / step) + 8;
     std::vector<float> nodes(static_cast<std::size_t>(last - first + 1)), column(nodes.size(), 0.0f);
-    const auto up = smooth_shares(v.fraction);
+    const auto up = spline_weights(v.fraction);
     for (std::size_t j = 0; j < 16; ++j) {
         const double y = step * static_cast<double>(v.cell - 7 + static_cast<std::int64_t>(j));
         ground(scanline{.y = y, .origin = step * static_cast<double>(first), .spacing = step}, std::span(nodes));
@@ -21764,7 +21740,7 @@ void smooth_row(const smooth& e, const scanline& line, std::span<float> heights,
         const double x = line.x(i);
         const lattice_coordinate u(x / step);
         const float* const from = &column[static_cast<std::size_t>(u.cell - 7 - first)];
-        const auto across = smooth_shares(u.fraction);
+        const auto across = spline_weights(u.fraction);
         float even = 0;
         for (std::size_t n = 0; n < 16; ++n) even += across[n] * from[n];
         heights[i] = lerp(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));
@@ -22831,7 +22807,7 @@ class bottom_tiles {
     /// Rounds a length so that its multiples are exact: a vertex has the same coordinates in every row.
     static double even(double length) {
         require(length > 1e-9 && length < 1e9, "cell", length, "metres above 0");
-        return seabed::detail::eight_bits(length);
+        return seabed::detail::rounded_to_eight_bits(length);
     }
 
     /// Samples the seabed below some pings, and discards all other tiles.
@@ -22839,61 +22815,11 @@ class bottom_tiles {
     template <executor E>
     void cover(std::span<const ping_frame> pings, double from, double reach, E& ex) {
         if (is_empty_) return;
-        const double side = cells * spacing_;
-        // Steps of half a tile along each ping's fan: the rectangles around the steps contain every tile that it
-        // touches.
-        const double looked_at = reach - from;
-        const int steps = static_cast<int>(numeric::floor_to_int(2 * looked_at / side)) + 1;
-        const auto step = [&](int i) { return from + looked_at * i / steps; };
-        const auto tile_of = [&](const glm::dvec2& p) {
-            require(p.x > -1e9 && p.x < 1e9 && p.y > -1e9 && p.y < 1e9, "ping.position", p.x, "within 1e9 metres");
-            return std::pair{numeric::floor_to_int(p.x / side), numeric::floor_to_int(p.y / side)};
-        };
-        std::int64_t last_x = -(std::int64_t{1} << 60), last_y = last_x;
-        first_x_ = first_y_ = -last_x;
-        for (const ping_frame& p : pings) {
-            const auto [least, most] = depths(p);
-            for (const double x : {from, step(steps + 1)})
-                for (const double down : {least, most}) {
-                    const auto [tile_x, tile_y] = tile_of(p.below(x, down));
-                    first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
-                    last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
-                }
-        }
-        columns_ = last_x - first_x_ + 1;
-        const std::int64_t rows = last_y - first_y_ + 1;
-        require(columns_ * rows < (1 << 26), "seabed tiles", columns_ * rows, "below 2^26: take larger cells");
-        slots_.assign(static_cast<std::size_t>(columns_ * rows), absent);
-        for (const ping_frame& p : pings) {
-            const auto [least, most] = depths(p);
-            for (int i = 0; i < steps; ++i) {
-                auto [ax, ay] = tile_of(p.below(step(i), least));
-                std::int64_t bx = ax, by = ay;
-                for (const auto& [x, y] : {tile_of(p.below(step(i + 1), least)), tile_of(p.below(step(i), most)),
-                                           tile_of(p.below(step(i + 1), most))}) {
-                    ax = (std::min)(ax, x), ay = (std::min)(ay, y);
-                    bx = (std::max)(bx, x), by = (std::max)(by, y);
-                }
-                for (std::int64_t y = ay; y <= by; ++y)
-                    for (std::int64_t x = ax; x <= bx; ++x) slots_[slot_of(x, y)] = 0;
-            }
-        }
-
-        // Tiles that are neighbours along x are sampled together: long rows cost less per sample.
-        std::vector<tile_run> runs;
-        std::uint32_t tiles = 0;
-        for (std::int64_t y = 0; y < rows; ++y)
-            for (std::int64_t x = 0; x < columns_; ++x) {
-                std::uint32_t& slot = slots_[static_cast<std::size_t>(y * columns_ + x)];
-                if (slot == absent) continue;
-                slot = tiles++;
-                const bool goes_on = !runs.empty() && runs.back().count < longest_run && x > 0 &&
-                                     slots_[static_cast<std::size_t>(y * columns_ + x - 1)] != absent;
-                if (goes_on)
-                    ++runs.back().count;
-                else
-                    runs.push_back({first_x_ + x, first_y_ + y, slot, 1});
-            }
+        const fan_steps steps(from, reach, side());
+        lay_out(pings, steps);
+        mark(pings, steps);
+        const std::vector<tile_run> runs = number_marked();
+        const std::size_t tiles = runs.empty() ? 0 : std::size_t{runs.back().slot} + runs.back().count;
         vertices_.reset(new bottom_vertex[tiles * tile_size]);
         ex.bulk(runs.size(), [&](std::size_t i) { sample(runs[i]); });
         sampled_ += tiles * tile_size;
@@ -22937,6 +22863,60 @@ class bottom_tiles {
     static constexpr std::uint32_t absent = 0xFFFFFFFFu;
     static_assert(1 << shift == cells);
 
+    /// Steps of half a tile along a ping's fan: the rectangles around them contain every tile that it touches.
+    struct fan_steps {
+        double from, width;
+        int count;
+
+        fan_steps(double first, double reach, double side)
+            : from(first), width(reach - first), count(static_cast<int>(numeric::floor_to_int(2 * width / side)) + 1) {}
+        double operator[](int i) const { return from + width * i / count; }
+    };
+
+    double side() const { return cells * spacing_; }
+
+    std::pair<std::int64_t, std::int64_t> tile_of(const glm::dvec2& p) const {
+        require(p.x > -1e9 && p.x < 1e9 && p.y > -1e9 && p.y < 1e9, "ping.position", p.x, "within 1e9 metres");
+        return {numeric::floor_to_int(p.x / side()), numeric::floor_to_int(p.y / side())};
+    }
+
+    /// Clears the slots of the rectangle of tiles around all fans.
+    void lay_out(std::span<const ping_frame> pings, const fan_steps& steps) {
+        std::int64_t last_x = -(std::int64_t{1} << 60), last_y = last_x;
+        first_x_ = first_y_ = -last_x;
+        for (const ping_frame& p : pings) {
+            const auto [least, most] = depths(p);
+            for (const double x : {steps.from, steps[steps.count + 1]})
+                for (const double down : {least, most}) {
+                    const auto [tile_x, tile_y] = tile_of(p.below(x, down));
+                    first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
+                    last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
+                }
+        }
+        columns_ = last_x - first_x_ + 1;
+        rows_ = last_y - first_y_ + 1;
+        require(columns_ * rows_ < (1 << 26), "seabed tiles", columns_ * rows_, "below 2^26: take larger cells");
+        slots_.assign(static_cast<std::size_t>(columns_ * rows_), absent);
+    }
+
+    /// Marks the tiles that the fans touch.
+    void mark(std::span<const ping_frame> pings, const fan_steps& steps) {
+        for (const ping_frame& p : pings) {
+            const auto [least, most] = depths(p);
+            for (int i = 0; i < steps.count; ++i) {
+                auto [ax, ay] = tile_of(p.below(steps[i], least));
+                std::int64_t bx = ax, by = ay;
+                for (const auto& [x, y] : {tile_of(p.below(steps[i + 1], least)), tile_of(p.below(steps[i], most)),
+                                           tile_of(p.below(steps[i + 1], most))}) {
+                    ax = (std::min)(ax, x), ay = (std::min)(ay, y);
+                    bx = (std::max)(bx, x), by = (std::max)(by, y);
+                }
+                for (std::int64_t y = ay; y <= by; ++y)
+                    for (std::int64_t x = ax; x <= bx; ++x) slots_[slot_of(x, y)] = 0;
+            }
+        }
+    }
+
     std::size_t slot_of(std::int64_t x, std::int64_t y) const {
         return static_cast<std::size_t>((y - first_y_) * columns_ + (x - first_x_));
     }
@@ -22950,12 +22930,32 @@ class bottom_tiles {
                 (p.position().z - range_.lowest) / p.cosine_pitch()};
     }
 
-    /// Neighbouring tiles along x.
+    /// Adjacent tiles along x, sampled together: long rows cost less per sample.
     struct tile_run {
         std::int64_t x, y;
         std::uint32_t slot, count;
     };
     static constexpr std::uint32_t longest_run = 8;
+
+    /// Numbers the marked tiles.
+    /// @returns their runs, in the order of the numbers
+    std::vector<tile_run> number_marked() {
+        std::vector<tile_run> runs;
+        std::uint32_t next = 0;
+        for (std::int64_t y = 0; y < rows_; ++y)
+            for (std::int64_t x = 0; x < columns_; ++x) {
+                std::uint32_t& slot = slots_[static_cast<std::size_t>(y * columns_ + x)];
+                if (slot == absent) continue;
+                slot = next++;
+                const bool continues = !runs.empty() && runs.back().count < longest_run && x > 0 &&
+                                       slots_[static_cast<std::size_t>(y * columns_ + x - 1)] != absent;
+                if (continues)
+                    ++runs.back().count;
+                else
+                    runs.push_back({first_x_ + x, first_y_ + y, slot, 1});
+            }
+        return runs;
+    }
 
     /// Samples a run, with a margin of one vertex for the slopes.
     void sample(const tile_run& run) const {
@@ -22990,7 +22990,7 @@ class bottom_tiles {
     seabed::any_sampler prepared_;
     seabed::height_range range_;
     double spacing_, scale_;
-    std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0;
+    std::int64_t first_x_ = 0, first_y_ = 0, columns_ = 0, rows_ = 0;
     std::vector<std::uint32_t> slots_;
     std::unique_ptr<bottom_vertex[]> vertices_;
     std::uint64_t sampled_ = 0;
@@ -23394,8 +23394,8 @@ INSONIFY_ARITHMETIC_END
 // First hits of a ping's rays with the targets, with exact fractional coverage of each ray's width.
 //
 // The cross-section of the targets with a ping's plane is a set of line segments. Their ends divide each ray's width
-// into parts; in each part the nearest segment is hit, weighted by the part's fraction of the width. A bar that is
-// thinner than the spacing of rays so returns its own energy in every ping that meets it.
+// into parts; in each part the nearest segment is hit, weighted by the part's fraction of the width. A bar
+// thinner than the spacing of rays therefore returns its energy in every ping that meets it.
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -23408,7 +23408,7 @@ struct target_hit {
     double fraction;              ///< of the ray's width
     double x, down;               ///< of its middle, metres
     double x0, down0, x1, down1;  ///< of its ends
-    float facing;                 ///< sine of the grazing angle on the surface
+    float grazing_sine;           ///< sine of the grazing angle on the surface
     float reflectivity;
     std::uint16_t instance;
 
@@ -23441,7 +23441,7 @@ class target_hits {
         const std::size_t first = static_cast<std::size_t>(from) - fan_->first();
         const std::size_t last = (std::min)(static_cast<std::size_t>(to) - fan_->first(), fan_->size() - 1);
         for (std::size_t k = first; k <= last; ++k) {
-            const double low = (std::max)(from, number(k)), high = (std::min)(to, number(k) + 1);
+            const double low = (std::max)(from, ray_start(k)), high = (std::min)(to, ray_start(k) + 1);
             if (!(low < high)) continue;
             if (high - low < 1) {
                 partial_.push_back({static_cast<std::uint32_t>(k), id, low, high});
@@ -23467,7 +23467,7 @@ class target_hits {
             if (next != end)
                 divide(k, {next, end}, is_met);
             else if (is_met)
-                add_hit(nearest_[k].segment, number(k), number(k) + 1);
+                add_hit(nearest_[k].segment, ray_start(k), ray_start(k) + 1);
             next = end;
             find_occluder(k, hits_.size());
         }
@@ -23522,7 +23522,7 @@ class target_hits {
     };
 
     /// The coordinate at which ray k begins.
-    double number(std::size_t k) const { return static_cast<double>(fan_->first() + k); }
+    double ray_start(std::size_t k) const { return static_cast<double>(fan_->first() + k); }
 
     static void cut_at_nadir(cut_segment::end& from, const cut_segment::end& to) {
         if (from.x > 0) return;
@@ -23551,13 +23551,13 @@ class target_hits {
         const glm::dvec2 at(o.a.x + f * (o.b.x - o.a.x), o.a.down + f * (o.b.down - o.a.down));
         const glm::dvec2 from = point(o, fan_->at(low)), to = point(o, fan_->at(high));
         if (!(at.x * at.x + at.y * at.y > 0)) return;
-        hits_.push_back({high - low, at.x, at.y, from.x, from.y, to.x, to.y, facing(o, static_cast<float>(f), middle),
-                         p.reflectivity, p.instance});
+        hits_.push_back({high - low, at.x, at.y, from.x, from.y, to.x, to.y,
+                         grazing_sine(o, static_cast<float>(f), middle), p.reflectivity, p.instance});
     }
 
     /// Sine of the grazing angle. The facet decides which side is insonified, and the sign of the normal; it replaces
     /// normals that are zero or not finite.
-    static float facing(const cut_segment& o, float f, const ping_fan::direction& d) {
+    static float grazing_sine(const cut_segment& o, float f, const ping_fan::direction& d) {
         const auto sine = static_cast<float>(d.sine), cosine = static_cast<float>(d.cosine);
         glm::vec3 n = o.a.normal + f * (o.b.normal - o.a.normal);
         float square = numeric::dot(n, n);
@@ -23568,14 +23568,14 @@ class target_hits {
 
     /// Divides a ray between segments that cover parts of its width and the nearest one that covers all of it.
     void divide(std::size_t k, std::span<const part> parts, bool is_met) {
-        // Too many segments are sampled at fixed positions instead.
+        // Above most_parts segments, the ray is sampled at fixed positions.
         ends_.clear();
-        ends_.push_back(number(k)), ends_.push_back(number(k) + 1);
+        ends_.push_back(ray_start(k)), ends_.push_back(ray_start(k) + 1);
         if (parts.size() <= most_parts) {
             for (const part& p : parts) ends_.push_back(p.low), ends_.push_back(p.high);
         } else {
             for (std::size_t i = 1; i < most_parts; ++i)
-                ends_.push_back(number(k) + static_cast<double>(i) / static_cast<double>(most_parts));
+                ends_.push_back(ray_start(k) + static_cast<double>(i) / static_cast<double>(most_parts));
         }
         std::sort(ends_.begin(), ends_.end());
         for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
@@ -23698,7 +23698,7 @@ class ping_tracer {
         if (!(altitude > lowest_) || profile_[0].down <= 0) return bins_;  // the sonar is below the seabed
         gather_targets(p);
         trace_bottom(p);
-        if (some_target_) add_target_echoes();
+        if (has_targets_) add_target_echoes();
         if constexpr (Labelled) label_bins();
         return bins_;
     }
@@ -23791,16 +23791,16 @@ class ping_tracer {
     double x_of(std::size_t i) const { return profile_step_ * static_cast<double>(first_point_ + i); }
 
     void gather_targets(const ping_frame& p) {
-        some_target_ = false;
+        has_targets_ = false;
         for (std::size_t i = 0; i < targets_.size(); ++i) {
             if (!targets_[i].is_met_by(p, farthest_)) continue;
-            if (!some_target_) hits_.begin(fan_);
-            some_target_ = true;
+            if (!has_targets_) hits_.begin(fan_);
+            has_targets_ = true;
             targets_[i].cut(p, [&](const cut_segment& segment) {
                 hits_.add(segment, static_cast<std::uint16_t>(i + 1), scene_.targets[i].surface.reflectivity);
             });
         }
-        if (some_target_) hits_.resolve();
+        if (has_targets_) hits_.resolve();
     }
 
     /// Walks outwards along the profile. Rays meet it in order; bottom below the last ray that met it is in shadow.
@@ -23808,7 +23808,7 @@ class ping_tracer {
         double horizon_x = 0, horizon_down = 1;
         // Rays that meet the bottom in front of the profile go no further.
         std::size_t k = first_point_ > 0 ? fan_.first_over(x_of(0), profile_[0].down) : 0;
-        if (some_target_)
+        if (has_targets_)
             for (std::size_t j = 0; j < k; ++j) hits_.cut_off(j, 0);
         const std::size_t rays = fan_.size();
         for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
@@ -23832,7 +23832,7 @@ class ping_tracer {
                 const double before = ping_fan::beyond(ray, px, p.down);
                 const double f = before / (before - ping_fan::beyond(ray, qx, q.down));
                 const double range = (px + f * dx) * ray.sine + (p.down + f * ddown) * ray.cosine;
-                if (Labelled && some_target_ && k > first) {
+                if (Labelled && has_targets_ && k > first) {
                     const double between = 0.5 * (last_met + f);
                     label(p, q, px, dx, from, between, occluder(k - 1, px + last_met * dx, p.down + last_met * ddown));
                     from = between;
@@ -23843,7 +23843,7 @@ class ping_tracer {
             }
             if constexpr (Labelled)
                 label(p, q, px, dx, from, 1,
-                      some_target_ ? occluder(k > first ? k - 1 : k, px + last_met * dx, p.down + last_met * ddown)
+                      has_targets_ ? occluder(k > first ? k - 1 : k, px + last_met * dx, p.down + last_met * ddown)
                                    : labels::is_lit);
             horizon_x = qx, horizon_down = q.down;
         }
@@ -23852,16 +23852,16 @@ class ping_tracer {
     void add_bottom_echo(const ping_frame& ping, const ping_fan::ray& ray, std::size_t k, double range, double dx,
                          double ddown, const bottom_point& p, const bottom_point& q, float f) {
         // Removes targets that are buried or behind a rise.
-        const double covered = some_target_ ? hits_.cut_off(k, range) : 0;
+        const double covered = has_targets_ ? hits_.cut_off(k, range) : 0;
         if (covered >= 1) return;
         const float at = column(ray, range), half = (std::min)(half_length(ray, range, dx, ddown), widest);
         const auto sine = static_cast<float>(ray.sine), cosine = static_cast<float>(ray.cosine);
         const float slope = p.slope + f * (q.slope - p.slope);
         const float slope_along = p.slope_along + f * (q.slope_along - p.slope_along);
         const auto upright = static_cast<float>(ping.cosine_pitch()), ahead = static_cast<float>(ping.sine_pitch());
-        const float facing = (slope * sine + cosine * (upright + slope_along * ahead)) /
-                             numeric::square_root(1 + slope * slope + slope_along * slope_along);
-        const float power = static_cast<float>(1 - covered) * power_of(k, range, facing) *
+        const float grazing_sine = (slope * sine + cosine * (upright + slope_along * ahead)) /
+                                   numeric::square_root(1 + slope * slope + slope_along * slope_along);
+        const float power = static_cast<float>(1 - covered) * power_of(k, range, grazing_sine) *
                             materials_[static_cast<std::size_t>(f < 0.5f ? p.type : q.type)].reflectivity;
         distribute(at - half, at + half,
                    [&](std::size_t bin, float fraction, float) { bins_[bin].bottom += power * fraction; });
@@ -23870,7 +23870,8 @@ class ping_tracer {
     void add_target_echoes() {
         hits_.for_each([&](std::size_t k, const target_hit& hit) {
             const double range = numeric::square_root(hit.square_range());
-            const float power = static_cast<float>(hit.fraction) * power_of(k, range, hit.facing) * hit.reflectivity;
+            const float power =
+                static_cast<float>(hit.fraction) * power_of(k, range, hit.grazing_sine) * hit.reflectivity;
             const double a = column(hit.x0, hit.down0), b = column(hit.x1, hit.down1);
             distribute(static_cast<float>((std::min)(a, b)), static_cast<float>((std::max)(a, b)),
                        [&](std::size_t bin, float fraction, float) {
@@ -23887,7 +23888,7 @@ class ping_tracer {
                 const auto [type, length] = types_.largest(b, labels::no_seabed);
                 if (length > bins_[b].of_seabed) bins_[b].seabed = static_cast<std::uint8_t>(type);
             }
-        if (some_target_)
+        if (has_targets_)
             for (std::size_t b = 0; b < bins_.size(); ++b) {
                 echo_bin& bin = bins_[b];
                 bin.instance = echoing_.largest(b, labels::no_instance).label;
@@ -23903,7 +23904,7 @@ class ping_tracer {
     }
     /// The caster of a shadow below the horizon: a target, if one occludes the point, or the seabed.
     std::uint16_t caster_below_horizon(double x, double down) const {
-        const std::uint16_t target = some_target_ ? occluder(fan_.first_over(x, down), x, down) : labels::is_lit;
+        const std::uint16_t target = has_targets_ ? occluder(fan_.first_over(x, down), x, down) : labels::is_lit;
         return target == labels::is_lit ? labels::by_seabed : target;
     }
 
@@ -23968,8 +23969,8 @@ class ping_tracer {
 
     /// Power that a surface of reflectivity 1 returns from a ray: the ray's cross-section over the sine of the grazing
     /// angle, times the law.
-    float power_of(std::size_t k, double range, float facing) const {
-        const float sine = (std::min)((std::max)(facing, 1e-3f), 1.0f);
+    float power_of(std::size_t k, double range, float grazing_sine) const {
+        const float sine = (std::min)((std::max)(grazing_sine, 1e-3f), 1.0f);
         return static_cast<float>(range) * ray_power_[k] * law_(sine) / sine;
     }
 
@@ -23990,7 +23991,7 @@ class ping_tracer {
     std::vector<float> ray_power_;
     std::vector<bottom_point> profile_;
     target_hits hits_;
-    bool some_target_ = false;
+    bool has_targets_ = false;
     std::vector<echo_bin> bins_;
     label_tally echoing_, casting_, types_;
 };
@@ -24383,13 +24384,13 @@ class recorder {
                 if constexpr (footprint_part<decltype(part)>) blur_along_track(part, ex);
             });
         if constexpr (Equation::has_noise || Equation::has_gain) amplify(ex);
-        const auto cut = [&](auto& picture) {
+        const auto crop = [&](auto& picture) {
             picture = std::remove_reference_t<decltype(picture)>(
                 picture.view().part(0, margin, picture.width(), picture.height() - 2 * margin));
         };
-        if (margin > 0) cut(out_.image);
+        if (margin > 0) crop(out_.image);
         if constexpr (labelled) {
-            if (margin > 0) cut(out_.labels.instance), cut(out_.labels.shadow), cut(out_.labels.seabed);
+            if (margin > 0) crop(out_.labels.instance), crop(out_.labels.shadow), crop(out_.labels.seabed);
             measure_targets(out_.labels);
         }
         return std::move(out_);
@@ -25604,8 +25605,7 @@ inline namespace INSONIFY_FLAGS {
 /// @param from       its rig
 /// @param to         first_range, range and bins are the columns of the result
 /// @param altitudes  of the sonar above the seabed, one per row from the top; empty for the rig's altitude
-/// @throws invalid_input for a rig out of range, a number of altitudes that is neither 0 nor that of rows, or an
-/// altitude
+/// @throws invalid_input for a rig out of range, a number of altitudes other than 0 or that of the rows, or an altitude
 ///         that is not finite
 template <class Labels>
 frame<Labels> to_ground_range(const frame<Labels>& slant, const side_scan& from, const ground_range& to,

@@ -36,7 +36,7 @@ class catch_picture_matcher : public INSONIFY_CATCH_MATCHER {
 
   private:
     Matcher matcher_;
-    mutable std::string message_;  // Catch2 asks for a description after the match
+    mutable std::string message_;  // Catch2 calls describe() after match()
 };
 
 /// A picture matcher, `is_picture(expected)` or `golden.is("name")`, for CHECK_THAT and REQUIRE_THAT.
