@@ -19,10 +19,9 @@
 #include <string_view>
 
 #include "input_file.hpp"
+#include "picture_checks.hpp"
 
 namespace examples {
-
-inline constexpr std::string_view png_signature = "\x89PNG\r\n\x1A\n";
 
 /// Whether bytes begin as a picture does that `parse_gray` reads.
 inline bool is_netpbm(std::string_view bytes) {
@@ -31,21 +30,8 @@ inline bool is_netpbm(std::string_view bytes) {
            std::string_view(" \t\r\n#").find(bytes[2]) != std::string_view::npos;
 }
 inline bool is_picture(std::string_view bytes) {
-    return is_netpbm(bytes) || bytes.starts_with(png_signature) || bytes.starts_with("\xFF\xD8\xFF") ||
+    return is_netpbm(bytes) || bytes.starts_with(png_signature) || bytes.starts_with(jpeg_signature) ||
            bytes.starts_with("BM");
-}
-
-/// Whether each chunk of a PNG lies within its bytes. stb_image allocates what a chunk's length says before it reads
-/// it.
-inline bool has_whole_chunks(std::string_view png) {
-    const auto byte = [&](std::size_t at) { return static_cast<std::uint64_t>(static_cast<unsigned char>(png[at])); };
-    for (std::uint64_t at = 8; at + 8 <= png.size();) {
-        const std::uint64_t length = byte(at) << 24 | byte(at + 1) << 16 | byte(at + 2) << 8 | byte(at + 3);
-        if (png.substr(at + 4, 4) == "IEND") break;
-        at += 12 + length;
-        if (at > png.size()) return false;
-    }
-    return true;
 }
 
 /// @param limit  bytes that the decoded picture may take, three samples of 16 bits a pixel
@@ -61,6 +47,8 @@ inline insonify::image<float> parse_gray(std::string_view bytes, const std::stri
     if (!is_picture(bytes)) fail("is not a PNG, JPEG, BMP, PGM, PPM or PFM");
 
     if (bytes.starts_with(png_signature) && !has_whole_chunks(bytes)) fail("ends within a chunk, is a part of a PNG");
+    if (bytes.starts_with(jpeg_signature) && !has_sound_huffman_tables(bytes))
+        fail("is damaged: a JPEG with a Huffman table of more than 256 symbols, or beyond its segment");
 
     const auto damaged = [] {
         return "is damaged, or claims more pixels than can be read (" + std::string(stbi_failure_reason()) + ")";

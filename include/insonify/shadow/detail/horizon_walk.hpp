@@ -146,8 +146,8 @@ class horizon_walk {
     bool walk(bool is_above, const Decide& decide) const {
         const double doubt = u_ - horizon_.margin();
         const auto greatest = static_cast<double>(horizon_.heights().greatest);
+        if (!(x_ + beside_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
         int column = static_cast<int>((std::min)(x_ + beside_, static_cast<double>(grid_.columns - 2)));
-        if (x_ + beside_ < 0) return false;
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // The ray passes these rows of cells here.
             const double low = row_at(column), high = low + grid_.slope;

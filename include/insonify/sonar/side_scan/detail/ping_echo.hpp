@@ -317,9 +317,11 @@ class ping_tracer {
     /// Calls `visit(bin, fraction, length)` for the bins between two positions.
     template <class Visit>
     void distribute(float low, float high, const Visit& visit) {
-        if (!(high > 0 && low < static_cast<float>(bins_.size()))) return;
+        const auto count = static_cast<float>(bins_.size());
+        if (!(high > 0 && low < count)) return;
         const auto first = static_cast<std::int64_t>(low > 0 ? low : 0.0f);
-        const auto last = (std::min)(static_cast<std::int64_t>(high), static_cast<std::int64_t>(bins_.size()) - 1);
+        const auto last =
+            (std::min)(static_cast<std::int64_t>((std::min)(high, count)), static_cast<std::int64_t>(bins_.size()) - 1);
         if (first == last && low >= static_cast<float>(first) && high <= static_cast<float>(first + 1)) {
             visit(static_cast<std::size_t>(first), 1.0f, high - low);
             return;
