@@ -15071,8 +15071,8 @@ class horizon_walk {
     bool walk(bool is_above, const Decide& decide) const {
         const double doubt = u_ - horizon_.margin();
         const auto greatest = static_cast<double>(horizon_.heights().greatest);
+        if (!(x_ + beside_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
         int column = static_cast<int>((std::min)(x_ + beside_, static_cast<double>(grid_.columns - 2)));
-        if (x_ + beside_ < 0) return false;
         for (bool is_first = true; column >= 0; --column, is_first = false) {
             // The ray passes these rows of cells here.
             const double low = row_at(column), high = low + grid_.slope;
@@ -23935,9 +23935,11 @@ class ping_tracer {
     /// Calls `visit(bin, fraction, length)` for the bins between two positions.
     template <class Visit>
     void distribute(float low, float high, const Visit& visit) {
-        if (!(high > 0 && low < static_cast<float>(bins_.size()))) return;
+        const auto count = static_cast<float>(bins_.size());
+        if (!(high > 0 && low < count)) return;
         const auto first = static_cast<std::int64_t>(low > 0 ? low : 0.0f);
-        const auto last = (std::min)(static_cast<std::int64_t>(high), static_cast<std::int64_t>(bins_.size()) - 1);
+        const auto last =
+            (std::min)(static_cast<std::int64_t>((std::min)(high, count)), static_cast<std::int64_t>(bins_.size()) - 1);
         if (first == last && low >= static_cast<float>(first) && high <= static_cast<float>(first + 1)) {
             visit(static_cast<std::size_t>(first), 1.0f, high - low);
             return;
