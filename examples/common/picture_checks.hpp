@@ -23,7 +23,7 @@ inline bool has_whole_chunks(std::string_view png) {
 }
 
 /// Whether each Huffman table of a JPEG has the 256 symbols at most that it may have (ITU-T T.81, B.2.4.2), and fills
-/// its segment. stb_image before 2.28 writes the lengths of as many symbols as a table claims, 4080 at most, to an
+/// its segment. stb_image 2.27 writes the lengths of as many symbols as a table claims, 4080 at most, to an
 /// array of 257.
 ///
 /// Finds the markers that stb_image finds: bytes between segments are passed over, as are stuffed zeros and restart

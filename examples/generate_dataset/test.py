@@ -545,7 +545,7 @@ class Generator(unittest.TestCase):
         # A chunk that claims 1.2 GB, which nobody should allocate, in a file of 86 bytes.
         torn = pathlib.Path(__file__).parents[2] / "tests" / "fuzz" / "corpus" / "picture" / "huge_chunk.png"
         self.assertIn("ends within a chunk", refusal("--out", self.folder / "a", "--reference", torn))
-        # A table of 257 symbols, the last of which stb_image before 2.28 writes beyond an array.
+        # A table of 257 symbols, the last of which stb_image 2.27 writes beyond an array.
         torn = torn.with_name("huffman_symbols.jpg")
         self.assertIn("more than 256 symbols", refusal("--out", self.folder / "a", "--reference", torn))
         (self.folder / "not.png").write_text("hello")
