@@ -58,7 +58,7 @@ inline in::mesh ship_of(const object_form& f, in::random_sequence& draw) {
     if (draw.uniform() < 0.2) return barge_of(f, draw);
     const auto length = static_cast<float>(f.length);
     in::hull h{.length = length};
-    h.beam = length / between(draw, length > 60 ? 5.0 : 2.6, length > 60 ? 8.5 : 5.5);
+    h.beam = length / between(draw, length > 60 ? 4.0 : 2.2, length > 60 ? 7.0 : 4.5);
     h.depth = h.beam / between(draw, 1.6, 2.8);
     h.bulwark = (std::min)(between(draw, 0.3, 1.2), 0.3f * h.depth);
     h.sheer = between(draw, 0, 2);

@@ -150,6 +150,16 @@ class Plans(unittest.TestCase):
             for column in "chip_m", "sonar", "altitude_m", "bottom_seed", "white", "turn", "t1_length_m":
                 self.assertEqual(before.get(column), after.get(column), column)
 
+    def test_a_range_that_is_given_decides_noise_beam_and_grain(self):
+        pictures = set()
+        for share in 0.03, 1:
+            text = ("index,class,seabed,chip_m,sonar,first_range_m,altitude_m,range_share\n"
+                    f"0,empty,sand,5,side_scan_1800,30,4,{share}\n1,empty,ripples,5,synthetic_aperture,60,9,{share}\n")
+            out = self.folder / f"share_{share}"
+            run("--out", out, "--recipe", "sonar", "--plan", self.table(text), "--size", 32)
+            pictures.add(tuple(row["file_sha256"] for row in manifest(out)))
+        self.assertEqual(len(pictures), 1)
+
     def test_every_target_is_shown_at_every_aspect_on_every_seabed(self):
         targets = self.table('id,shape,length,width,height,orientation\r\n7,cylinder,2,0.5,0.6,0\r\n"9",cube , 1,0.8,0.7,45\r\n')
         out = self.folder / "a"

@@ -84,7 +84,7 @@ inline placed_object sample_object(sampler& s, const std::string& prefix, const 
     o.roll = s.derived(name("roll_rad"),
                        on_side ? s.uniform(name("list_rad"), 0.9, 1.8) : s.uniform(name("list_rad"), -0.3, 0.3));
     o.burial = s.uniform_or_0(name("burial"), 0.3, 0.02, kind == "ship" && o.form.damage > 0.5 ? 0.8 : 0.55);
-    o.reflectivity = s.logarithmic(name("reflectivity"), 0.7, 10);
+    o.reflectivity = s.logarithmic(name("reflectivity"), 1, 20);
     o.across = s.uniform(name("across"), place.across.low, place.across.high);
     o.along = s.uniform(name("along"), place.along.low, place.along.high);
     // A moat follows the outline of a hull; what an aeroplane digs is too small to tell from its own wreckage.
@@ -139,7 +139,7 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
     p.swell = s.uniform_or_0("swell", 0.65, 0.01, 0.06);
     p.trawls = s.uniform_or_0("trawls", 0.75, 0.3, 2);
 
-    p.tone.drift = static_cast<float>(s.logarithmic("tone_drift_db", 0.05, 1.2));
+    p.tone.drift = static_cast<float>(s.logarithmic("tone_drift_db", 0.05, p.targets.empty() ? 1.2 : 2.5));
     p.tone.drift_length =
         static_cast<float>(s.derived("tone_drift_length_m", pixel * s.logarithmic("drift_px", 15, 120)));
     p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.8, 0.2, 1.1));
@@ -261,8 +261,8 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     }
 
     // The chip is cut around the first target, or as large as one of any size would be.
-    const double share = s.chance("is_small", 0.1) ? 0.4 : 1.0;
-    const double fill = share * s.uniform("fill", 0.55, 1.2), bare = s.logarithmic("bare_chip_m", 6, 160);
+    const double share = s.chance("is_small", 0.06) ? 0.4 : 1.0;
+    const double fill = share * s.uniform("fill", 0.7, 1.35), bare = s.logarithmic("bare_chip_m", 6, 160);
     // Wrecks are cut out by their outline, so that a chip is longer the way that its target lies.
     const double closeness = s.uniform("crop_share", 0, 1),
                  slender = empty ? 1 : detail::slenderness(shapes.front(), p.targets.front().yaw - p.rig_yaw);
@@ -294,6 +294,8 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
     if (!s.chance("water_in_view", empty ? 0.04 : 0.2))
         slant = (std::max)(slant, lead * p.chip / (1 - sine / (0.75 * sine + 0.25)));
     p.first_range = s.derived("first_range_m", slant - lead * p.chip);
+    // Noise, beam and grain go by the range that a plan gives.
+    slant = p.first_range + lead * p.chip;
     p.altitude = s.derived("altitude_m", slant * sine);
     p.place_x = s.uniform("place_x_m", -500, 500);
     p.place_y = s.uniform("place_y_m", -500, 500);
