@@ -2,8 +2,20 @@
 //
 // The real one, 461 pings of both sides out to 30 m at 600 kHz, shows a wreck below a tow that comes down to it. The
 // rendered one has a wreck of about the size, such a tow, and the look of the recipe `sonar`; no pixel of the real one.
+#include <insonify/geometry/objects/boulder.hpp>
+#include <insonify/geometry/objects/footprint.hpp>
+#include <insonify/geometry/objects/hull.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
+#include <insonify/seabed/sculpt.hpp>
+#include <insonify/sonar/bottom_tone.hpp>
+#include <insonify/sonar/instruments.hpp>
+#include <insonify/sonar/side_scan/ping_gain.hpp>
+#include <insonify/sonar/side_scan/record.hpp>
+#include <insonify/sonar/side_scan/record_options.hpp>
+#include <insonify/sonar/side_scan/sonar_equation.hpp>
+#include <insonify/sonar/side_scan/water_column.hpp>
+#include <insonify/sonar/speckle.hpp>
 
 #include <cstdio>
 #include <filesystem>

@@ -2,6 +2,9 @@
 // depth.png.
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
+#include <insonify/raster/draw.hpp>
+#include <insonify/seabed/sample.hpp>
+#include <insonify/seabed/tessellate.hpp>
 
 #include <cstdio>
 

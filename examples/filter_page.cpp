@@ -2,6 +2,7 @@
 //
 // Each under its name: the picture as the filter leaves it, and beside it how its pixels are distributed, dark below
 // and light above, the picture's own distribution behind it in gray. Without pictures, a cylinder on rippled sand.
+#include <insonify/filter/poisson.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
 

@@ -1,6 +1,9 @@
 // Both sides of a survey line, as a side-scan sonar hears them: hello_side_scan writes swath.png.
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
+#include <insonify/seabed/blend.hpp>
+#include <insonify/sonar/side_scan/record.hpp>
+#include <insonify/sonar/speckle.hpp>
 
 namespace in = insonify;
 using namespace in::literals;

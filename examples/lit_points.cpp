@@ -1,5 +1,6 @@
 // Which points does a lamp reach? Tests positions along a dive for the light of a lamp on a frame above a cube.
 #include <insonify/insonify.hpp>
+#include <insonify/sonar/occlusion.hpp>
 
 #include <cstdio>
 #include <vector>

@@ -3,8 +3,21 @@
 // Slant range, starboard channel: the sonar is on the left, shadows fall to the right, metres across are in the
 // caption.
 #include <insonify/core/thread_pool.hpp>
+#include <insonify/geometry/objects/aeroplane.hpp>
+#include <insonify/geometry/objects/boulder.hpp>
+#include <insonify/geometry/objects/crate.hpp>
+#include <insonify/geometry/objects/footprint.hpp>
+#include <insonify/geometry/objects/hull.hpp>
+#include <insonify/geometry/objects/lobster_pot.hpp>
+#include <insonify/geometry/objects/open_pipe.hpp>
+#include <insonify/geometry/objects/truncated_cone.hpp>
+#include <insonify/geometry/objects/tyre.hpp>
+#include <insonify/geometry/objects/wedge.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
+#include <insonify/seabed/sculpt.hpp>
+#include <insonify/sonar/side_scan/record.hpp>
+#include <insonify/sonar/speckle.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,9 @@
 // An unbounded seabed of one's own, with its label, brightness and speckle, in both kinds of picture: own_seabed.
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
+#include <insonify/seabed/blend.hpp>
+#include <insonify/sonar/side_scan/record.hpp>
+#include <insonify/sonar/speckle.hpp>
 
 #include <cmath>
 #include <cstdio>

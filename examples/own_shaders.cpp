@@ -1,6 +1,7 @@
 // Own vertex and fragment shaders: a lit, textured ball through a camera; own_shaders writes ball.png.
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
+#include <insonify/raster/draw.hpp>
 
 namespace in = insonify;
 using namespace in::literals;

@@ -1,5 +1,6 @@
 // A shadow policy of one's own draws a frame: every triangle is tried along every ray, for light from far away.
 #include <insonify/insonify.hpp>
+#include <insonify/sonar/overhead/render.hpp>
 
 #include <cstdio>
 

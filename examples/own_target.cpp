@@ -1,4 +1,5 @@
 // A target from an OBJ file, ten times in a scene without copying its mesh: own_target mesh.obj writes herd.png.
+#include <insonify/geometry/obj.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
 

@@ -2,6 +2,7 @@
 //
 // Reads OBJ by itself, and whatever assimp reads (FBX, glTF, STL, PLY, ...) where it was built with assimp.
 #include <insonify/core/thread_pool.hpp>
+#include <insonify/geometry/obj.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
 

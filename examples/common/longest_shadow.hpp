@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/insonify.hpp>
+#include <insonify/sonar/side_scan/range_geometry.hpp>
 
 namespace examples {
 

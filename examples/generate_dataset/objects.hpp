@@ -1,6 +1,16 @@
 // Objects of the sonar recipe: a kind, its length, its damage, and a number that decides the rest of its form.
 #pragma once
 
+#include <insonify/geometry/objects/aeroplane.hpp>
+#include <insonify/geometry/objects/boulder.hpp>
+#include <insonify/geometry/objects/compound.hpp>
+#include <insonify/geometry/objects/crate.hpp>
+#include <insonify/geometry/objects/hull.hpp>
+#include <insonify/geometry/objects/lobster_pot.hpp>
+#include <insonify/geometry/objects/open_pipe.hpp>
+#include <insonify/geometry/objects/truncated_cone.hpp>
+#include <insonify/geometry/objects/tyre.hpp>
+#include <insonify/geometry/objects/wedge.hpp>
 #include <insonify/insonify.hpp>
 
 #include <string>

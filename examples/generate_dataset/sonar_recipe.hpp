@@ -3,6 +3,17 @@
 // docs/recipe.md says what each is for.
 #pragma once
 
+#include <insonify/geometry/objects/footprint.hpp>
+#include <insonify/seabed/blend.hpp>
+#include <insonify/seabed/edit.hpp>
+#include <insonify/seabed/moat.hpp>
+#include <insonify/seabed/sculpt.hpp>
+#include <insonify/sonar/bottom_tone.hpp>
+#include <insonify/sonar/instruments.hpp>
+#include <insonify/sonar/side_scan/ping_gain.hpp>
+#include <insonify/sonar/side_scan/sonar_equation.hpp>
+#include <insonify/sonar/side_scan/water_column.hpp>
+
 #include "facts.hpp"
 #include "objects.hpp"
 #include "options.hpp"

@@ -1,7 +1,12 @@
 // What all images of a data set share: meshes, heightmap and references.
 #pragma once
 
+#include <insonify/filter/poisson.hpp>
+#include <insonify/geometry/obj.hpp>
 #include <insonify/insonify.hpp>
+#include <insonify/seabed/blend.hpp>
+#include <insonify/seabed/heightfield.hpp>
+#include <insonify/sonar/speckle.hpp>
 
 #include <map>
 #include <optional>

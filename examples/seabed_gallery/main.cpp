@@ -4,6 +4,8 @@
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
+#include <insonify/seabed/mixed.hpp>
+#include <insonify/sonar/speckle.hpp>
 
 #include <algorithm>
 #include <cstdio>

@@ -4,6 +4,8 @@
 // kind, in standard deviations over the crops. Fails if one lies farther than the kind's tolerance. The real tiles are
 // of a synthetic aperture, tone-mapped; grain, grazing angle and display below are those at which they agree best.
 #include <insonify/insonify.hpp>
+#include <insonify/sonar/bottom_tone.hpp>
+#include <insonify/sonar/side_scan/water_column.hpp>
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,8 @@
 // A map: the relief in relief shading, north up, with the track and the targets on it.
 #pragma once
 
+#include <insonify/seabed/sample.hpp>
+
 #include "field.hpp"
 
 namespace survey {

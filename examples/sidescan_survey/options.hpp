@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/insonify.hpp>
+#include <insonify/seabed/blend.hpp>
 
 #include "vehicle.hpp"
 #include <CLI/CLI.hpp>
