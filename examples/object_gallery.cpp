@@ -23,6 +23,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/scale_bar.hpp"
 #include "common/text.hpp"
 
 namespace in = insonify;
@@ -101,17 +102,19 @@ int main(int argc, char** argv) try {
     in::thread_pool pool;
     const std::vector<entry> all = entries();
     const int rows = (static_cast<int>(all.size()) + columns - 1) / columns;
-    in::image<in::rgb<std::uint8_t>> sheet(columns * (tile + gap) + gap, rows * (tile + gap + caption) + gap,
-                                           in::rgb<std::uint8_t>{15, 15, 15});
+    constexpr in::rgb<std::uint8_t> ink{230, 230, 230}, paper{15, 15, 15};
+    in::image<in::rgb<std::uint8_t>> sheet(columns * (tile + gap) + gap, caption + rows * (tile + gap + caption) + gap,
+                                           paper);
+    examples::write_text(sheet, gap + 2, 4, "slant range from left to right: the sonar is on the left", ink);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const int left = gap + static_cast<int>(i % columns) * (tile + gap);
-        const int top = gap + static_cast<int>(i / columns) * (tile + gap + caption);
+        const int top = caption + gap + static_cast<int>(i / columns) * (tile + gap + caption);
         const auto colored = shown(tile_of(all[i], pool)) | in::colormap::copper;
         for (int y = 0; y < tile; ++y) std::copy_n(colored.row(y).begin(), tile, sheet.row(top + y).begin() + left);
         char text[96];
-        std::snprintf(text, sizeof text, "%s, %.0f deg, %.3g m", all[i].name, static_cast<double>(all[i].degrees),
-                      static_cast<double>(all[i].across));
-        examples::write_text(sheet, left + 2, top + tile + 3, text, in::rgb<std::uint8_t>{230, 230, 230});
+        std::snprintf(text, sizeof text, "%s, %.0f deg", all[i].name, static_cast<double>(all[i].degrees));
+        examples::write_text(sheet, left + 2, top + tile + 3, text, ink);
+        examples::draw_scale_bar(sheet, left + tile, top + tile, tile, static_cast<double>(all[i].across), ink, paper);
     }
     in::write_png(out, sheet);
 } catch (const std::exception& error) {

@@ -11,6 +11,7 @@
 #include <cstdio>
 
 #include "../common/pictures.hpp"
+#include "../common/scale_bar.hpp"
 #include "../common/text.hpp"
 #include "texture.hpp"
 
@@ -112,10 +113,11 @@ int main(int argc, char** argv) try {
     const bool has_real = std::any_of(all.begin(), all.end(), [&](const entry& e) { return !real_path(e).empty(); });
     const int columns = has_real ? 4 : 3;
     in::image<float> sheet(columns * (tile_width + gap) + gap,
-                           static_cast<int>(all.size()) * (tile_height + gap + caption) + gap, 0.1f);
+                           caption + static_cast<int>(all.size()) * (tile_height + gap + caption) + gap, 0.1f);
+    examples::write_text(sheet, gap + 2, 4, "sound travels from left to right", 1.0f);
     std::printf("%-30s %-9s %9s %8s %8s %8s %8s %8s %8s %8s %8s\n", "seabed", "view", "deviation", "skewness", "across",
                 "along", "contrast", "evenness", "slope", "degrees", "stretch");
-    int top = gap;
+    int top = caption + gap;
     for (const entry& e : all) {
         int left = gap;
         for (const int degrees : grazing_angles) {
@@ -124,6 +126,8 @@ int main(int argc, char** argv) try {
             const std::string view = std::to_string(degrees) + " deg";
             describe(e.name, view.c_str(), tile);
             examples::write_text(sheet, left + 2, top + tile_height + 3, std::string(e.name) + ", " + view, 1.0f);
+            examples::draw_scale_bar(sheet, left + tile_width, top + tile_height, tile_width, tile_width * e.cell, 1.0f,
+                                     0.1f);
             left += tile_width + gap;
         }
         if (const std::string path = real_path(e); !path.empty()) {
