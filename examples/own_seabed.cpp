@@ -34,8 +34,7 @@ int main() {
     const auto above = in::render(scene, in::overhead{.position = {1e6, 0}, .size = {512, 512}});
     in::write_png("waves.png", above.image | in::equalize{} | in::colormap::copper);
     const in::side_scan sonar{.position = {1e6, 0}, .pings = 300, .range = 25, .bins = 500};
-    const auto swath = in::with_speckle(in::render(scene, sonar));
-    in::write_png("waves_swath.png", swath.image | in::display{} | in::colormap::copper);
+    in::write_png("waves_swath.png", in::with_speckle(in::render(scene, sonar)).image | in::display{});
     for (const auto& t : above.labels.legend)
         std::printf("label %d: %s\n", static_cast<int>(t.label), std::string(t.name).c_str());
 }

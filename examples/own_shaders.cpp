@@ -31,11 +31,10 @@ struct fragment_shader {
 
 int main() {
     const in::mesh ball = to_mesh(in::sphere{.radius = 1});
-    const in::camera camera{.eye = {0, -4, 1.5}, .field_of_view = 40_deg, .aspect = 1.5f};
     in::image<in::rgb8> color(480, 320);
     in::image<float> depth(480, 320);
-    in::draw(ball, vertex_shader{in::camera_view(camera)}, fragment_shader{},
-             in::framebuffer<in::rgb8>{color, depth, true, {5, 5, 5}},
+    in::draw(ball, vertex_shader{in::camera_view({.eye = {0, -4, 1.5}, .field_of_view = 40_deg, .aspect = 1.5f})},
+             fragment_shader{}, in::framebuffer<in::rgb8>{color, depth, true, {5, 5, 5}},
              {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
     in::write_png("ball.png", color);
 }

@@ -4,7 +4,6 @@
 
 #include <cstdio>
 
-namespace in = insonify;
 namespace shadow = insonify::shadow;
 
 struct every_triangle {
@@ -24,7 +23,7 @@ struct every_triangle {
         }
     }
     bool blocks(const shadow::caster& c, const glm::uvec3& t, const glm::dvec3& p) const {
-        const auto corner = [&](int k) { return in::transform_point(c.placement, c.mesh.positions[t[k]]) - p; };
+        const auto corner = [&](int k) { return insonify::transform_point(c.placement, c.mesh.positions[t[k]]) - p; };
         const glm::dvec3 u = corner(0), v = corner(1), w = corner(2);
         const auto side = [&](const auto& a, const auto& b) { return glm::dot(to_light, glm::cross(a, b)); };
         const double volume = glm::dot(u, glm::cross(v, w)), sign = volume < 0 ? -1 : 1;
@@ -33,9 +32,9 @@ struct every_triangle {
 };
 
 int main() {
-    in::scene scene;
-    scene.seabed = in::seabed::ripples{.wavelength = 0.8f, .steepness = 0.1f};
-    scene.add(in::cube{}, {.position = {0, 0, 0.5}, .yaw = 0.4f}, "cube");
-    const auto frame = in::render<every_triangle>(scene, {.altitude = 3, .size = {96, 96}, .grazing = 0.3f});
+    insonify::scene scene;
+    scene.seabed = insonify::seabed::ripples{.wavelength = 0.8f, .steepness = 0.1f};
+    scene.add(insonify::cube{}, {.position = {0, 0, 0.5}, .yaw = 0.4f}, "cube");
+    const auto frame = insonify::render<every_triangle>(scene, {.altitude = 3, .size = {96, 96}, .grazing = 0.3f});
     std::printf("%.0f pixels in the cube's shadow\n", static_cast<double>(frame.labels.targets[0].shadow_area));
 }

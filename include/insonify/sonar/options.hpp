@@ -31,6 +31,8 @@ inline namespace INSONIFY_FLAGS {
 inline render_options<> options_for(const overhead&) {
     return {};
 }
+
+/// The default options of recordings by a rig.
 template <across_track Axis>
 record_options<> options_for(const side_scan_rig<Axis>&) {
     return {};
