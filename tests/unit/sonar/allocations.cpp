@@ -58,7 +58,8 @@ TEST_CASE("Drawing on several threads survives any failed allocation, and the po
 
 TEST_CASE("A context survives any failed allocation, and nothing of it is left") {
     const in::scene s = mixed_scene();
-    constexpr in::overhead larger{.altitude = 4, .size = {160, 110}, .grazing = 0.4f};  // planes of 70 KB come from the context
+    constexpr in::overhead larger{
+        .altitude = 4, .size = {160, 110}, .grazing = 0.4f};  // planes of 70 KB come from the context
     CHECK(failing_new::in_turn([&] {
               in::context context;
               in::image<float> last;
