@@ -1,7 +1,6 @@
 // Every built-in object as a side-scan sonar records it: object_gallery [out.png]
 //
-// Slant range, starboard channel: the sonar is on the left, shadows fall to the right, metres across are in the
-// caption.
+// Slant range, starboard channel: the sonar is on the left, shadows fall to the right.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/objects/aeroplane.hpp>
 #include <insonify/geometry/objects/boulder.hpp>
