@@ -6,7 +6,9 @@
 
 #include <string>
 
-#if __has_include(<stb_image_write.h>)
+// stb_image_write implements itself wherever it is included once more: the unit that has it in front keeps that one.
+#if defined(INCLUDE_STB_IMAGE_WRITE_H)
+#elif __has_include(<stb_image_write.h>)
 #include <stb_image_write.h>
 #elif __has_include(<stb/stb_image_write.h>)
 #include <stb/stb_image_write.h>

@@ -18,7 +18,13 @@
 
 #if __has_include(<stb_image_write.h>) || __has_include(<stb/stb_image_write.h>)
 #define INSONIFY_TEST_PNG
+// In front of png.hpp, as a program in one file has it.
 #define STB_IMAGE_WRITE_IMPLEMENTATION
+#if __has_include(<stb_image_write.h>)
+#include <stb_image_write.h>
+#else
+#include <stb/stb_image_write.h>
+#endif
 #include <insonify/io/png.hpp>
 #endif
 #if defined(INSONIFY_TEST_PNG) && (__has_include(<stb_image.h>) || __has_include(<stb/stb_image.h>))
