@@ -2,7 +2,7 @@
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
 #include <insonify/seabed/blend.hpp>
-#include <insonify/sonar/side_scan/record.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
 #include <insonify/sonar/speckle.hpp>
 
 namespace in = insonify;

@@ -1,6 +1,6 @@
 // Rows of a survey into a caller's buffer, a few pings at a time, as a simulator hands them out: survey_rows.
 #include <insonify/insonify.hpp>
-#include <insonify/sonar/side_scan/record.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
 
 #include <cstdio>
 #include <vector>

@@ -29,6 +29,8 @@
 
 #if defined(INSONIFY_IMPLEMENTATION)
 #include <insonify/sonar/overhead/render.hpp>
+#include <insonify/sonar/side_scan/record.hpp>
+#include <insonify/sonar/speckle.hpp>
 #endif
 
 namespace insonify {
@@ -116,6 +118,15 @@ frame<no_labels> paint(const scene& s, const overhead& rig, built_in<shadow::non
 visibility see(const scene& s, const overhead& rig, built_in<shadow::none, labels> options, executor_ref ex) {
     return detail::see<>(s, rig, options, ex);
 }
+
+#define INSONIFY_RECORDING(Labels, Law)                                                               \
+    frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window, \
+                               const recorded_by<Labels, Law>& options, executor_ref ex) {            \
+        return detail::record_pings<>(s, track, window, options, ex);                                 \
+    }
+INSONIFY_RECORDINGS(INSONIFY_RECORDING)
+#undef INSONIFY_RECORDING
+#undef INSONIFY_RECORDINGS
 
 }  // namespace detail::inline INSONIFY_ONCE
 

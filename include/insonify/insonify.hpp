@@ -121,6 +121,7 @@
 #include <insonify/sonar/side_scan/range_geometry.hpp>
 #include <insonify/sonar/side_scan/record.hpp>
 #include <insonify/sonar/side_scan/record_options.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
 #include <insonify/sonar/side_scan/slant_to_ground.hpp>
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
 #include <insonify/sonar/side_scan/swath.hpp>

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <insonify/core/executor.hpp>
-#include <insonify/sonar/detail/speckle_field.hpp>
 #include <insonify/sonar/side_scan/swath.hpp>
+#if INSONIFY_BODIES
+#include <insonify/sonar/detail/speckle_field.hpp>
+#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -47,6 +49,14 @@ struct seabed_speckle {
     std::uint64_t seed = 1;
 };
 
+namespace detail::inline INSONIFY_ONCE {
+
+INSONIFY_FUNCTION image<float> speckled(image_view<const float> mean, image_view<const std::uint8_t> types,
+                                        const seabed_speckle& s, const ping_numbers& numbers, executor_ref ex);
+
+}  // namespace detail::inline INSONIFY_ONCE
+
+#if INSONIFY_BODIES
 namespace detail::inline INSONIFY_FLAGS {
 
 inline void validate(const speckle_law& law) {
@@ -73,28 +83,20 @@ inline speckle_laws resolved_laws(const seabed_speckle& s) {
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
-inline namespace INSONIFY_FLAGS {
+namespace detail::inline INSONIFY_ONCE {
 
-/// Applies speckle to an image of mean intensities.
-///
-/// @param mean     intensities; 0 stays 0
-/// @param types    a seabed::type for each pixel, as in labels::seabed; others are `elsewhere`
-/// @param numbers  ping numbers of the rows
-/// @throws invalid_input for images of different sizes or a parameter out of its range
-template <executor_argument E = serial_executor>
-image<float> with_speckle(image_view<const float> mean, image_view<const std::uint8_t> types, const seabed_speckle& s,
-                          const ping_numbers& numbers, E&& ex = {}) {
-    using detail::require;
+INSONIFY_FUNCTION image<float> speckled(image_view<const float> mean, image_view<const std::uint8_t> types,
+                                        const seabed_speckle& s, const ping_numbers& numbers, executor_ref ex) {
     require(types.width() == mean.width(), "types.width()", types.width(), "that of the intensities");
     require(types.height() == mean.height(), "types.height()", types.height(), "that of the intensities");
     require(numbers.step == 1 || numbers.step == -1, "ping_numbers.step", numbers.step, "1 or -1");
-    const speckle_laws laws = detail::resolved_laws(s);
+    const speckle_laws laws = resolved_laws(s);
     // All looks are computed for all bins; types use as many as they have.
     int looks = 1;
     for (const speckle_law& law : laws) looks = (std::max)(looks, law.looks);
 
-    const detail::speckle_field field(s.seed, numbers.side, s.along_track, s.across_track, mean.width());
-    const detail::speckle_texture texture(s.seed, numbers.side, s.texture_length);
+    const speckle_field field(s.seed, numbers.side, s.along_track, s.across_track, mean.width());
+    const speckle_texture texture(s.seed, numbers.side, s.texture_length);
     image<float> out(mean.width(), mean.height());
     constexpr std::size_t grain = 32;
     bulk_ranges(ex, static_cast<std::size_t>(mean.height()), grain, [&](std::size_t from, std::size_t to) {
@@ -109,7 +111,7 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
                 for (std::size_t x = 0; x < row.size(); ++x) {
                     const speckle_law& law = laws[types.row(first + i)[x]];
                     if (look >= law.looks) continue;
-                    row[x] += detail::look_intensity(g[2 * x], g[2 * x + 1], law.steady, law.looks);
+                    row[x] += look_intensity(g[2 * x], g[2 * x + 1], law.steady, law.looks);
                 }
             }
         }
@@ -123,6 +125,23 @@ image<float> with_speckle(image_view<const float> mean, image_view<const std::ui
         }
     });
     return out;
+}
+
+}  // namespace detail::inline INSONIFY_ONCE
+#endif
+
+inline namespace INSONIFY_FLAGS {
+
+/// Applies speckle to an image of mean intensities.
+///
+/// @param mean     intensities; 0 stays 0
+/// @param types    a seabed::type for each pixel, as in labels::seabed; others are `elsewhere`
+/// @param numbers  ping numbers of the rows
+/// @throws invalid_input for images of different sizes or a parameter out of its range
+template <executor_argument E = serial_executor>
+image<float> with_speckle(image_view<const float> mean, image_view<const std::uint8_t> types, const seabed_speckle& s,
+                          const ping_numbers& numbers, E&& ex = {}) {
+    return detail::speckled(mean, types, s, numbers, executor_ref(ex));
 }
 
 /// Speckle with the laws of the seabed's model for labels that have none.

@@ -2,6 +2,8 @@
 #include "unit.hpp"
 
 #include <insonify/insonify.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
+#include <insonify/sonar/speckle.hpp>
 
 #define JOIN_RAW(a, b) a##b
 #define JOIN(a, b) JOIN_RAW(a, b)
@@ -11,6 +13,15 @@ in::image<float> JOIN(draw_, UNIT)() {
     scene.seabed = in::seabed::ripples{.wavelength = 0.7f};
     scene.add(in::cube{.size = glm::vec3(0.3f)}, {.position = {0.5, 0, 0.15}}, "cube");
     return in::render(scene, {.altitude = 3, .size = {128, 96}, .grazing = 0.2f}).image;
+}
+
+in::image<float> JOIN(hear_, UNIT)() {
+    in::scene scene;
+    scene.seabed = in::seabed::ripples{.wavelength = 0.7f};
+    scene.add(in::cube{.size = glm::vec3(0.3f)}, {.position = {3, 1, 0.15}}, "cube");
+    const in::sonar_equation equation{in::pulse{}, in::horizontal_beam{}, in::level_gain{}};
+    const in::side_scan rig{.altitude = 2, .ping_spacing = 0.05f, .pings = 40, .range = 6, .bins = 128};
+    return in::with_speckle(in::render(scene, rig, in::record_options<>{}.with(equation))).image;
 }
 
 in::image<float> JOIN(look_, UNIT)(const in::image<float>& picture) {

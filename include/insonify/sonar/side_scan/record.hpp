@@ -3,67 +3,21 @@
 #pragma once
 
 #include <insonify/sonar/side_scan/detail/recorder.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
 
-inline namespace INSONIFY_FLAGS {
-
-/// Records a track of any shape, with yaw, pitch, roll and heave of every ping.
-///
-/// @param s        the seabed and its targets
-/// @param track    pings in order; row i of the result is ping i
-/// @param rig      ranges, side and ping spacing; its own track is ignored
-/// @param options  labels, backscatter law and sonar equation by type; sampling of the seabed
-/// @param ex       runs it; the result is the same bytes for any executor
-/// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option out of range
-template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
-          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-frame<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
-                     const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
-    return detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(0, ex);
+template <class Labels, class Law>
+frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window,
+                           const recorded_by<Labels, Law>& options, executor_ref ex) {
+    return recorder<Labels, Law>(s, track, window, options, ex).record(ex);
 }
 
-/// Records pings into the caller's memory, without labels: row i of `into` becomes ping i.
-/// @param into  rig.bins columns, a row per ping; may be a part of a larger image
-/// The other parameters and errors are those of `record`; also throws invalid_input for a view of another size, which
-/// is then untouched.
-template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
-          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-render_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
-                         const side_scan_rig<Axis>& rig, const record_options<Labels, Law, Equation>& options = {},
-                         E&& ex = {}) {
-    detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
-    detail::require(static_cast<std::size_t>(into.height()) == track.size(), "into.height()", into.height(),
-                    "that of the pings");
-    const auto recorded = record(s, track, rig, options.without_labels(), ex);
-    for (int y = 0; y < into.height(); ++y)
-        std::copy(recorded.image.row(y).begin(), recorded.image.row(y).end(), into.row(y).begin());
-    return recorded.stats;
-}
-
-/// Records the straight track of a rig, in slant or ground range. Row i is ping i. The other parameters are those of
-/// `record`.
-template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
-          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
-frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
-                     const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
-    validate(rig);
-    // The beam reaches beyond the ends of the track.
-    int more = 0;
-    if constexpr (Equation::has_beam)
-        options.equation.for_each([&](const auto& part) {
-            if constexpr (detail::footprint_part<decltype(part)>) more = detail::beam_reach(part, rig);
-        });
-    std::vector<ping> track;
-    for (int i = -more; i < rig.pings + more; ++i) track.push_back(ping_of(rig, i));
-    return detail::recorder<side_scan_rig<Axis>, Labels, Law, Equation>(s, track, rig, options, ex).record(more, ex);
-}
-
-}  // namespace INSONIFY_FLAGS
-
+}  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <insonify/sonar/side_scan/range_geometry.hpp>
-#include <insonify/sonar/side_scan/record.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 

@@ -1,7 +1,10 @@
 // Mirrors, flips and joins pictures: both sides of a track in one.
 #pragma once
 
+#include <insonify/sonar/side_scan/recording.hpp>
+#if INSONIFY_BODIES
 #include <insonify/sonar/side_scan/record.hpp>
+#endif
 
 INSONIFY_ARITHMETIC_BEGIN
 

@@ -12,6 +12,7 @@
 #include <insonify/sonar/side_scan/detail/label_tally.hpp>
 #include <insonify/sonar/side_scan/detail/ping_fan.hpp>
 #include <insonify/sonar/side_scan/detail/target_hits.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
 
 #include <array>
 
@@ -32,13 +33,13 @@ struct echo_bin {
     std::uint8_t seabed = labels::no_seabed;
 };
 
-/// Traces pings one after the other, reusing memory and, where possible, the fan. Rig is a side_scan or a ground_range.
-template <class Rig, class Law, class Equation, bool Labelled>
+/// Traces pings one after the other, reusing memory and, where possible, the fan.
+template <class Law, bool Labelled>
 class ping_tracer {
   public:
     ping_tracer(const scene& s, const bottom_materials& materials, std::span<const sliced_target> targets,
-                const bottom_tiles& bottom, const Rig& rig, const Law& law, const Equation& equation, double cell,
-                const seabed::height_range& relief, double start)
+                const bottom_tiles& bottom, const range_bins& window, const Law& law,
+                const equation_interface& equation, double cell, const seabed::height_range& relief, double start)
         : scene_(s),
           materials_(materials),
           targets_(targets),
@@ -46,14 +47,15 @@ class ping_tracer {
           law_(law),
           equation_(equation),
           relief_(relief),
-          range_(static_cast<double>(rig.range)),
-          first_range_(static_cast<double>(rig.first_range)),
-          bin_(rig.bin()),
+          range_(static_cast<double>(window.range)),
+          first_range_(static_cast<double>(window.first_range)),
+          bin_(window.bin()),
           step_((std::min)(bin_, cell)),
           profile_step_((std::max)(step_, 0.5 * cell)),
           first_point_(static_cast<std::size_t>(-numeric::floor_to_int(-start / profile_step_))),
-          spacing_(rig.ping_spacing),
-          bins_(static_cast<std::size_t>(rig.bins)),
+          spacing_(window.ping_spacing),
+          counts_time_(window.counts_time),
+          bins_(static_cast<std::size_t>(window.bins)),
           echoing_(bins_.size()),
           casting_(bins_.size()),
           types_(bins_.size()) {
@@ -86,16 +88,16 @@ class ping_tracer {
     }
 
     /// Ground range up to which the bottom has to be sampled, metres.
-    static double reach(const Rig& rig, double cell) { return static_cast<double>(rig.range) + 4 * cell; }
+    static double reach(const range_bins& window, double cell) { return static_cast<double>(window.range) + 4 * cell; }
 
     /// Ground range from which the bottom has to be sampled: nothing nearer is received in the window or occludes it.
-    static double start(const Rig& rig, double cell, const seabed::height_range& relief, const ping_frame& p,
+    static double start(const range_bins& window, double cell, const seabed::height_range& relief, const ping_frame& p,
                         std::span<const sliced_target> targets) {
-        const double altitude = p.position().z, first = static_cast<double>(rig.first_range);
+        const double altitude = p.position().z, first = static_cast<double>(window.first_range);
         if (!skips_foreground(relief, first, p)) return 0;
-        const double lowest = altitude - relief.lowest, window = first - 4 * rig.bin();
-        const double square = counts_time ? window * window - lowest * lowest : window * window;
-        const double place = window > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
+        const double lowest = altitude - relief.lowest, begin = first - 4 * window.bin();
+        const double square = window.counts_time ? begin * begin - lowest * lowest : begin * begin;
+        const double place = begin > 0 && square > 0 ? numeric::square_root(square) - 4 * cell : 0;
         for (const sliced_target& t : targets)
             if (t.is_met_by(p, 1e9) && t.nearest(p) < place) return 0;
         // The highest possible crest that occludes the lowest possible ground there.
@@ -104,7 +106,6 @@ class ping_tracer {
 
   private:
     static constexpr float widest = 2;  ///< bins to either side of its ray that an echo may cover, at any slope
-    static constexpr bool counts_time = Rig::axis == across_track::slant_range;
 
     /// Whether a ping is so high above the bottom that the bottom in front of the window can be skipped.
     static bool skips_foreground(const seabed::height_range& relief, double first_range, const ping_frame& p) {
@@ -121,7 +122,7 @@ class ping_tracer {
     /// Builds the fan, and the power per metre of range of each ray.
     void build_fan(const fan_shape& shape, const std::array<double, 3>& attitude) {
         const auto slant = [&](double r) {
-            return counts_time ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
+            return counts_time_ ? r : numeric::square_root(r * r + shape.above_lowest * shape.above_lowest);
         };
         farthest_ = slant(range_);
         fan_ = ping_fan(shape, step_, slant(first_range_), farthest_);
@@ -335,17 +336,17 @@ class ping_tracer {
 
     /// Position of an echo, in bins.
     float column(const ping_fan::ray& ray, double range) const {
-        const double r = counts_time ? range : range * ray.sine;
+        const double r = counts_time_ ? range : range * ray.sine;
         return static_cast<float>((r - first_range_) / bin_);
     }
     double column(double x, double down) const {
-        const double r = counts_time ? numeric::square_root(x * x + down * down) : x;
+        const double r = counts_time_ ? numeric::square_root(x * x + down * down) : x;
         return (r - first_range_) / bin_;
     }
 
     /// Half the number of bins between the edges of a ray on a surface along (dx, ddown).
     float half_length(const ping_fan::ray& ray, double range, double dx, double ddown) const {
-        const double outwards = counts_time ? dx * ray.sine + ddown * ray.cosine : dx;
+        const double outwards = counts_time_ ? dx * ray.sine + ddown * ray.cosine : dx;
         const double turning = dx * ray.cosine - ddown * ray.sine;
         const double half = 0.5 * range * ray.width * outwards / (turning * bin_);
         return static_cast<float>(numeric::abs(half));
@@ -363,11 +364,12 @@ class ping_tracer {
     std::span<const sliced_target> targets_;
     const bottom_tiles& tiles_;
     Law law_;
-    const Equation& equation_;
+    const equation_interface& equation_;
     seabed::height_range relief_;
     double range_, first_range_, bin_, step_, profile_step_, farthest_ = 0;
     std::size_t first_point_;
     float spacing_;
+    bool counts_time_;
     double top_ = -1e30, foot_ = 1e30;         ///< of all targets
     double lowest_ = 0, highest_ = 0;          ///< of the bottom below the current ping
     std::array<double, 3> attitude_{0, 1, 1};  ///< sine and cosine of the roll, cosine of the pitch

@@ -4,7 +4,7 @@
 #include <insonify/core/detail/filled.hpp>
 #include <insonify/sonar/detail/checked_materials.hpp>
 #include <insonify/sonar/side_scan/detail/ping_echo.hpp>
-#include <insonify/sonar/side_scan/record_options.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 
@@ -15,56 +15,36 @@ namespace detail::inline INSONIFY_FLAGS {
 
 /// The longer of a bin and the ping spacing; in coarse pictures a fiftieth of the altitude, so that relief and targets
 /// are not missed; at least 1/2048 of the range.
-template <across_track Axis>
-double default_cell(const side_scan_rig<Axis>& rig) {
-    const double picture = (std::max)(rig.bin(), static_cast<double>(rig.ping_spacing));
-    return (std::max)(static_cast<double>(rig.range) / 2048,
-                      (std::min)(picture, static_cast<double>(rig.altitude) / 50));
-}
-
-/// Reach of the horizontal beam at the largest range, in pings.
-template <class Beam, across_track Axis>
-int beam_reach(const Beam& beam, const side_scan_rig<Axis>& rig) {
-    validate_if_possible(beam);
-    const double range = static_cast<double>(rig.range), altitude = static_cast<double>(rig.altitude);
-    const double slant =
-        Axis == across_track::slant_range ? range : numeric::square_root(range * range + altitude * altitude);
-    const double pings = beam.reach(slant) / static_cast<double>(rig.ping_spacing);
-    require(pings < 4096, "pings in the horizontal beam", pings, "below 4096");
-    return static_cast<int>(pings);
+inline double default_cell(const range_bins& window) {
+    const double picture = (std::max)(window.bin(), static_cast<double>(window.ping_spacing));
+    return (std::max)(static_cast<double>(window.range) / 2048,
+                      (std::min)(picture, static_cast<double>(window.altitude) / 50));
 }
 
 /// A recording under construction.
-template <class Rig, class Labels, class Law, class Equation>
+template <class Labels, class Law>
 class recorder {
   public:
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
-    using options_type = record_options<Labels, Law, Equation>;
 
-    template <executor E>
-    recorder(const scene& s, std::span<const ping> track, const Rig& rig, const options_type& options, E& ex)
-        : scene_(s), track_(track), rig_(rig), options_(options) {
-        validate(rig);
+    recorder(const scene& s, std::span<const ping> track, const range_bins& window,
+             const recorded_by<Labels, Law>& options, executor_ref ex)
+        : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
-        options.equation.for_each([](const auto& part) { validate_if_possible(part); });
         for (const ping& p : track) validate(p);
-        out_.rows.side = rig.side;
-        out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(rig));
+        out_.rows.side = window.looks;
+        out_.stats.cell = bottom_tiles::even(options.cell > 0 ? options.cell : default_cell(window));
         targets_ = sliced_targets(s);
         const auto height = static_cast<int>(track.size());
-        out_.image = filled(rig.bins, height, 0.0f, ex);
-        if constexpr (labelled) out_.labels = labels(s, rig.bins, height, ex);
+        out_.image = filled(window.bins, height, 0.0f, ex);
+        if constexpr (labelled) out_.labels = labels(s, window.bins, height, ex);
     }
 
-    /// @param margin  pings at either end of the track that only the beam needs; the result has no rows for them
-    template <executor E>
-    frame<Labels> record(int margin, E& ex) {
+    frame<Labels> record(executor_ref ex) {
         trace(ex);
-        if constexpr (Equation::has_beam)
-            options_.equation.for_each([&](const auto& part) {
-                if constexpr (footprint_part<decltype(part)>) blur_along_track(part, ex);
-            });
-        if constexpr (Equation::has_noise || Equation::has_gain) amplify(ex);
+        if (const int reach = beam_reach(equation_, window_); reach > 0) blur_along_track(reach, ex);
+        if (equation_.has_gain()) amplify(ex);
+        const int margin = options_.margin;
         const auto crop = [&](auto& picture) {
             picture = std::remove_reference_t<decltype(picture)>(
                 picture.view().part(0, margin, picture.width(), picture.height() - 2 * margin));
@@ -82,36 +62,35 @@ class recorder {
     static constexpr std::size_t leg = 4096;  ///< pings that share the sampled seabed
 
     double range_of(std::size_t bin) const {
-        return static_cast<double>(rig_.first_range) + (static_cast<double>(bin) + 0.5) * rig_.bin();
+        return static_cast<double>(window_.first_range) + (static_cast<double>(bin) + 0.5) * window_.bin();
     }
     /// Slant range of a bin from an altitude.
     double slant_of(std::size_t bin, double altitude) const {
         const double r = range_of(bin);
-        return Rig::axis == across_track::slant_range ? r : numeric::square_root(r * r + altitude * altitude);
+        return window_.counts_time ? r : numeric::square_root(r * r + altitude * altitude);
     }
 
-    template <executor E>
-    void trace(E& ex) {
-        using tracer = ping_tracer<Rig, Law, Equation, labelled>;
+    void trace(executor_ref ex) {
+        using tracer = ping_tracer<Law, labelled>;
         bottom_tiles bottom(scene_.seabed, out_.stats.cell);
         const seabed::height_range relief = scene_.seabed.prepare().range();
         const double cell = out_.stats.cell;
         std::vector<float> over_range;
-        if constexpr (Equation::has_ranges)
-            for (std::size_t b = 0; b < static_cast<std::size_t>(rig_.bins); ++b)
+        if (equation_.has_ranges())
+            for (std::size_t b = 0; b < static_cast<std::size_t>(window_.bins); ++b)
                 over_range.push_back(static_cast<float>(
-                    options_.equation.over_range(slant_of(b, static_cast<double>(rig_.altitude)), spacing())));
+                    equation_.over_range(slant_of(b, static_cast<double>(window_.altitude)), spacing())));
         for (std::size_t start = 0; start < track_.size(); start += leg) {
             const std::size_t count = (std::min)(leg, track_.size() - start);
             std::vector<ping_frame> frames;
             frames.reserve(count);
-            for (std::size_t i = 0; i < count; ++i) frames.emplace_back(track_[start + i], rig_.side);
-            double begin = tracer::reach(rig_, cell);
+            for (std::size_t i = 0; i < count; ++i) frames.emplace_back(track_[start + i], window_.looks);
+            double begin = tracer::reach(window_, cell);
             for (const ping_frame& p : frames)
-                begin = (std::min)(begin, tracer::start(rig_, cell, relief, p, targets_));
-            bottom.cover(frames, begin, tracer::reach(rig_, cell), ex);
+                begin = (std::min)(begin, tracer::start(window_, cell, relief, p, targets_));
+            bottom.cover(frames, begin, tracer::reach(window_, cell), ex);
             bulk_ranges(ex, count, grain, [&](std::size_t from, std::size_t to) {
-                tracer pings(scene_, materials_, targets_, bottom, rig_, options_.law, options_.equation, cell, relief,
+                tracer pings(scene_, materials_, targets_, bottom, window_, options_.law, equation_, cell, relief,
                              begin);
                 for (std::size_t i = from; i < to; ++i) write(start + i, pings.trace(frames[i]), over_range);
             });
@@ -124,12 +103,8 @@ class recorder {
         const int row = static_cast<int>(number);
         const auto power = out_.image.row(row);
         for (std::size_t b = 0; b < bins.size(); ++b) power[b] = bins[b].bottom + bins[b].target;
-        if constexpr (Equation::has_ranges)
-            for (std::size_t b = 0; b < bins.size(); ++b) power[b] *= over_range[b];
-        if constexpr (Equation::has_pulse)
-            options_.equation.for_each([&](const auto& part) {
-                if constexpr (pulse_part<decltype(part)>) convolve_pulse(power, part.duration() / rig_.bin());
-            });
+        for (std::size_t b = 0; b < over_range.size(); ++b) power[b] *= over_range[b];
+        convolve_pulse(power, equation_.pulse_length() / window_.bin());
         if constexpr (labelled) {
             const auto instance = out_.labels.instance.row(row), shadow = out_.labels.shadow.row(row);
             const auto seabed = out_.labels.seabed.row(row);
@@ -165,18 +140,16 @@ class recorder {
     }
 
     /// Convolves columns with the horizontal beam, whose width grows with range.
-    template <class Beam, executor E>
-    void blur_along_track(const Beam& beam, E& ex) {
-        const int bins = rig_.bins, rows = out_.image.height();
-        const int reach = beam_reach(beam, rig_);
-        if (reach == 0) return;
+    void blur_along_track(int reach, executor_ref ex) {
+        const int bins = window_.bins, rows = out_.image.height();
         // By distance in pings and by bin, so that whole rows are added.
         image<float> weights(bins, reach + 1);
         for (int b = 0; b < bins; ++b) {
-            const double slant = slant_of(static_cast<std::size_t>(b), static_cast<double>(rig_.altitude));
+            const double slant = slant_of(static_cast<std::size_t>(b), static_cast<double>(window_.altitude));
             double sum = 0;
             const auto weight = [&](int j) {
-                return j * spacing() <= beam.reach(slant) ? beam.pattern(j * spacing(), slant) : 0.0;
+                return j * spacing() <= equation_.beam_reach(slant) ? equation_.beam_pattern(j * spacing(), slant)
+                                                                    : 0.0;
             };
             for (int j = -reach; j <= reach; ++j) sum += weight(numeric::abs(j));
             for (int j = 0; j <= reach; ++j) weights(b, j) = static_cast<float>(weight(j) / sum);
@@ -196,9 +169,8 @@ class recorder {
     }
 
     /// Adds the receiver's noise and applies its gain.
-    template <executor E>
-    void amplify(E& ex) {
-        const auto noise = static_cast<float>(options_.equation.noise());
+    void amplify(executor_ref ex) {
+        const auto noise = static_cast<float>(equation_.noise());
         bulk_ranges(ex, track_.size(), 64, [&](std::size_t from, std::size_t to) {
             std::vector<float> gain;
             double altitude = 0;
@@ -206,11 +178,9 @@ class recorder {
                 if (gain.empty() || track_[i].position.z != altitude) {
                     altitude = track_[i].position.z;
                     gain.clear();
-                    for (std::size_t b = 0; b < static_cast<std::size_t>(rig_.bins); ++b)
-                        gain.push_back(static_cast<float>(
-                            options_.equation.gain(flat_echo{slant_of(b, altitude), altitude, rig_.bin(), spacing(),
-                                                             Rig::axis == across_track::slant_range},
-                                                   options_.law)));
+                    for (std::size_t b = 0; b < static_cast<std::size_t>(window_.bins); ++b)
+                        gain.push_back(static_cast<float>(equation_.gain(
+                            {slant_of(b, altitude), altitude, window_.bin(), spacing(), window_.counts_time})));
                 }
                 const auto row = out_.image.row(static_cast<int>(i));
                 for (std::size_t b = 0; b < row.size(); ++b) row[b] = (row[b] + noise) * gain[b];
@@ -218,12 +188,13 @@ class recorder {
         });
     }
 
-    double spacing() const { return static_cast<double>(rig_.ping_spacing); }
+    double spacing() const { return static_cast<double>(window_.ping_spacing); }
 
     const scene& scene_;
     std::span<const ping> track_;
-    Rig rig_;
-    options_type options_;
+    range_bins window_;
+    const recorded_by<Labels, Law>& options_;
+    const equation_interface& equation_;
     bottom_materials materials_;
     std::vector<sliced_target> targets_;
     frame<Labels> out_;

@@ -1,0 +1,147 @@
+// Side-scan pictures: the functions that record them. Their bodies are in record.hpp.
+#pragma once
+
+#include <insonify/core/executor.hpp>
+#include <insonify/core/image_view.hpp>
+#include <insonify/sonar/scene.hpp>
+#include <insonify/sonar/side_scan/detail/equation_interface.hpp>
+#include <insonify/sonar/side_scan/record_options.hpp>
+#include <insonify/sonar/side_scan/side_scan.hpp>
+
+#include <algorithm>
+#include <span>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail {
+
+/// The columns of a recording, in slant or ground range.
+struct range_bins {
+    float altitude;      ///< metres, as of the rig
+    float ping_spacing;  ///< metres
+    float first_range, range;
+    int bins;
+    side looks;
+    bool counts_time;  ///< slant range
+
+    template <across_track Axis>
+    INSONIFY_MEMBER explicit range_bins(const side_scan_rig<Axis>& rig)
+        : altitude(rig.altitude),
+          ping_spacing(rig.ping_spacing),
+          first_range(rig.first_range),
+          range(rig.range),
+          bins(rig.bins),
+          looks(rig.side),
+          counts_time(Axis == across_track::slant_range) {}
+
+    INSONIFY_MEMBER double bin() const {
+        return (static_cast<double>(range) - static_cast<double>(first_range)) / bins;
+    }
+};
+
+/// What a recording takes of its options; the parts of the equation are no longer in the type.
+template <class Labels, class Law>
+struct recorded_by {
+    const Law& law;
+    const equation_interface& equation;
+    double cell;
+    int margin;  ///< pings at either end of the track that only the beam needs; the result has no rows for them
+};
+
+}  // namespace detail
+
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Reach of the horizontal beam at the largest range, in pings.
+inline int beam_reach(const equation_interface& equation, const range_bins& window) {
+    const double range = static_cast<double>(window.range), altitude = static_cast<double>(window.altitude);
+    const double slant = window.counts_time ? range : numeric::square_root(range * range + altitude * altitude);
+    const double pings = equation.beam_reach(slant) / static_cast<double>(window.ping_spacing);
+    require(pings < 4096, "pings in the horizontal beam", pings, "below 4096");
+    return static_cast<int>(pings);
+}
+
+template <class Labels, class Law>
+frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window,
+                           const recorded_by<Labels, Law>& options, executor_ref ex);
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
+#if defined(INSONIFY_COMPILED)
+namespace detail::inline INSONIFY_ONCE {
+
+#define INSONIFY_RECORDINGS(each)                                                                          \
+    each(labels, lambert_backscatter) each(no_labels, lambert_backscatter) each(labels, facet_backscatter) \
+        each(no_labels, facet_backscatter)
+#define INSONIFY_RECORDING(Labels, Law)                                                               \
+    frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window, \
+                               const recorded_by<Labels, Law>& options, executor_ref ex);
+INSONIFY_RECORDINGS(INSONIFY_RECORDING)
+#undef INSONIFY_RECORDING
+
+}  // namespace detail::inline INSONIFY_ONCE
+#endif
+
+inline namespace INSONIFY_FLAGS {
+
+/// Records a track of any shape, with yaw, pitch, roll and heave of every ping.
+///
+/// @param s        the seabed and its targets
+/// @param track    pings in order; row i of the result is ping i
+/// @param rig      ranges, side and ping spacing; its own track is ignored
+/// @param options  labels, backscatter law and sonar equation by type; sampling of the seabed
+/// @param ex       runs it; the result is the same bytes for any executor
+/// @throws invalid_input for a rig, a ping, a seabed, a material, a pose or an option out of range
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+frame<Labels> record(const scene& s, std::span<const ping> track, const side_scan_rig<Axis>& rig,
+                     const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+    validate(rig);
+    const detail::equation_of<Equation, Law> equation(options.equation, options.law);
+    const detail::recorded_by<Labels, Law> recorded{options.law, equation, options.cell, 0};
+    return detail::record_pings(s, track, detail::range_bins(rig), recorded, executor_ref(ex));
+}
+
+/// Records pings into the caller's memory, without labels: row i of `into` becomes ping i.
+/// @param into  rig.bins columns, a row per ping; may be a part of a larger image
+/// The other parameters and errors are those of `record`; also throws invalid_input for a view of another size, which
+/// is then untouched.
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+render_stats record_into(image_view<float> into, const scene& s, std::span<const ping> track,
+                         const side_scan_rig<Axis>& rig, const record_options<Labels, Law, Equation>& options = {},
+                         E&& ex = {}) {
+    detail::require(into.width() == rig.bins, "into.width()", into.width(), "that of the rig's bins");
+    detail::require(static_cast<std::size_t>(into.height()) == track.size(), "into.height()", into.height(),
+                    "that of the pings");
+    const auto recorded = record(s, track, rig, options.without_labels(), ex);
+    for (int y = 0; y < into.height(); ++y)
+        std::copy(recorded.image.row(y).begin(), recorded.image.row(y).end(), into.row(y).begin());
+    return recorded.stats;
+}
+
+/// Records the straight track of a rig, in slant or ground range. Row i is ping i. The other parameters are those of
+/// `record`.
+template <across_track Axis, class Labels = labels, backscatter_law Law = lambert_backscatter,
+          class Equation = sonar_equation<level_gain>, executor_argument E = serial_executor>
+frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
+                     const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
+    validate(rig);
+    const detail::equation_of<Equation, Law> equation(options.equation, options.law);
+    const detail::range_bins window(rig);
+    // The beam reaches beyond the ends of the track.
+    const int more = detail::beam_reach(equation, window);
+    std::vector<ping> track;
+    for (int i = -more; i < rig.pings + more; ++i) track.push_back(ping_of(rig, i));
+    const detail::recorded_by<Labels, Law> recorded{options.law, equation, options.cell, more};
+    return detail::record_pings(s, track, window, recorded, executor_ref(ex));
+}
+
+}  // namespace INSONIFY_FLAGS
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
