@@ -6,7 +6,7 @@
 namespace in = insonify;
 
 #define UNITS(declare) declare(plain) declare(debug) declare(native) declare(alone) declare(alone_native)
-#define DECLARE(unit)              \
+#define DECLARE(unit)               \
     in::image<float> draw_##unit(); \
     in::image<float> hear_##unit(); \
     in::image<float> look_##unit(const in::image<float>& picture);
