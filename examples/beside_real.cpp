@@ -11,8 +11,8 @@
 #include <insonify/sonar/bottom_tone.hpp>
 #include <insonify/sonar/instruments.hpp>
 #include <insonify/sonar/side_scan/ping_gain.hpp>
-#include <insonify/sonar/side_scan/recording.hpp>
 #include <insonify/sonar/side_scan/record_options.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
 #include <insonify/sonar/side_scan/water_column.hpp>
 #include <insonify/sonar/speckle.hpp>
