@@ -1,8 +1,8 @@
 // The sonar: what a block of pings sounds like, on both sides.
 #pragma once
 
-#include <insonify/sonar/side_scan/recording.hpp>
 #include <insonify/sonar/side_scan/record_options.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
 #include <insonify/sonar/side_scan/swath.hpp>
 #include <insonify/sonar/speckle.hpp>

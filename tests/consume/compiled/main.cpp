@@ -1,7 +1,7 @@
 // Units with other flags in one program: each draws the same bytes, and pictures pass from one to the next.
-#include "unit.hpp"
-
 #include <cstdio>
+
+#include "unit.hpp"
 
 int main() {
     const in::image<float> expected = draw_alone(), heard = hear_alone(), looked = look_alone(expected);
