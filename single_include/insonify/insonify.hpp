@@ -2506,13 +2506,15 @@ inline std::vector<float> field_taps(double length) {
         c = next;
     }
     std::array<double, half + 1> correlation{}, root{};
+    std::size_t correlated = 0;  // the largest distance whose autocorrelation is not 0 in double precision
     for (std::size_t d = 0; d <= half; ++d) {
         const double ratio = static_cast<double>(d) / length;
         correlation[d] = numeric::exp(-ratio * ratio);
+        if (correlation[d] > 0) correlated = d;
     }
     for (std::size_t k = 0; k <= half; ++k) {
         double power = correlation[0];
-        for (std::size_t d = 1; d <= half; ++d) power += 2 * correlation[d] * cosine[k * d % period];
+        for (std::size_t d = 1; d <= correlated; ++d) power += 2 * correlation[d] * cosine[k * d % period];
         root[k] = numeric::square_root((std::max)(power, 0.0));
     }
     const std::size_t reach = static_cast<std::size_t>(1.5 * length) + 3;
@@ -2654,6 +2656,74 @@ inline auto rice_correlation(double steady) {
 inline std::vector<float> intensity_taps(double length) {
     return field_taps(field_length(length, rice_correlation(0)));
 }
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/core/detail/tap_kernels.hpp ------------------------------------------------------
+// The taps of correlation.hpp, applied to rows: along a row, and across several.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Calls `block.template operator()<N>(i)` for blocks of N values from 0 on, and one by one for the rest.
+template <int N, class Block>
+INSONIFY_INLINE void for_each_block(std::size_t count, const Block& block) {
+    std::size_t i = 0;
+    for (; i + N <= count; i += N) block.template operator()<N>(i);
+    for (; i < count; ++i) block.template operator()<1>(i);
+}
+
+/// into[i] = taps[0] from[i] + sum over j of taps[j] (from[i - j step] + from[i + j step])
+struct taps_along_row {
+    std::span<const float> taps;  ///< half of them, from the middle outwards
+    const float* from;
+    std::size_t step;  ///< 2 for complex values
+    float* into;
+    std::size_t count;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        for_each_block<N>(count, [this]<int M>(std::size_t i) INSONIFY_INLINE_LAMBDA {
+            lanes<float, M> sum, left, right;
+            load(sum, from + i);
+            sum = taps[0] * sum;
+            for (std::size_t j = 1; j < taps.size(); ++j) {
+                load(left, from + i - j * step);
+                load(right, from + i + j * step);
+                sum += taps[j] * (left + right);
+            }
+            store(into + i, sum);
+        });
+    }
+};
+
+/// into[i] = sum over k of the taps' |k - middle| times rows[k][i]
+struct taps_across_rows {
+    std::span<const float> taps;         ///< half of them, from the middle outwards
+    std::span<const float* const> rows;  ///< 2 taps.size() - 1
+    float* into;
+    std::size_t count;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        const std::size_t middle = taps.size() - 1;
+        for_each_block<N>(count, [this, middle]<int M>(std::size_t i) INSONIFY_INLINE_LAMBDA {
+            lanes<float, M> sum{}, value;
+            for (std::size_t k = 0; k < rows.size(); ++k) {
+                load(value, rows[k] + i);
+                sum += taps[k < middle ? middle - k : k - middle] * value;
+            }
+            store(into + i, sum);
+        });
+    }
+};
 
 }  // namespace detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
@@ -2927,11 +2997,9 @@ class correlated_draws {
             blur_row(s.at(y), field, {run.x, y, run.count, run.channel});
         s.y = run.y;
         s.filled = true;
-        for (int j = -reach; j <= reach; ++j) {
-            const float tap = taps_y_[static_cast<std::size_t>(j < 0 ? -j : j)];
-            const float* const from = s.at(run.y + j);
-            for (int i = 0; i < run.count; ++i) into[i] = (j == -reach ? 0.0f : into[i]) + tap * from[i];
-        }
+        rows_.clear();
+        for (int j = -reach; j <= reach; ++j) rows_.push_back(s.at(run.y + j));
+        dispatch(taps_across_rows{taps_y_, rows_, into, static_cast<std::size_t>(run.count)}, best_isa());
     }
 
   private:
@@ -2973,18 +3041,15 @@ class correlated_draws {
             const float* const draws = white_draws<normal_draws>(buffer, noise_, field, {x, run.y, count, run.channel});
             white.insert(white.end(), draws, draws + count);
         }
-        const float* const middle = white.data() + reach;
-        for (int i = 0; i < run.count; ++i) into[i] = taps_x_[0] * middle[i];
-        for (int j = 1; j <= reach; ++j) {
-            const float tap = taps_x_[static_cast<std::size_t>(j)];
-            for (int i = 0; i < run.count; ++i) into[i] += tap * (middle[i - j] + middle[i + j]);
-        }
+        dispatch(taps_along_row{taps_x_, white.data() + reach, 1, into, static_cast<std::size_t>(run.count)},
+                 best_isa());
     }
 
     noise_key noise_;
     std::vector<float> taps_x_, taps_y_;
     std::vector<strip> strips_;
     std::size_t last_ = 0;
+    std::vector<const float*> rows_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS
@@ -24802,13 +24867,10 @@ class speckle_field {
         for (int i = 0; i < blurred.height(); ++i) row(first - reach + i, look, blurred.row(i));
         if (reach == 0) return blurred;
         image<float> field(static_cast<int>(2 * bins_), count);
+        std::vector<const float*> rows(static_cast<std::size_t>(2 * reach + 1));
         for (int i = 0; i < count; ++i) {
-            const auto to = field.row(i);
-            for (int j = -reach; j <= reach; ++j) {
-                const float tap = along_[static_cast<std::size_t>(numeric::abs(j))];
-                const float* const from = blurred.row(i + reach + j).data();
-                for (std::size_t x = 0; x < to.size(); ++x) to[x] += tap * from[x];
-            }
+            for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = blurred.row(i + static_cast<int>(k)).data();
+            dispatch(taps_across_rows{along_, rows, field.row(i).data(), 2 * bins_}, best_isa());
         }
         return field;
     }
@@ -24822,12 +24884,7 @@ class speckle_field {
         const std::uint32_t first = 0u - static_cast<std::uint32_t>(margin);
         dispatch(speckle_draw_kernel{noise_.key(), ping_noise::counter(ping, first, look), white.data(), blocks},
                  best_isa());
-        for (std::size_t x = 0; x < out.size(); ++x) {
-            const float* const at = &white[x + 2 * margin];
-            float sum = across_[0] * *at;
-            for (std::size_t j = 1; j <= reach; ++j) sum += across_[j] * (*(at - 2 * j) + at[2 * j]);
-            out[x] = sum;
-        }
+        dispatch(taps_along_row{across_, &white[2 * margin], 2, out.data(), out.size()}, best_isa());
     }
 
     ping_noise noise_;

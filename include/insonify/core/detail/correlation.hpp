@@ -30,13 +30,15 @@ inline std::vector<float> field_taps(double length) {
         c = next;
     }
     std::array<double, half + 1> correlation{}, root{};
+    std::size_t correlated = 0;  // the largest distance whose autocorrelation is not 0 in double precision
     for (std::size_t d = 0; d <= half; ++d) {
         const double ratio = static_cast<double>(d) / length;
         correlation[d] = numeric::exp(-ratio * ratio);
+        if (correlation[d] > 0) correlated = d;
     }
     for (std::size_t k = 0; k <= half; ++k) {
         double power = correlation[0];
-        for (std::size_t d = 1; d <= half; ++d) power += 2 * correlation[d] * cosine[k * d % period];
+        for (std::size_t d = 1; d <= correlated; ++d) power += 2 * correlation[d] * cosine[k * d % period];
         root[k] = numeric::square_root((std::max)(power, 0.0));
     }
     const std::size_t reach = static_cast<std::size_t>(1.5 * length) + 3;

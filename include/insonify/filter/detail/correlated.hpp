@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/core/detail/correlation.hpp>
+#include <insonify/core/detail/tap_kernels.hpp>
 #include <insonify/filter/detail/noise_pass.hpp>
 
 #include <vector>
@@ -42,11 +43,9 @@ class correlated_draws {
             blur_row(s.at(y), field, {run.x, y, run.count, run.channel});
         s.y = run.y;
         s.filled = true;
-        for (int j = -reach; j <= reach; ++j) {
-            const float tap = taps_y_[static_cast<std::size_t>(j < 0 ? -j : j)];
-            const float* const from = s.at(run.y + j);
-            for (int i = 0; i < run.count; ++i) into[i] = (j == -reach ? 0.0f : into[i]) + tap * from[i];
-        }
+        rows_.clear();
+        for (int j = -reach; j <= reach; ++j) rows_.push_back(s.at(run.y + j));
+        dispatch(taps_across_rows{taps_y_, rows_, into, static_cast<std::size_t>(run.count)}, best_isa());
     }
 
   private:
@@ -88,18 +87,15 @@ class correlated_draws {
             const float* const draws = white_draws<normal_draws>(buffer, noise_, field, {x, run.y, count, run.channel});
             white.insert(white.end(), draws, draws + count);
         }
-        const float* const middle = white.data() + reach;
-        for (int i = 0; i < run.count; ++i) into[i] = taps_x_[0] * middle[i];
-        for (int j = 1; j <= reach; ++j) {
-            const float tap = taps_x_[static_cast<std::size_t>(j)];
-            for (int i = 0; i < run.count; ++i) into[i] += tap * (middle[i - j] + middle[i + j]);
-        }
+        dispatch(taps_along_row{taps_x_, white.data() + reach, 1, into, static_cast<std::size_t>(run.count)},
+                 best_isa());
     }
 
     noise_key noise_;
     std::vector<float> taps_x_, taps_y_;
     std::vector<strip> strips_;
     std::size_t last_ = 0;
+    std::vector<const float*> rows_;
 };
 
 }  // namespace detail::inline INSONIFY_FLAGS

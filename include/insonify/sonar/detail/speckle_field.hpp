@@ -2,6 +2,7 @@
 #pragma once
 
 #include <insonify/core/detail/echo_statistics.hpp>
+#include <insonify/core/detail/tap_kernels.hpp>
 #include <insonify/core/image.hpp>
 #include <insonify/core/random.hpp>
 #include <insonify/core/simd/dispatch.hpp>
@@ -94,13 +95,10 @@ class speckle_field {
         for (int i = 0; i < blurred.height(); ++i) row(first - reach + i, look, blurred.row(i));
         if (reach == 0) return blurred;
         image<float> field(static_cast<int>(2 * bins_), count);
+        std::vector<const float*> rows(static_cast<std::size_t>(2 * reach + 1));
         for (int i = 0; i < count; ++i) {
-            const auto to = field.row(i);
-            for (int j = -reach; j <= reach; ++j) {
-                const float tap = along_[static_cast<std::size_t>(numeric::abs(j))];
-                const float* const from = blurred.row(i + reach + j).data();
-                for (std::size_t x = 0; x < to.size(); ++x) to[x] += tap * from[x];
-            }
+            for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = blurred.row(i + static_cast<int>(k)).data();
+            dispatch(taps_across_rows{along_, rows, field.row(i).data(), 2 * bins_}, best_isa());
         }
         return field;
     }
@@ -114,12 +112,7 @@ class speckle_field {
         const std::uint32_t first = 0u - static_cast<std::uint32_t>(margin);
         dispatch(speckle_draw_kernel{noise_.key(), ping_noise::counter(ping, first, look), white.data(), blocks},
                  best_isa());
-        for (std::size_t x = 0; x < out.size(); ++x) {
-            const float* const at = &white[x + 2 * margin];
-            float sum = across_[0] * *at;
-            for (std::size_t j = 1; j <= reach; ++j) sum += across_[j] * (*(at - 2 * j) + at[2 * j]);
-            out[x] = sum;
-        }
+        dispatch(taps_along_row{across_, &white[2 * margin], 2, out.data(), out.size()}, best_isa());
     }
 
     ping_noise noise_;
