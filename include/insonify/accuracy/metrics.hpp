@@ -53,7 +53,7 @@ struct pixel_difference {
     /// @param peak  the largest value a pixel can take, finite and positive: 1 for the library's floats, 255 for bytes
     /// @throws invalid_input for another peak
     INSONIFY_TAGGED double psnr(double peak) const {
-        detail::require(numeric::is_finite(peak) && peak > 0, "peak", peak, "finite and positive");
+        detail::require_positive("peak", peak);
         if (mean_square == 0) return std::numeric_limits<double>::infinity();
         constexpr double decibels = 20 / 2.302585092994045684;  // 20 / ln 10
         return decibels * (numeric::log(peak) - 0.5 * numeric::log(mean_square));

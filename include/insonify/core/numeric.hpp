@@ -205,6 +205,10 @@ template <std::floating_point Number>
 void require_finite(std::string_view argument, Number value) {
     require(numeric::is_finite(value), argument, value, "finite");
 }
+template <std::floating_point Number>
+void require_positive(std::string_view argument, Number value) {
+    require(numeric::is_finite(value) && value > 0, argument, value, "finite and positive");
+}
 
 /// Calls the `validate` that a type brings along, if it brings one.
 template <class T>

@@ -49,6 +49,12 @@ concept pixel_function = requires(Fn& fn, const Pixel& pixel) {
     { detail::call_pixel(fn, pixel, 0, 0) } -> detail::storable;
 };
 
+/// Column and row of an image's first pixel, for filters that depend on the place: parts of an image that are filtered
+/// one by one pass theirs.
+struct pixel_origin {
+    int x = 0, y = 0;
+};
+
 /// Origin and size of an image, which may be part of a larger one.
 struct pixel_area {
     int x, y, width, height;

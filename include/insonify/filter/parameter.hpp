@@ -1,4 +1,5 @@
-// Filter parameters: one number, a number for each pixel, or a number for each seabed type.
+// Parameters of filters: a number for all pixels, for each pixel or for each seabed type; correlation lengths of noise;
+// what pixels hold.
 #pragma once
 
 #include <insonify/core/image_view.hpp>
@@ -92,6 +93,15 @@ class parameter {
     bool by_type_ = false;
     int x_ = 0, y_ = 0;
 };
+
+/// Distance in pixels at which the noise's autocorrelation has fallen to 1 / e; for echo noise, that of the intensity.
+/// 0: white noise. Between lengths of 0 and 1 the correlation of adjacent pixels rises from 0 to 1 / e.
+struct correlation_length {
+    float x = 0, y = 0;  ///< 0 to 16
+};
+
+/// What an image's pixels hold. An amplitude is the square root of an intensity.
+enum class echo { amplitude, intensity };
 
 }  // namespace INSONIFY_ABI
 }  // namespace insonify

@@ -25,10 +25,8 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a radius or height that is not finite and positive, a top radius that is not finite or
 ///         negative, or segments outside 3 to 2^20
 inline mesh to_mesh(const cone& shape) {
-    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "cone.radius", shape.radius,
-                    "finite and positive");
-    detail::require(numeric::is_finite(shape.height) && shape.height > 0, "cone.height", shape.height,
-                    "finite and positive");
+    detail::require_positive("cone.radius", shape.radius);
+    detail::require_positive("cone.height", shape.height);
     detail::require(numeric::is_finite(shape.top_radius) && shape.top_radius >= 0, "cone.top_radius", shape.top_radius,
                     "finite and at least 0");
     const auto radius = static_cast<double>(shape.radius);

@@ -25,8 +25,7 @@ inline namespace INSONIFY_FLAGS {
 inline mesh to_mesh(const cube& shape) {
     mesh out;
     for (int along = 0; along < 3; ++along) {
-        detail::require(numeric::is_finite(shape.size[along]) && shape.size[along] > 0, "cube.size", shape.size[along],
-                        "finite and positive");
+        detail::require_positive("cube.size", shape.size[along]);
         for (const float side : {-1.0f, 1.0f}) {
             // Across the face the axes follow cyclically; on the negative side they change places to face outwards.
             const int u = (along + (side > 0 ? 1 : 2)) % 3;

@@ -30,10 +30,8 @@ inline namespace INSONIFY_FLAGS {
 /// 4 segments + 2 vertices, of which the rims have two sets, one for each normal.
 /// @throws invalid_input for a radius or length that is not finite and positive, or segments outside 3 to 2^20
 inline mesh to_mesh(const cylinder& shape) {
-    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "cylinder.radius", shape.radius,
-                    "finite and positive");
-    detail::require(numeric::is_finite(shape.length) && shape.length > 0, "cylinder.length", shape.length,
-                    "finite and positive");
+    detail::require_positive("cylinder.radius", shape.radius);
+    detail::require_positive("cylinder.length", shape.length);
     const auto radius = static_cast<double>(shape.radius);
     const double half = 0.5 * static_cast<double>(shape.length);
     const std::array<outline_point, 6> outline = {{{0, -half, 0, -1},
@@ -48,8 +46,7 @@ inline mesh to_mesh(const cylinder& shape) {
 /// @throws invalid_input for a radius that is not finite and positive, a length that is not finite or below 2 radius,
 ///         or segments outside 3 to 8192
 inline mesh to_mesh(const capsule& shape) {
-    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "capsule.radius", shape.radius,
-                    "finite and positive");
+    detail::require_positive("capsule.radius", shape.radius);
     detail::require(numeric::is_finite(shape.length) && shape.length >= 2 * shape.radius, "capsule.length",
                     shape.length, "finite and at least twice the radius");
     detail::require_round_segments("capsule.segments", shape.segments);

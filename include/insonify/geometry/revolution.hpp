@@ -35,9 +35,8 @@ inline namespace INSONIFY_FLAGS {
 /// @param radius, chord_error  in the same unit, finite and positive
 /// @throws invalid_input for other values, or if more than 2^20 segments were needed
 inline int segments_for(float radius, float chord_error) {
-    detail::require(numeric::is_finite(radius) && radius > 0, "radius", radius, "finite and positive");
-    detail::require(numeric::is_finite(chord_error) && chord_error > 0, "chord_error", chord_error,
-                    "finite and positive");
+    detail::require_positive("radius", radius);
+    detail::require_positive("chord_error", chord_error);
     const double ratio = static_cast<double>(chord_error) / static_cast<double>(radius);
     if (ratio >= 0.5) return 3;  // a triangle's edges are r / 2 away
 

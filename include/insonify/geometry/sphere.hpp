@@ -39,7 +39,7 @@ inline mesh stretched_round(const std::vector<outline_point>& outline, const cha
     if (aspect == glm::vec3(1)) return out;
     affine stretch;
     for (int i = 0; i < 3; ++i) {
-        require(numeric::is_finite(aspect[i]) && aspect[i] > 0, name, aspect[i], "finite and positive");
+        require_positive(name, aspect[i]);
         stretch.linear[i][i] = static_cast<double>(aspect[i]);
     }
     return transformed(std::move(out), stretch);
@@ -52,8 +52,7 @@ inline namespace INSONIFY_FLAGS {
 /// Closed by index: every vertex is shared, and the poles are one vertex each.
 /// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
 inline mesh to_mesh(const sphere& shape) {
-    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "sphere.radius", shape.radius,
-                    "finite and positive");
+    detail::require_positive("sphere.radius", shape.radius);
     detail::require_round_segments("sphere.segments", shape.segments);
     std::vector<outline_point> outline;
     detail::append_arc(outline, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
@@ -62,8 +61,7 @@ inline mesh to_mesh(const sphere& shape) {
 
 /// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
 inline mesh to_mesh(const hemisphere& shape) {
-    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "hemisphere.radius", shape.radius,
-                    "finite and positive");
+    detail::require_positive("hemisphere.radius", shape.radius);
     detail::require_round_segments("hemisphere.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
     std::vector<outline_point> outline = {{0, 0, 0, -1}, {radius, 0, 0, -1}};

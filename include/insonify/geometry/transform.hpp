@@ -94,7 +94,7 @@ inline affine to_world(const pose& p) {
     require_finite("pose.pitch", p.pitch);
     require_finite("pose.roll", p.roll);
     require_finite("pose.burial", p.burial);
-    detail::require(numeric::is_finite(p.scale) && p.scale > 0, "pose.scale", p.scale, "finite and positive");
+    detail::require_positive("pose.scale", p.scale);
 
     const auto [sy, cy] = numeric::sin_cos(static_cast<double>(p.yaw));
     const auto [sp, cp] = numeric::sin_cos(static_cast<double>(p.pitch));

@@ -131,6 +131,14 @@ inline void validate_points(const std::vector<glm::dvec2>& points, const char* n
         require(numeric::is_finite(p.y), name, p.y, "finite positions");
     }
 }
+inline void require_position(const char* name, const glm::dvec2& p) {
+    require(p.x >= -1e9 && p.x <= 1e9, name, p.x, "within 1e9 metres");
+    require(p.y >= -1e9 && p.y <= 1e9, name, p.y, "within 1e9 metres");
+}
+inline void require_metres(const char* name, float value, bool positive) {
+    require((positive ? value > 0 : value >= 0) && value < 1e6f, name, value,
+            positive ? "metres above 0" : "metres, at least 0");
+}
 inline void validate(const band& b) {
     validate_points(b.path, "band.path", 1);
     require(b.width >= 0 && b.width < 1e9f, "band.width", b.width, "metres, at least 0");

@@ -71,15 +71,11 @@ class detailed_sampler {
             const int row = held(v.cell - 1 + j, h.height());
             float p[4];
             for (int i = 0; i < 4; ++i) p[i] = h(held(u.cell - 1 + i, h.width()), row);
-            column[j] = between(p, static_cast<float>(u.across));
+            detail::catmull_rom(column[j], p, static_cast<float>(u.across));
         }
-        const float height = between(column, static_cast<float>(v.across));
+        float height;
+        detail::catmull_rom(height, column, static_cast<float>(v.across));
         return numeric::is_finite(height) ? height : field_->height_at(x, y);
-    }
-    static float between(const float (&p)[4], float t) {
-        const float b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2 * p[2] - 0.5f * p[3],
-                    d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
-        return p[1] + t * (b + t * (c + t * d));
     }
 
     const heightfield* field_;

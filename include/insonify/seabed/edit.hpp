@@ -1,4 +1,4 @@
-// Edits of a seabed: hills, furrows, ramps, scour, deposits. sculpt.hpp applies them.
+// Edits of a seabed: hills, furrows, ramps, deposits; moat.hpp has scour. sculpt.hpp applies them.
 #pragma once
 
 #include <insonify/seabed/area.hpp>
@@ -46,16 +46,6 @@ struct stamp {
     float every = 0;               ///< metres along the path from mark to mark; 0: a continuous furrow
 };
 
-/// Scour by a current around a target: a moat, deepest upstream, and two tails of deposited sediment.
-struct scour {
-    glm::dvec2 centre{0.0, 0.0};
-    float radius = 0.5f;  ///< metres, > 0: of the target
-    float depth = 0.15f;  ///< metres, >= 0
-    float width = 0.6f;   ///< metres, > 0: of the moat
-    float current = 0;    ///< radians from +x: where it flows to
-    float tail = 2;       ///< metres, >= 0
-};
-
 /// Sediment heaped up to a level, to half bury a target. Higher ground stays.
 struct heap {
     glm::dvec2 centre{0.0, 0.0};
@@ -65,15 +55,10 @@ struct heap {
 };
 
 /// One change of a seabed.
-using edit = std::variant<raise, flatten, smooth, ramp, stamp, scour, heap, moat>;
+using edit = std::variant<raise, flatten, smooth, ramp, stamp, heap, moat>;
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// 1 in the middle, 0 with its slope from a distance of 1.
-constexpr float brush(float r) {
-    const float inside = clamp01(1 - r * r);
-    return inside * inside;
-}
 /// 1 up to three quarters of the way, then down to 0.
 constexpr float plateau(float r) {
     return fade(clamp01(4 - 4 * r));
@@ -104,14 +89,6 @@ inline extent extent_around(const std::vector<glm::dvec2>& points, double reach)
     return all;
 }
 
-inline void require_position(const char* name, const glm::dvec2& p) {
-    require(p.x >= -1e9 && p.x <= 1e9, name, p.x, "within 1e9 metres");
-    require(p.y >= -1e9 && p.y <= 1e9, name, p.y, "within 1e9 metres");
-}
-inline void require_metres(const char* name, float value, bool positive) {
-    require((positive ? value > 0 : value >= 0) && value < 1e6f, name, value,
-            positive ? "metres above 0" : "metres, at least 0");
-}
 inline void require_height(const char* name, float value) {
     require(value > -1e6f && value < 1e6f, name, value, "a finite height");
 }
@@ -150,15 +127,6 @@ inline extent extent_of(const stamp& e) {
     require_height("stamp.height", e.height);
     require_metres("stamp.every", e.every, false);
     return extent_around(e.path, static_cast<double>(e.radius));
-}
-inline extent extent_of(const scour& e) {
-    require_position("scour.centre", e.centre);
-    require_metres("scour.radius", e.radius, true);
-    require_metres("scour.depth", e.depth, false);
-    require_metres("scour.width", e.width, true);
-    require_metres("scour.tail", e.tail, false);
-    require(numeric::is_finite(e.current), "scour.current", e.current, "a finite angle");
-    return extent_around(e.centre, static_cast<double>(e.radius) + static_cast<double>(e.width + e.tail));
 }
 inline extent extent_of(const heap& e) {
     require_position("heap.centre", e.centre);
@@ -212,20 +180,6 @@ inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
     }
     return height + e.height * brush(static_cast<float>(numeric::square_root(nearest)) / e.radius);
 }
-inline float height_after(const scour& e, const glm::dvec2& p, float height) {
-    const auto flow = numeric::sin_cos(static_cast<double>(e.current));
-    const glm::dvec2 off = p - e.centre;
-    const auto along = static_cast<float>(off.x * flow.cosine + off.y * flow.sine);
-    const auto across = static_cast<float>(off.y * flow.cosine - off.x * flow.sine);
-    const float r = length(off.x, off.y), beyond = (r - e.radius) / e.width;
-    // The moat is half as deep on the lee side.
-    const float lee = r > 0 ? 0.75f - 0.25f * along / r : 1.0f;
-    const float moat = -e.depth * lee * brush(beyond > 0 ? beyond : 0.0f);
-    if (e.tail <= 0 || along <= 0) return height + moat;
-    const float way = clamp01(along / (e.radius + e.width + e.tail)), side = numeric::abs(across);
-    const float tail = 0.4f * e.depth * 4 * way * (1 - way) * brush((side - e.radius) / e.width);
-    return height + moat + tail;
-}
 inline float height_after(const moat& e, const glm::dvec2& p, float height) {
     return height + static_cast<float>(moat_change(e, p));
 }
@@ -256,9 +210,6 @@ inline height_range range_after(const ramp& e, const height_range& ground) {
 }
 inline height_range range_after(const stamp& e, const height_range& ground) {
     return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
-}
-inline height_range range_after(const scour& e, const height_range& ground) {
-    return added(ground, -static_cast<double>(e.depth), 0.4 * static_cast<double>(e.depth));
 }
 inline height_range range_after(const moat& e, const height_range& ground) {
     return added(ground, -static_cast<double>(e.depth), static_cast<double>(e.mound));

@@ -18,8 +18,8 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed {
 
-/// Scour around a footprint of any outline; see `scour` for round ones. The ground below the middle of the footprint
-/// keeps its height, so that the target still rests on it.
+/// Scour by a current around a footprint, such as that of a target: `moat{.outline = footprint(mesh, pose, height)}`.
+/// The ground below the middle of the footprint keeps its height, so that the target still rests on it.
 struct moat {
     std::vector<glm::dvec2> outline{
         {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  ///< of the target on the ground, 3 to 4096 corners
@@ -35,21 +35,12 @@ namespace detail::inline INSONIFY_FLAGS {
 inline void validate(const moat& m) {
     validate_points(m.outline, "moat.outline", 3);
     require(m.outline.size() <= 4096, "moat.outline.size()", m.outline.size(), "at most 4096");
-    for (const glm::dvec2& p : m.outline) {
-        require(p.x >= -1e9 && p.x <= 1e9, "moat.outline", p.x, "within 1e9 metres");
-        require(p.y >= -1e9 && p.y <= 1e9, "moat.outline", p.y, "within 1e9 metres");
-    }
-    require(m.depth >= 0 && m.depth < 1e6f, "moat.depth", m.depth, "metres, at least 0");
-    require(m.width > 0 && m.width < 1e6f, "moat.width", m.width, "metres above 0");
-    require(m.mound >= 0 && m.mound < 1e6f, "moat.mound", m.mound, "metres, at least 0");
-    require(m.tail >= 0 && m.tail < 1e6f, "moat.tail", m.tail, "metres, at least 0");
+    for (const glm::dvec2& p : m.outline) require_position("moat.outline", p);
+    require_metres("moat.depth", m.depth, false);
+    require_metres("moat.width", m.width, true);
+    require_metres("moat.mound", m.mound, false);
+    require_metres("moat.tail", m.tail, false);
     require(numeric::is_finite(m.current), "moat.current", m.current, "a finite angle");
-}
-
-/// (1 - t^2)^2: 1 at 0, and 0 with its slope from 1 on.
-constexpr double soft_edge(double t) {
-    const double inside = t * t < 1 ? 1 - t * t : 0.0;
-    return inside * inside;
 }
 
 /// Upper bound of a moat's distance from the corners of its outline.
@@ -85,8 +76,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
     const glm::dvec2 at = turned(p);
     const double away = numeric::square_root(at.x * at.x + at.y * at.y);
     const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;
-    double change =
-        -static_cast<double>(m.depth) * facing * soft_edge(outside > 0 ? outside / width : 2 * outside / width);
+    double change = -static_cast<double>(m.depth) * facing * brush(outside > 0 ? outside / width : 2 * outside / width);
 
     if (m.tail > 0) {
         // A ridge behind the moat, as wide as the outline is across the current.
@@ -94,7 +84,7 @@ inline double moat_change(const moat& m, const glm::dvec2& p) {
         const double half = 0.5 * (right - left), side = std::abs(at.y - 0.5 * (left + right));
         if (along > 0 && along < 1)
             change += static_cast<double>(m.mound) * 6.75 * along * (1 - along) * (1 - along) *
-                      soft_edge(side / (half + 0.5 * width));
+                      brush(side / (half + 0.5 * width));
     }
     return change;
 }

@@ -80,27 +80,16 @@ class rock_sampler {
     height_range range() const {
         double blocks = 0;
         for (const detail::block_layer& layer : blocks_) blocks += layer.upper_bound();
-        // See add_relief: the top of an outcrop, and the fraction of its blocks' height that rises above it.
+        // See add_lanes: the top of an outcrop, and the fraction of its blocks' height that rises above it.
         const double top = 1.00001 * (0.4 * static_cast<double>(relief_) + 0.8 * blocks);
         return {-surface_.upper_bound(), surface_.upper_bound() + top};
     }
 
   private:
-    struct kernel {
-        static constexpr int widest = 16;
-
-        const rock_sampler& rock;
-        const detail::stretch& part;
-        float* values;
-
-        template <int N>
-        INSONIFY_INLINE void run() const {
-            rock.add_relief<N>(part, values);
-        }
-    };
+    friend detail::relief_kernel<rock_sampler>;
 
     template <int N>
-    INSONIFY_INLINE void add_relief(const detail::stretch& part, float* heights) const {
+    INSONIFY_INLINE void add_lanes(const detail::stretch& part, float* heights) const {
         using lanes = insonify::detail::lanes<float, N>;
         using insonify::detail::load;
         using insonify::detail::store;
@@ -156,7 +145,7 @@ inline namespace INSONIFY_FLAGS {
 
 inline void rock_sampler::row(const scanline& line, std::span<float> heights) const {
     detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
-        if (relief_ > 0) detail::dispatch(kernel{*this, part, values.data()}, best_isa());
+        if (relief_ > 0) detail::add_relief(*this, part, values, best_isa());
         surface_.add(part, values);
     });
 }

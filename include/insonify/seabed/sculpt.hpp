@@ -1,4 +1,4 @@
-// Sculpted seabeds: a base and a sequence of edits that raise, lower, flatten, smooth, ramp, stamp, scour or heap.
+// Sculpted seabeds: a base and a sequence of edits that raise, lower, flatten, smooth, ramp, stamp, heap or scour.
 //
 // An edit is a function of the position and of the height after the edits before it, so that a sculpted seabed stays
 // unbounded and independent of the grid. Outside an edit's bounds no bit changes.

@@ -8,26 +8,15 @@
 #include <vector>
 
 #include "../../catch.hpp"
+#include "../../moments.hpp"
 
 namespace in = insonify;
+using moments::correlation, moments::of;
 
 namespace {
 
 constexpr int side = 512;
 constexpr float level = 0.02f;  // far from saturation
-
-struct moments {
-    double mean, index;  // variance / mean^2
-};
-moments of(const in::image<float>& picture) {
-    double sum = 0, squares = 0;
-    for (const float v : picture.pixels()) {
-        sum += static_cast<double>(v);
-        squares += static_cast<double>(v) * static_cast<double>(v);
-    }
-    const double mean = sum / static_cast<double>(picture.size());
-    return {mean, squares / static_cast<double>(picture.size()) / (mean * mean) - 1};
-}
 
 template <class Noise>
 in::image<float> noisy(const Noise& noise, float value = level) {
@@ -48,23 +37,13 @@ double distance(const in::image<float>& picture, Cdf cdf) {
     return result;
 }
 
-double correlation(const in::image<float>& a, const in::image<float>& b, int dx = 0, int dy = 0) {
-    const moments ma = of(a), mb = of(b);
-    double sum = 0;
-    for (int y = 0; y + dy < a.height(); ++y)
-        for (int x = 0; x + dx < a.width(); ++x)
-            sum += (static_cast<double>(a(x, y)) - ma.mean) * (static_cast<double>(b(x + dx, y + dy)) - mb.mean);
-    return sum / ((a.width() - dx) * (a.height() - dy)) /
-           (ma.mean * std::sqrt(ma.index) * mb.mean * std::sqrt(mb.index));
-}
-
 /// Gamma(looks = 3, mean 1) up to x.
 double three_looks(double x) {
     const double t = 3 * x;
     return 1 - std::exp(-t) * (1 + t + t * t / 2);
 }
 
-constexpr double limit = 1.95 / side;  // passed once in a thousand
+constexpr double limit = 1.95 / side;  // exceeded once in a thousand
 
 }  // namespace
 
@@ -92,7 +71,7 @@ TEST_CASE("Amplitudes follow their laws, with the mean of the image") {
                    [&](double x) { return three_looks(x * x * mean_root * mean_root); }) < limit);
     for (const auto& picture : {noisy(in::rayleigh{}), noisy(in::gamma_speckle{}), noisy(in::k_speckle{}),
                                 noisy(in::rician{}), noisy(in::rician{.steady = 20})}) {
-        const moments m = of(picture);
+        const auto m = of(picture);
         CHECK(std::abs(m.mean / static_cast<double>(level) - 1) < 4 * std::sqrt(m.index) / side);
     }
 }
@@ -115,7 +94,7 @@ TEST_CASE("Scintillation indices are those of the literature") {
     CHECK(std::sqrt(index(in::rayleigh{})) == Approx(0.5227).epsilon(0.005));
 }
 
-TEST_CASE("Mean amplitudes: closed forms, and both sides of where a series takes over") {
+TEST_CASE("Mean amplitudes equal their closed forms, on both sides of the change to a series") {
     using in::detail::mean_of_rice;
     using in::detail::mean_root_of_gamma;
     for (const double shape : {0.01, 0.5, 1.0, 3.3, 19.99, 20.01, 500.0}) {
@@ -219,14 +198,14 @@ TEST_CASE("Correlated gaussian noise: its variance, and 1 / e at its length") {
 TEMPLATE_TEST_CASE("Echo noise is independent between pixels, frames, seeds and filters", "", in::rayleigh,
                    in::gamma_speckle, in::k_speckle, in::rician) {
     const auto base = noisy(TestType{.seed = 1});
-    const double most = 4.5 / side;
-    CHECK(std::abs(correlation(base, base, 1, 0)) < most);
-    CHECK(std::abs(correlation(base, base, 0, 1)) < most);
-    CHECK(std::abs(correlation(base, base, 4, 0)) < most);
-    CHECK(std::abs(correlation(base, noisy(TestType{.seed = 2}))) < most);
-    CHECK(std::abs(correlation(base, noisy(TestType{.seed = 1, .frame = 1}))) < most);
+    const double bound = 4.5 / side;
+    CHECK(std::abs(correlation(base, base, 1, 0)) < bound);
+    CHECK(std::abs(correlation(base, base, 0, 1)) < bound);
+    CHECK(std::abs(correlation(base, base, 4, 0)) < bound);
+    CHECK(std::abs(correlation(base, noisy(TestType{.seed = 2}))) < bound);
+    CHECK(std::abs(correlation(base, noisy(TestType{.seed = 1, .frame = 1}))) < bound);
     if constexpr (!std::same_as<TestType, in::gamma_speckle>)
-        CHECK(std::abs(correlation(base, noisy(in::gamma_speckle{.seed = 1}))) < most);
+        CHECK(std::abs(correlation(base, noisy(in::gamma_speckle{.seed = 1}))) < bound);
     CHECK(noisy(TestType{.seed = 1}) == base);
 }
 
@@ -238,7 +217,7 @@ TEST_CASE("The shape of echo noise may differ by pixel and by type of seabed") {
     const auto half = [&](int x) { return of(in::image<float>(picture.view().part(x, 0, side / 2, side))).index; };
     CHECK(half(0) == Approx(1).epsilon(0.04));
     CHECK(half(side / 2) == Approx(1.0 / 16).epsilon(0.04));
-    // By a map of the same numbers, the same noise.
+    // A map of the same numbers gives the same noise.
     const auto looks = types | [](std::uint8_t t) { return t == 0 ? 1.0f : 16.0f; };
     CHECK(noisy(in::gamma_speckle{.looks = looks.view(), .of = in::echo::intensity}) == picture);
 }
@@ -258,7 +237,7 @@ TEST_CASE("Shapes of echo noise out of range are refused") {
     CHECK_THROWS_WITH((source | in::k_speckle{.shape = map.view()}), ContainsSubstring("map for k_speckle.shape is 3"));
 }
 
-TEST_CASE("Extreme shapes make finite pixels") {
+TEST_CASE("Extreme shapes give finite pixels") {
     for (const float shape : {0.01f, 1e6f}) {
         for (const auto& picture : {noisy(in::gamma_speckle{.looks = shape}), noisy(in::k_speckle{.shape = shape}),
                                     noisy(in::rician{.steady = shape})}) {

@@ -1,4 +1,5 @@
-// Histograms, equalization and matching: closed cases, laws, and the published rules computed another way.
+// Histograms, equalization and matching against hand-counted cases, invariants, and independent implementations of
+// the published rules.
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/filter/convert.hpp>
@@ -34,21 +35,21 @@ in::image<float> random_image(int width, int height, std::uint64_t seed, int pow
 /// np.interp(source quantiles, reference quantiles, reference values), value by value.
 std::map<float, double> scikit_rule(const in::image<float>& source, const in::image<float>& reference) {
     const auto quantiles = [](const in::image<float>& image) {
-        std::map<float, double> shares;
-        for (const float pixel : image.pixels()) shares[pixel] += 1;
+        std::map<float, double> fractions;
+        for (const float pixel : image.pixels()) fractions[pixel] += 1;
         double sum = 0;
-        for (auto& [value, share] : shares) share = (sum += share) / static_cast<double>(image.size());
-        return shares;
+        for (auto& [value, fraction] : fractions) fraction = (sum += fraction) / static_cast<double>(image.size());
+        return fractions;
     };
     const auto wanted = quantiles(reference);
     std::map<float, double> result;
-    for (const auto& [value, share] : quantiles(source)) {
+    for (const auto& [value, fraction] : quantiles(source)) {
         auto above = wanted.begin();
-        while (above->second < share) ++above;
+        while (above->second < fraction) ++above;
         result[value] = static_cast<double>(above->first);
         if (above == wanted.begin()) continue;
         const auto below = std::prev(above);
-        const double t = (share - below->second) / (above->second - below->second);
+        const double t = (fraction - below->second) / (above->second - below->second);
         result[value] = static_cast<double>(below->first) * (1 - t) + static_cast<double>(above->first) * t;
     }
     return result;
@@ -162,12 +163,12 @@ TEST_CASE("Exact matching is monotone, idempotent, and the identity on its own r
     CHECK((reference | match) == reference);
     CHECK((source | in::match_histogram(source)) == source);
 
-    // No further off than the largest share that a single source value has.
+    // The distributions differ by at most the largest fraction of one value in the source plus that in the reference.
     const auto values = in::distribution_of(source);
-    double largest_share = 0;
+    double largest_fraction = 0;
     for (std::size_t i = 0; i < values.values.size(); ++i) {
         const auto count = values.cumulative[i] - (i > 0 ? values.cumulative[i - 1] : 0);
-        largest_share = std::fmax(largest_share, static_cast<double>(count) / static_cast<double>(source.size()));
+        largest_fraction = std::fmax(largest_fraction, static_cast<double>(count) / static_cast<double>(source.size()));
     }
     const auto wanted = in::distribution_of(reference);
     double largest_step = 0;
@@ -175,7 +176,7 @@ TEST_CASE("Exact matching is monotone, idempotent, and the identity on its own r
         const auto count = wanted.cumulative[i] - (i > 0 ? wanted.cumulative[i - 1] : 0);
         largest_step = std::fmax(largest_step, static_cast<double>(count) / static_cast<double>(reference.size()));
     }
-    CHECK(kolmogorov(once, reference) <= largest_share + largest_step + 1e-9);
+    CHECK(kolmogorov(once, reference) <= largest_fraction + largest_step + 1e-9);
 }
 
 TEST_CASE("Matching depends on the reference's distribution alone") {
@@ -329,7 +330,7 @@ TEST_CASE("Matching in a chain gives the result of matching alone, with and with
     CHECK_THROWS_AS(source | (in::filter_chain<>{} | double_it | in::equalize{.levels = 1}), in::invalid_input);
 }
 
-TEST_CASE("Bins and equalization of images without contrast, without pixels and without numbers") {
+TEST_CASE("Binned matching and equalization accept images without contrast, pixels or finite values") {
     const in::image<float> flat(5, 5, 0.4f), reference = random_image(30, 30, 17, 1, 255);
     CHECK(in::distribution_of(flat | in::match_binned(reference)).values.size() == 1);
     // histeq: the level at which half of the reference's pixels are reached.

@@ -1,4 +1,4 @@
-// The kernels of filters at every instruction set: the same bytes, up to the last pixel of a run that fits no lanes.
+// Kernels of filters give the same bytes at every instruction set, also for runs that do not fill the lanes.
 #include <insonify/filter/echo_noise.hpp>
 #include <insonify/filter/histogram.hpp>
 #include <insonify/filter/noise.hpp>
@@ -17,7 +17,7 @@ namespace {
 using floats = std::vector<float>;
 const noise_key key(3, noise_stream::gaussian, 2);
 
-/// Pixels of all kinds: dark and bright, out of range, and not numbers.
+/// Dark and bright pixels, pixels out of range, and NaN.
 floats pixels(int count) {
     floats result;
     for (int i = 0; i < count; ++i) result.push_back(static_cast<float>(i * 37 % 101) / 80.0f - 0.1f);
@@ -81,7 +81,7 @@ void same_at_all_levels(const Fn& run) {
 
 }  // namespace
 
-TEST_CASE("Kernels of filters make the same bytes at every instruction set") {
+TEST_CASE("Kernels of filters give the same bytes at every instruction set") {
     using in::isa;
     same_at_all_levels([](int n, isa level) { return by_draws<normal_draws>(n, level); });
     same_at_all_levels([](int n, isa level) { return by_draws<symmetric_draws>(n, level); });
@@ -109,7 +109,7 @@ TEST_CASE("NaN is counted at every instruction set") {
     }
 }
 
-TEST_CASE("Rows are rounded as pixels are, at every instruction set and next to all ties") {
+TEST_CASE("quantize_row() rounds as quantize() does, at every instruction set and next to all ties") {
     floats values{0, 1, -1, 2, std::nanf(""), 1e-30f, std::numeric_limits<float>::infinity()};
     for (int code = 0; code < 65536; ++code) {
         const float tie = static_cast<float>((code + 0.5) / (code % 2 == 0 ? 255 : 65535));

@@ -41,7 +41,7 @@ void check_moments(const in::image<float>& image, double mean, double variance, 
           4 * std::sqrt((m.fourth - m.variance * m.variance) / n) + 0.5 * variance_digit);
 }
 
-/// Kolmogorov and Smirnov's statistic against a continuous law; 1.95 / sqrt(n) is passed once in a thousand.
+/// Kolmogorov and Smirnov's statistic against a continuous law; 1.95 / sqrt(n) is exceeded once in a thousand.
 template <class Cdf>
 double ks_distance(const in::image<float>& image, Cdf cdf) {
     std::vector<float> sorted(image.pixels().begin(), image.pixels().end());
@@ -113,7 +113,7 @@ TEST_CASE("Noise follows its law") {
                       [](double v) { return 1 - std::exp(-(v / 0.125) * (v / 0.125) * in::numeric::pi / 4); }) < limit);
 }
 
-TEST_CASE("Poisson counts follow the Poisson law on both sides of the change of method") {
+TEST_CASE("Poisson counts follow the Poisson law on both sides of the change from inversion to rejection") {
     const float mean = GENERATE(0.05f, 0.7f, 1.0f, 4.5f, 9.99f, 10.0f, 10.5f, 30.5f, 128.2f, 255.9f, 400.0f);
     const float photons = 4096;
     const auto image = flat(mean / photons) | in::poisson{.photons = photons, .seed = 31};
@@ -207,7 +207,7 @@ TEST_CASE("Noise of zero variance only clips") {
     CHECK((source | in::gaussian{.variance = 0}) == clipped);
     CHECK((source | in::speckle{.variance = 0}) == clipped);
     CHECK((source | in::gaussian_speckle{.variance = 0}) == clipped);
-    // The input is clipped first, as imnoise does: all of 2 is 1, never more.
+    // The input is clipped first, as imnoise does: 2 counts as 1.
     const auto noisy = in::image<float>(64, 64, 2.0f) | in::speckle{.variance = 0.01f, .seed = 4};
     CHECK(std::any_of(noisy.pixels().begin(), noisy.pixels().end(), [](float v) { return v < 0.9f; }));
 }

@@ -24,7 +24,7 @@ in::image<float> ramp(int width, int height) {
     return out;
 }
 
-/// Counts how often it is asked, to see what a chain does and when.
+/// Counts its calls, to observe when and how often a chain runs.
 struct counting {
     int* calls;
     float operator()(float pixel) const {
@@ -33,6 +33,7 @@ struct counting {
     }
 };
 
+/// Executor that makes its calls in reverse order.
 struct backwards {
     template <class Fn>
     void bulk(std::size_t count, Fn&& fn) const {
@@ -65,11 +66,11 @@ TEST_CASE("A chain gives the result of its stages applied one by one") {
     CHECK((source.view() | look) == step_by_step);
     CHECK((in::image<float>(source) | look) == step_by_step);
 
-    SECTION("a measured stage behind others sees what they made") {
+    SECTION("a measured stage behind others measures their result") {
         const auto late = invert | match;
         CHECK((source | late) == ((source | invert) | match));
     }
-    SECTION("a function of the image stands anywhere in a chain") {
+    SECTION("a function of the image may stand anywhere in a chain") {
         const auto mirror = [](in::image_view<const float> from) {
             in::image<float> to(from.width(), from.height());
             for (int y = 0; y < from.height(); ++y) {
@@ -94,7 +95,7 @@ TEST_CASE("An image may be filtered by a function of a pixel, of a pixel and its
     CHECK((source | in::filter_chain<>{}) == source);
 }
 
-TEST_CASE("An image that is moved in lends its memory") {
+TEST_CASE("A moved-in image is filtered in its own memory") {
     in::image<float> source = ramp(64, 64);
     const float* const memory = source.pixels().data();
     const in::image<float> out = std::move(source) | (in::speckle{.seed = 1} | in::gaussian{.seed = 2});
@@ -102,7 +103,7 @@ TEST_CASE("An image that is moved in lends its memory") {
     CHECK(out == (ramp(64, 64) | in::speckle{.seed = 1} | in::gaussian{.seed = 2}));
 }
 
-TEST_CASE("A filtered part of a larger image is packed and leaves the rest alone") {
+TEST_CASE("A filtered part of a larger image is packed, and the source is unchanged") {
     const in::image<float> source = ramp(10, 10);
     const in::image<float> before = source;
     const auto part = source.view().part(3, 4, 5, 2);

@@ -1,4 +1,4 @@
-// What noise goes over: every kind of pixel, maps of parameters, parts of images, memory of the caller's; extremes.
+// Noise on every pixel type, with maps of parameters, on parts of images and in the caller's memory; extremes.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/filter/convert.hpp>
 #include <insonify/filter/echo_noise.hpp>
@@ -41,7 +41,7 @@ double correlation(const in::image<float>& a, const in::image<float>& b) {
     return ab / std::sqrt(aa * bb);
 }
 
-/// A filter of one's own, in five lines: wrap-around shift of the level.
+/// A user's filter in five lines: shifts values and wraps them at 1.
 struct shifted {
     float by = 0.25f;
     using is_filter = std::true_type;
@@ -105,7 +105,7 @@ TEST_CASE("Correlated noise doesn't depend on parts, rows or threads either") {
     CHECK(apply(source, noise, pool) == whole);
     const auto part = apply(source.view().part(500, 20, 40, 30), noise, in::serial_executor{}, {500, 20});
     CHECK(part == in::image<float>(whole.view().part(500, 20, 40, 30)));
-    // Before the first row and column there is noise like everywhere.
+    // Negative origins are allowed.
     CHECK(apply(source, noise, in::serial_executor{}, {-40, -7}).size() == source.size());
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("Filters write into the caller's memory, and in place") {
     in::apply_in_place(pixels.view(), in::filter_chain<>{});
 }
 
-TEST_CASE("A parameter by pixel or by type is that of each pixel") {
+TEST_CASE("A parameter by pixel or by type applies to each pixel") {
     const auto source = ramp(600, 4);
     in::image<std::uint8_t> types(600, 4);
     for (int y = 0; y < 4; ++y)
@@ -209,7 +209,7 @@ TEST_CASE("Noise on codes reaches the lowest and the highest code") {
     CHECK((all | in::speckle{.variance = 0}) == all);
 }
 
-TEST_CASE("Salt and pepper: half of the density each") {
+TEST_CASE("Salt and pepper each strike half of the density") {
     for (const float density : {0.0f, 1e-6f, 0.05f, 1.0f}) {
         const auto out = in::image<float>(1024, 1024, 0.5f) | in::salt_and_pepper{.density = density, .seed = 8};
         for (const float end : {0.0f, 1.0f}) {
@@ -223,8 +223,9 @@ TEST_CASE("Salt and pepper: half of the density each") {
         CHECK_THROWS_AS((in::image<float>(1, 1) | in::salt_and_pepper{.density = bad}), in::invalid_input);
 }
 
-TEMPLATE_TEST_CASE("No pixel, one pixel, one row and one column", "", in::gaussian, in::speckle, in::gaussian_speckle,
-                   in::salt_and_pepper, in::rayleigh, in::gamma_speckle, in::k_speckle, in::rician, in::poisson) {
+TEMPLATE_TEST_CASE("Noise accepts images of no pixel, one pixel, one row and one column", "", in::gaussian, in::speckle,
+                   in::gaussian_speckle, in::salt_and_pepper, in::rayleigh, in::gamma_speckle, in::k_speckle,
+                   in::rician, in::poisson) {
     for (const auto [width, height] : {std::array{0, 0}, {0, 3}, {3, 0}, {1, 1}, {1, 700}, {70000, 1}}) {
         const auto out = in::image<float>(width, height, 0.5f) | TestType{};
         CHECK(out.width() == width);
@@ -241,12 +242,12 @@ TEST_CASE("Poisson counts exist for means from 1e-6 to 1e9, and infinite pixels 
     CHECK(white(1, 0) == Approx(1).margin(2e-4));
     const auto clipped = in::image<float>{{inf, -inf}};
     CHECK((clipped | in::gaussian{.variance = 0}) == in::image<float>{{1, 0}});
-    // Noise a million times as wide as the range leaves black and white.
+    // Noise a million times as wide as the range leaves only black and white.
     const auto wide = in::image<float>(64, 64, 0.5f) | in::gaussian{.variance = 1e12f};
     CHECK(std::count_if(wide.pixels().begin(), wide.pixels().end(), [](float v) { return v > 0 && v < 1; }) <= 1);
 }
 
-TEST_CASE("A view of 32768 x 32768 pixels", "[.slow]") {
+TEST_CASE("Filters accept a view of 32768 x 32768 pixels", "[.slow]") {
     in::image<std::uint8_t> large(32768, 32768, 128);
     in::thread_pool pool(2);
     const auto noise = in::gaussian{.seed = 1} | in::speckle{.seed = 1};

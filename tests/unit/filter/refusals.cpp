@@ -1,4 +1,4 @@
-// Numbers that cannot be right, in every field of the filters.
+// Each field of the filters is refused by name where its value is out of range.
 #include "../../refusals.hpp"
 
 #include <insonify/core/image.hpp>
@@ -31,47 +31,47 @@ const auto use = [](const auto& filter) { (void)(gray | filter); };
 TEST_CASE("Noise refuses each field by name") {
     static_assert(members<in::gaussian>() == 5 && members<in::speckle>() == 3 && members<in::salt_and_pepper>() == 3);
     static_assert(members<in::gaussian_speckle>() == 4 && members<in::correlation_length>() == 2);
-    walk<in::gaussian>(
+    check_fields<in::gaussian>(
         "gaussian.", {}, use,
         {FIELD(mean, not_finite),
          PARAMETER(variance, below_0),
          {"correlation", [](auto& o, double v) { o.correlation.x = static_cast<float>(v); }, outside(0, 16)},
          {"correlation", [](auto& o, double v) { o.correlation.y = static_cast<float>(v); }, outside(0, 16)}});
-    walk<in::speckle>("speckle.", {}, use, {PARAMETER(variance, below_0)});
-    walk<in::gaussian_speckle>(
+    check_fields<in::speckle>("speckle.", {}, use, {PARAMETER(variance, below_0)});
+    check_fields<in::gaussian_speckle>(
         "gaussian_speckle.", {}, use,
         {PARAMETER(variance, below_0),
          {"correlation", [](auto& o, double v) { o.correlation.x = static_cast<float>(v); }, outside(0, 16)},
          {"correlation", [](auto& o, double v) { o.correlation.y = static_cast<float>(v); }, outside(0, 16)}});
-    walk<in::salt_and_pepper>("salt_and_pepper.", {}, use, {PARAMETER(density, outside(0, 1))});
+    check_fields<in::salt_and_pepper>("salt_and_pepper.", {}, use, {PARAMETER(density, outside(0, 1))});
 }
 
 TEST_CASE("Photon noise refuses each field by name") {
-    walk<in::poisson>("poisson.", {}, use, {FIELD(photons, outside(0, 1e9))});
+    check_fields<in::poisson>("poisson.", {}, use, {FIELD(photons, outside(0, 1e9))});
 }
 
-TEST_CASE("Echoes refuse each field by name") {
+TEST_CASE("Echo noise refuses each field by name") {
     static_assert(members<in::rayleigh>() == 4 && members<in::gamma_speckle>() == 5);
     static_assert(members<in::k_speckle>() == 6 && members<in::rician>() == 5);
-    walk<in::rayleigh>(
+    check_fields<in::rayleigh>(
         "rayleigh.", {}, use,
         {{"correlation", [](auto& o, double v) { o.correlation.x = static_cast<float>(v); }, outside(0, 16)}});
-    walk<in::gamma_speckle>(
+    check_fields<in::gamma_speckle>(
         "gamma_speckle.", {}, use,
         {PARAMETER(looks, outside(0.01, 1e6)),
          {"correlation", [](auto& o, double v) { o.correlation.y = static_cast<float>(v); }, outside(0, 16)}});
-    walk<in::k_speckle>(
+    check_fields<in::k_speckle>(
         "k_speckle.", {}, use,
         {PARAMETER(shape, outside(0.01, 1e6)),
          FIELD(looks, outside(0.01, 1e6)),
          {"correlation", [](auto& o, double v) { o.correlation.x = static_cast<float>(v); }, outside(0, 16)}});
-    walk<in::rician>(
+    check_fields<in::rician>(
         "rician.", {}, use,
         {PARAMETER(steady, outside(0, 1e6)),
          {"correlation", [](auto& o, double v) { o.correlation.x = static_cast<float>(v); }, outside(0, 16)}});
 }
 
-TEST_CASE("A parameter by pixel or by type is refused for one number that cannot be right") {
+TEST_CASE("A parameter by pixel or by type is refused for a single value out of range") {
     const in::image<float> good(3, 2, 0.1f);
     const in::image<std::uint8_t> types(3, 2, 1);
     for (const double value : below_0) {
@@ -93,14 +93,15 @@ TEST_CASE("Gray, levels and references are refused by name") {
     static_assert(members<in::gray_weights>() == 3 && members<in::equalize>() == 1);
     const in::image<in::rgb<float>> color(2, 2);
     const std::vector<double> bad = outside(0, 1);
-    walk<in::gray_weights>("", in::matlab_weights, [&](const in::gray_weights& w) { (void)(color | in::to_gray{w}); },
-                           {{"to_gray.weights", [](auto& o, double v) { o.r = v; }, bad},
-                            {"to_gray.weights", [](auto& o, double v) { o.g = v; }, bad},
-                            {"to_gray.weights", [](auto& o, double v) { o.b = v; }, bad}});
-    walk<in::equalize>("equalize.", {}, use, {FIELD(levels, outside_whole(2, 65536))});
-    in::image<float> numberless(2, 2, static_cast<float>(nan_value));
-    CHECK_THAT(refusal([&] { use(in::match_histogram(numberless)); }), ContainsSubstring("reference"));
-    CHECK_THAT(refusal([&] { use(in::match_binned(numberless)); }), ContainsSubstring("reference"));
+    check_fields<in::gray_weights>("", in::matlab_weights,
+                                   [&](const in::gray_weights& w) { (void)(color | in::to_gray{w}); },
+                                   {{"to_gray.weights", [](auto& o, double v) { o.r = v; }, bad},
+                                    {"to_gray.weights", [](auto& o, double v) { o.g = v; }, bad},
+                                    {"to_gray.weights", [](auto& o, double v) { o.b = v; }, bad}});
+    check_fields<in::equalize>("equalize.", {}, use, {FIELD(levels, outside_whole(2, 65536))});
+    in::image<float> all_nan(2, 2, static_cast<float>(nan_value));
+    CHECK_THAT(refusal([&] { use(in::match_histogram(all_nan)); }), ContainsSubstring("reference"));
+    CHECK_THAT(refusal([&] { use(in::match_binned(all_nan)); }), ContainsSubstring("reference"));
     CHECK_THAT(refusal([&] { use(in::match_histogram(in::image<float>())); }), ContainsSubstring("reference"));
     for (const int bins : {-1, 0, 1, 65537})
         CHECK_THAT(refusal([&] { use(in::match_binned(gray, bins)); }), ContainsSubstring("bins"));

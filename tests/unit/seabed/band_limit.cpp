@@ -29,7 +29,7 @@ double rms(const sb::heightfield& field) {
 }
 
 /// Means over squares of 8 x 8 coarse vertices, against means over the same ground of a grid four times finer: the
-/// root mean square difference, in metres. What has no place on the coarse grid should average out there too.
+/// root mean square difference, in metres. Relief that the coarse grid cannot carry has to average out on it.
 double false_swell(const sb::any& source, double spacing, bool band_limited) {
     constexpr int squares = 8, across = 8, finer = 4;
     const auto coarse = sampled(source, spacing, band_limited, squares * across);
@@ -64,7 +64,7 @@ TEST_CASE("A grid keeps waves of four samples and drops those of two") {
 
 TEST_CASE("Ripples on a grid coarser than they are vanish; without the limit they turn up as longer ones") {
     const sb::ripples ripples{.wavelength = 0.5f, .steepness = 0.12f, .surface = smooth};
-    // Each spacing folds the ripples to waves of several samples: what an eye takes for a real swell.
+    // Each of these spacings aliases the ripples to waves of several samples, which look like a real swell.
     for (const double spacing : {0.25, 0.4, 0.45, 0.55, 0.9, 1.05, 40.0}) {
         CAPTURE(spacing);
         CHECK(rms(sampled(ripples, spacing, false)) > 0.015);
@@ -86,7 +86,7 @@ TEST_CASE("Roughness keeps the octaves that a grid carries, and their heights") 
         CAPTURE(spacing);
         const auto limited = sampled(bottom, spacing), all = sampled(bottom, spacing, false);
         CHECK(rms(limited) < rms(all));
-        // What is left is what a recipe without the finer octaves has.
+        // The rest equals a roughness without the finer octaves.
         sb::flat coarse = bottom;
         coarse.surface.shortest = static_cast<float>(2 * spacing);
         const auto octaves = [](float shortest) {  // of cells from 8 m, weighted by variance
@@ -103,7 +103,7 @@ TEST_CASE("Roughness keeps the octaves that a grid carries, and their heights") 
     CHECK(rms(sampled(bottom, 8)) == 0);
 }
 
-TEST_CASE("Means over the ground are those of a fine grid, however coarse the samples") {
+TEST_CASE("Means over an area are those of a fine grid, however coarse the samples") {
     const sb::any seabeds[] = {sb::flat{.surface = {.rms = 0.02f, .longest = 3}}, sb::ripples{},
                                sb::ripples{.wavelength = 0.5f, .steepness = 0.12f, .direction = 0.3f}, sb::mud{}};
     for (const sb::any& seabed : seabeds) {
@@ -118,7 +118,7 @@ TEST_CASE("Means over the ground are those of a fine grid, however coarse the sa
     }
 }
 
-TEST_CASE("Ten kilometres at once cost as many samples as forty metres, and are level where nothing is large enough") {
+TEST_CASE("Ten kilometres cost as many samples as forty metres, and are level where the grid carries no relief") {
     const sb::mud bottom{};
     const auto wide = sampled(bottom, 10e3 / 192), fine = sampled(bottom, 40.0 / 192);
     CHECK(wide.heights.size() == fine.heights.size());

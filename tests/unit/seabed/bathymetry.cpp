@@ -24,7 +24,7 @@ bool missing(float height) {
 
 }  // namespace
 
-TEST_CASE("An Esri grid stands at the centres of its cells, north up, with holes where there is no data") {
+TEST_CASE("Vertices of an Esri grid lie at the centres of its cells, north up; cells without data are holes") {
     const sb::heightfield field = sb::parse_esri_grid(grid);
     REQUIRE(field.heights.width() == 3);
     REQUIRE(field.heights.height() == 2);
@@ -39,7 +39,7 @@ TEST_CASE("An Esri grid stands at the centres of its cells, north up, with holes
     CHECK(sb::parse_esri_grid(grid, -1).heights(2, 1) == -3);
 }
 
-TEST_CASE("An Esri grid may name centres, write its words in any case and end its lines as it likes") {
+TEST_CASE("An Esri grid may state the centre of its corner cell, with any letter case and any line ending") {
     const sb::heightfield field =
         sb::parse_esri_grid("NCOLS 2\r\nNROWS 2\r\nXLLCENTER 5\r\nYLLCENTER 7\r\nCELLSIZE 0.5\r\n1e0 +2\r\nnan 4");
     CHECK(field.origin == glm::dvec2(5, 7));
@@ -104,11 +104,11 @@ TEST_CASE("Text that is not a list of soundings is refused") {
     CHECK_THROWS_WITH(sb::parse_xyz("0 0 1", 0), ContainsSubstring("spacing is 0"));
 }
 
-TEST_CASE("A 16-bit image keeps its steps, and its no-data value becomes NaN") {
+TEST_CASE("A 16-bit image keeps its resolution, and its no-data value becomes NaN") {
     in::image<std::uint16_t> picture(2, 2);
     picture(0, 0) = 0, picture(1, 0) = 1, picture(0, 1) = 65535, picture(1, 1) = 300;
-    const auto shares = in::parse_netpbm<float>(in::format_netpbm(picture));
-    const sb::heightfield field = sb::from_image(shares, 0.5, 65535 * 0.01f, 0);
+    const auto normalized = in::parse_netpbm<float>(in::format_netpbm(picture));
+    const sb::heightfield field = sb::from_image(normalized, 0.5, 65535 * 0.01f, 0);
     CHECK(missing(field.heights(0, 1)));
     CHECK(field.heights(1, 1) == Approx(0.01));
     CHECK(field.heights(0, 0) == Approx(655.35));
@@ -137,7 +137,7 @@ TEST_CASE("Detail interpolates the survey's vertices smoothly and adds the given
         for (int i = 0; i < 40; ++i) field.heights(i, j) = std::sin(0.5f * static_cast<float>(i));
     const sb::detailed even{.field = field, .surface = {.rms = 0}};
     CHECK(sb::at(even, 100 + 2 * 7, 200 + 2 * 9).height == field.heights(7, 9));
-    // Slopes on both sides of a vertex are the same, which facets' are not.
+    // Slopes are continuous at a vertex, unlike those of facets.
     const auto bend = [](const auto& f) {
         const auto at = [&](double x) { return static_cast<double>(sb::at(f, x, 231).height); };
         return std::abs(at(114.01) - 2 * at(114) + at(113.99)) / 0.01;

@@ -62,7 +62,7 @@ TEST_CASE("Patches cover their given fraction, for any layers above and below") 
     CHECK(mud / (250000 - ripples) == Approx(static_cast<double>(coverage)).margin(0.03));
 }
 
-TEST_CASE("Beyond its border a layer is its bottom and nothing else; within, the surface has no steps") {
+TEST_CASE("Beyond its border a layer is exactly its bottom; within it the surface has no steps") {
     const sb::ripples waves{.wavelength = 0.5f, .surface = smooth};
     const sb::flat plain{.surface = smooth};
     const bool under = GENERATE(false, true);
@@ -89,7 +89,7 @@ TEST_CASE("Beyond its border a layer is its bottom and nothing else; within, the
     CHECK(steepest < 1.5f * steepest_ripple);
 }
 
-TEST_CASE("Crests come out of a border before troughs do") {
+TEST_CASE("Crests emerge from a border before troughs") {
     const sb::mixed bed{.base = sb::flat{.surface = smooth},
                         .layers = {{sb::ripples{.wavelength = 0.5f, .surface = smooth}, sb::disc{{0, 0}, 4}, 1, 0}}};
     const sb::grid area{.origin = {-4.4, -4.4}, .spacing = 0.02, .width = 440, .height = 440};

@@ -1,4 +1,4 @@
-// Users' own seabeds: models of the concept take every place that the library's take, with labels of their own.
+// Users' own seabeds: usable wherever the library's are, with labels of their own.
 #include <insonify/geometry/cube.hpp>
 #include <insonify/seabed/blend.hpp>
 #include <insonify/seabed/mixed.hpp>
@@ -18,7 +18,7 @@ namespace sb = insonify::seabed;
 
 namespace {
 
-/// Long waves without end, with a label, a brightness and a speckle of their own.
+/// Unbounded long waves with a label, a reflectivity and a speckle of their own.
 struct dunes {
     static constexpr sb::type_properties kind{sb::own_type(3), "dunes", 0.8f, {.looks = 4}};
     double height = 0.2;
@@ -51,14 +51,14 @@ struct stripes {
     }
 };
 
-/// What ripples are, written by a user: the library's sampler behind a model of one's own.
+/// A user's model that forwards to the library's ripples.
 struct own_ripples {
-    sb::ripples as;
+    sb::ripples source;
     sb::type kind = sb::type::ripples;
-    sb::any_sampler prepare() const { return as.prepare(); }
+    sb::any_sampler prepare() const { return source.prepare(); }
 };
 
-/// A plane that rises without end and states no range.
+/// An unbounded slope that states no range.
 struct slope {
     static constexpr sb::type kind = sb::type::rock;
     void row(const sb::scanline& line, std::span<float> heights) const {
@@ -138,7 +138,7 @@ TEST_CASE("Own labels reach side-scan pictures, and speckle takes their law from
     CHECK(square / 40000 / mean / mean - 1 == Approx(0.25).epsilon(0.05));  // four looks
 }
 
-TEST_CASE("A seabed of several own labels names each pixel") {
+TEST_CASE("A seabed of several own labels writes one to each pixel") {
     in::scene s;
     s.seabed = stripes{};
     const auto frame = in::render(s, in::overhead{.altitude = 4, .size = {128, 128}});
@@ -153,14 +153,14 @@ TEST_CASE("A seabed of several own labels names each pixel") {
     CHECK(frame.labels.legend.size() == 2);
 }
 
-TEST_CASE("Own seabeds are layered, sculpted, sampled and rested upon as the library's are") {
+TEST_CASE("Own seabeds are layered, sculpted and sampled, and carry targets, as the library's do") {
     const sb::mixed bed{.base = stripes{}, .layers = {{dunes{}, sb::disc{{0, 0}, 5}}}};
     CHECK(sb::at(bed, 0, 0).kind == sb::own_type(3));
     CHECK(sb::at(bed, 30.5, 0).kind == sb::own_type(0));
     CHECK(bed.legend().size() == 3);
-    const sb::sculpted worked{.ground = dunes{}, .edits = {sb::flatten{.centre = {0, 0}, .radius = 2, .level = 1}}};
-    CHECK(sb::at(worked, 0, 0).height == Approx(1));
-    CHECK(sb::at(worked, 0, 0).kind == sb::own_type(3));
+    const sb::sculpted levelled{.ground = dunes{}, .edits = {sb::flatten{.centre = {0, 0}, .radius = 2, .level = 1}}};
+    CHECK(sb::at(levelled, 0, 0).height == Approx(1));
+    CHECK(sb::at(levelled, 0, 0).kind == sb::own_type(3));
     const auto field = sb::sample(dunes{}, {.width = 8, .height = 8});
     CHECK(field.fallback == sb::own_type(3));
     REQUIRE(field.own_types.size() == 1);
@@ -171,14 +171,14 @@ TEST_CASE("Own seabeds are layered, sculpted, sampled and rested upon as the lib
     CHECK(pose.position.z == Approx(0.2 * std::sin(1.3) + 0.005).margin(2e-3));
 }
 
-TEST_CASE("A seabed without a range is heard by range modes and refused by name where a range is needed") {
+TEST_CASE("A seabed without a range is drawn in range modes and refused by overhead pictures") {
     in::scene s;
     s.seabed = slope{};
     CHECK_NOTHROW(in::render(s, in::side_scan{.pings = 4, .range = 20, .bins = 64}));
     CHECK_THROWS_WITH(in::render(s, in::overhead{.size = {8, 8}}), ContainsSubstring("range() of the seabed is inf"));
 }
 
-TEST_CASE("Any shares its model, knows its type, and keeps it alive for samplers") {
+TEST_CASE("`any` shares its model, returns it by type, and keeps it alive for samplers") {
     sb::any_sampler prepared;
     {
         sb::heightfield field{.heights = in::image<float>(4, 4, 2.0f)};

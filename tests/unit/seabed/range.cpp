@@ -1,4 +1,4 @@
-// Bounds of a seabed's heights, which decide how far shadow casters are looked for.
+// Bounds of a seabed's heights, which limit the search for shadow casters.
 #include <insonify/seabed/models.hpp>
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace sb = insonify::seabed;
 
 namespace {
 
-/// @param slack  how many times the range that is met the promised one may be
+/// @param slack  largest ratio of the stated range to the measured one
 void check(const sb::any& bottom, double slack) {
     const auto prepared = sb::prepare(bottom);
-    const sb::height_range promised = prepared.range();
+    const sb::height_range stated_range = prepared.range();
     std::vector<float> heights(4000);
     std::vector<sb::type> types(heights.size());
     float lowest = 1e9f, highest = -1e9f;
@@ -23,16 +23,16 @@ void check(const sb::any& bottom, double slack) {
         lowest = (std::min)(lowest, *std::min_element(heights.begin(), heights.end()));
         highest = (std::max)(highest, *std::max_element(heights.begin(), heights.end()));
     }
-    INFO("bottom " << bottom.legend().front().name << ": " << lowest << " to " << highest << ", promised "
-                   << promised.lowest << " to " << promised.highest);
-    CHECK(promised.lowest <= static_cast<double>(lowest));
-    CHECK(promised.highest >= static_cast<double>(highest));
-    CHECK(promised.highest - promised.lowest <= slack * static_cast<double>(highest - lowest));
+    INFO("bottom " << bottom.legend().front().name << ": " << lowest << " to " << highest << ", stated "
+                   << stated_range.lowest << " to " << stated_range.highest);
+    CHECK(stated_range.lowest <= static_cast<double>(lowest));
+    CHECK(stated_range.highest >= static_cast<double>(highest));
+    CHECK(stated_range.highest - stated_range.lowest <= slack * static_cast<double>(highest - lowest));
 }
 
 }  // namespace
 
-TEST_CASE("No seabed leaves the range that it promises, and none promises ten times too much") {
+TEST_CASE("Heights stay within the stated range, which is at most ten times too wide") {
     check(sb::flat{}, 10);
     check(sb::flat{.surface = {.rms = 0}}, 1e9);
     check(sb::ripples{}, 3);
@@ -54,17 +54,18 @@ TEST_CASE("The range of a detailed survey bounds its vertices, the interpolation
     check(sb::detailed{.field = survey}, 3);
 }
 
-TEST_CASE("Seabed::none has an empty range of heights") {
+TEST_CASE("seabed::none has an empty range of heights") {
     CHECK(sb::prepare(sb::any(sb::none{})).range().empty());
 }
 
 TEST_CASE("The range of a sculpted seabed bounds the base and its edits") {
     const sb::flat sand{.surface = {.rms = 0.01f}};
-    for (const sb::edit& e : {sb::edit(sb::raise{.radius = 3, .height = 0.7f}), sb::edit(sb::raise{.height = -0.7f}),
-                              sb::edit(sb::flatten{.radius = 4, .level = -0.5f}), sb::edit(sb::smooth{.radius = 3}),
-                              sb::edit(sb::ramp{.from_height = -0.3f, .to_height = 0.6f}),
-                              sb::edit(sb::stamp{.path = {{-3, 1}, {5, 9}}, .height = -0.3f}),
-                              sb::edit(sb::scour{.depth = 0.4f}), sb::edit(sb::heap{.radius = 1, .level = 0.8f})}) {
+    for (const sb::edit& e :
+         {sb::edit(sb::raise{.radius = 3, .height = 0.7f}), sb::edit(sb::raise{.height = -0.7f}),
+          sb::edit(sb::flatten{.radius = 4, .level = -0.5f}), sb::edit(sb::smooth{.radius = 3}),
+          sb::edit(sb::ramp{.from_height = -0.3f, .to_height = 0.6f}),
+          sb::edit(sb::stamp{.path = {{-3, 1}, {5, 9}}, .height = -0.3f}),
+          sb::edit(sb::moat{.depth = 0.4f, .mound = 0.3f}), sb::edit(sb::heap{.radius = 1, .level = 0.8f})}) {
         INFO("edit " << e.index());
         check(sb::sculpted{.ground = sand, .edits = {e}}, 10);
         check(sb::sculpted{.ground = sand, .edits = {e, e}}, 10);

@@ -1,3 +1,4 @@
+// The built-in seabeds: determinism, moments, spectra and shapes of their relief.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
@@ -48,7 +49,7 @@ double power_at(std::span<const float> row, double frequency) {
     return re * re + im * im;
 }
 
-/// Share of vertices in the shadow of a parallel light from -x at a grazing angle.
+/// Fraction of vertices in the shadow of a parallel light from -x at a grazing angle.
 double shadowed(const sb::heightfield& field, double degrees) {
     const double rise = std::tan(degrees * pi / 180) * field.spacing;
     std::size_t dark = 0;
@@ -63,6 +64,7 @@ double shadowed(const sb::heightfield& field, double degrees) {
     return static_cast<double>(dark) / static_cast<double>(field.heights.size());
 }
 
+/// Executor that makes its calls in reverse order.
 struct backwards {
     template <class Fn>
     void bulk(std::size_t count, Fn&& fn) const {
@@ -131,7 +133,7 @@ struct raise_blocks {
 
 }  // namespace
 
-TEST_CASE("Every instruction set gives the same bits, of dense samples and of sparse ones") {
+TEST_CASE("Every instruction set gives the same bits, for dense and for sparse samples") {
     using namespace sb::detail;
     const double origin = GENERATE(0.0, -10000000.0), spacing = GENERATE(0.001, 0.03, 5.3);
     const sb::power_law_noise noise({.rms = 0.1f, .longest = 2}, 3, stream::sand);
@@ -156,7 +158,7 @@ TEST_CASE("Every instruction set gives the same bits, of dense samples and of sp
     }
 }
 
-TEST_CASE("A point of a recipe is that of its sampler, and seeds differ") {
+TEST_CASE("at() equals the prepared sampler, and seeds give different relief") {
     std::visit(
         [](const auto&... recipe) {
             const auto check = [](const auto& r) {
@@ -348,7 +350,7 @@ TEST_CASE("Mounds and pock marks of mud have the density, height and volume of t
     CHECK(m.mean == Approx(0.3 * pi / 3 * 0.16 * height * 0.406).epsilon(0.05));
 }
 
-TEST_CASE("Under a light at six degrees rock is full of shadows, ripples striped, sand and mud all but free of them") {
+TEST_CASE("At a grazing angle of six degrees rock and ripples are a third in shadow, sand and mud almost free of it") {
     const sb::grid area{.spacing = 0.025, .width = 800, .height = 200};
     const auto share = [&](const sb::any& kind) { return shadowed(sb::sample(kind, area), 6); };
     const double sand = share(sb::flat{}), ripples = share(sb::ripples{}), mud = share(sb::mud{}),
@@ -405,13 +407,13 @@ struct ramp {
 
 }  // namespace
 
-TEST_CASE("Blends take recipes of the user's own") {
+TEST_CASE("Blends take users' own models") {
     const sb::blend recipe{.first = ramp{}, .coverage = 1};
     CHECK(sb::at(recipe, 3.5, 0).height == 3.5f);
     CHECK(sb::at(recipe, 3.5, 0).kind == sb::type::rock);
 }
 
-TEST_CASE("Recipes name the parameter they refuse") {
+TEST_CASE("Refusals name the parameter") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK_THROWS_WITH(sb::ripples{.wavelength = 0}.prepare(), ContainsSubstring("ripples.wavelength is 0"));
     CHECK_THROWS_WITH(sb::ripples{.steepness = -1}.prepare(), ContainsSubstring("ripples.steepness is -1"));

@@ -1,4 +1,4 @@
-// Numbers that cannot be right, in every field of the seabeds, their areas and edits.
+// Each field of seabeds, areas and edits is refused by name where its value is out of range.
 #include "../../refusals.hpp"
 
 #include <insonify/seabed/blend.hpp>
@@ -29,14 +29,14 @@ constexpr double most = 1e6;  // metres
 
 TEST_CASE("Each field of a roughness is refused by name") {
     static_assert(members<sb::roughness>() == 4 && members<sb::flat>() == 3);
-    walk<sb::roughness>("roughness.", {}, [](const sb::roughness& r) { prepared(sb::flat{.surface = r}); },
-                        {FIELD(rms, outside(0, most)), FIELD(longest, outside(0, most)),
-                         FIELD(shortest, outside(1e-4, 1)), FIELD(exponent, outside(2, 4))});
+    check_fields<sb::roughness>("roughness.", {}, [](const sb::roughness& r) { prepared(sb::flat{.surface = r}); },
+                                {FIELD(rms, outside(0, most)), FIELD(longest, outside(0, most)),
+                                 FIELD(shortest, outside(1e-4, 1)), FIELD(exponent, outside(2, 4))});
 }
 
 TEST_CASE("Each field of ripples is refused by name") {
     static_assert(members<sb::ripples>() == 10 && members<sb::ripple_system>() == 6);
-    walk<sb::ripples>(
+    check_fields<sb::ripples>(
         "ripples.", {}, prepared,
         {FIELD(wavelength, outside(0, most)), FIELD(steepness, outside(0, 0.5)), FIELD(direction, not_finite),
          FIELD(spread, outside(0, 0.5)), FIELD(bandwidth, outside(0, 0.25)), FIELD(sharpness, outside(0, 0.9)),
@@ -47,41 +47,46 @@ TEST_CASE("Each field of ripples is refused by name") {
 
 TEST_CASE("Each field of mud, its trawl marks and rock is refused by name") {
     static_assert(members<sb::trawl_marks>() == 5);
-    walk<sb::mud>("mud.", {}, prepared,
-                  {FIELD(density, below_0), FIELD(size, outside(0, most)), FIELD(mound_height, outside(0, most)),
-                   FIELD(pock_depth, outside(0, most)), FIELD(pock_share, outside(0, 1))});
-    walk<sb::trawl_marks>(
+    check_fields<sb::mud>(
+        "mud.", {}, prepared,
+        {FIELD(density, below_0), FIELD(size, outside(0, most)), FIELD(mound_height, outside(0, most)),
+         FIELD(pock_depth, outside(0, most)), FIELD(pock_share, outside(0, 1))});
+    check_fields<sb::trawl_marks>(
         "trawl_marks.", {.density = 0.05f}, [](const sb::trawl_marks& t) { prepared(sb::mud{.trawls = t}); },
         {FIELD(density, outside(0, 0.5)), FIELD(depth, outside(0, most)), FIELD(width, outside(0, most)),
          FIELD(directions, outside_whole(1, 8)), FIELD(length, outside(0, most))});
-    walk<sb::rock>("rock.", {}, prepared,
-                   {FIELD(relief, outside(0, most)), FIELD(outcrop, outside(0, most)), FIELD(block, outside(0, most)),
-                    FIELD(smallest, outside(1e-3, 1.4)), FIELD(sizes, outside(0, 4)), FIELD(fracture, outside(0, 1)),
-                    FIELD(steepness, outside(0, most))});
+    check_fields<sb::rock>(
+        "rock.", {}, prepared,
+        {FIELD(relief, outside(0, most)), FIELD(outcrop, outside(0, most)), FIELD(block, outside(0, most)),
+         FIELD(smallest, outside(1e-3, 1.4)), FIELD(sizes, outside(0, 4)), FIELD(fracture, outside(0, 1)),
+         FIELD(steepness, outside(0, most))});
 }
 
 TEST_CASE("Each field of blends, layers and areas is refused by name") {
-    walk<sb::blend>("blend.", {}, prepared,
-                    {FIELD(coverage, outside(0, 1)), FIELD(patch, outside(0, most)), FIELD(border, outside(1e-3, 12))});
+    check_fields<sb::blend>(
+        "blend.", {}, prepared,
+        {FIELD(coverage, outside(0, 1)), FIELD(patch, outside(0, most)), FIELD(border, outside(1e-3, 12))});
     static_assert(members<sb::patches>() == 2 && members<sb::disc>() == 2 && members<sb::band>() == 2);
     static_assert(members<sb::polygon>() == 1);
     const auto within = [](const auto& area) { prepared(sb::mixed{.layers = {{.where = area}}}); };
-    walk<sb::layer>("layer.", {}, [](const sb::layer& l) { prepared(sb::mixed{.layers = {l}}); },
-                    {FIELD(border, outside(1e-3, most)), FIELD(ragged, outside(0, most))});
-    walk<sb::patches>("patches.", {}, within, {FIELD(coverage, outside(0, 1)), FIELD(size, outside(0.6, most))});
-    walk<sb::disc>("disc.", {}, within,
-                   {FIELD(centre.x, not_finite), FIELD(centre.y, not_finite), FIELD(radius, outside(0, 1e9))});
-    walk<sb::band>("band.", {.path = {{0, 0}, {1, 1}}}, within,
-                   {FIELD(width, outside(0, 1e9)),
-                    {"path", [](auto& o, double v) { o.path[1].x = v; }, not_finite},
-                    {"path", [](auto& o, double v) { o.path[0].y = v; }, not_finite}});
-    walk<sb::polygon>("polygon.", {.corners = {{0, 0}, {1, 0}, {0, 1}}}, within,
-                      {{"corners", [](auto& o, double v) { o.corners[2].y = v; }, not_finite}});
-    walk<sb::stencil>("stencil.", {.coverage = in::image<float>(2, 2)}, within,
-                      {FIELD(spacing, outside(0, most)),
-                       FIELD(origin.x, outside(-1e9, 1e9)),
-                       FIELD(origin.y, outside(-1e9, 1e9)),
-                       {"coverage", [](auto& o, double v) { o.coverage(1, 1) = static_cast<float>(v); }, not_finite}});
+    check_fields<sb::layer>("layer.", {}, [](const sb::layer& l) { prepared(sb::mixed{.layers = {l}}); },
+                            {FIELD(border, outside(1e-3, most)), FIELD(ragged, outside(0, most))});
+    check_fields<sb::patches>("patches.", {}, within,
+                              {FIELD(coverage, outside(0, 1)), FIELD(size, outside(0.6, most))});
+    check_fields<sb::disc>("disc.", {}, within,
+                           {FIELD(centre.x, not_finite), FIELD(centre.y, not_finite), FIELD(radius, outside(0, 1e9))});
+    check_fields<sb::band>("band.", {.path = {{0, 0}, {1, 1}}}, within,
+                           {FIELD(width, outside(0, 1e9)),
+                            {"path", [](auto& o, double v) { o.path[1].x = v; }, not_finite},
+                            {"path", [](auto& o, double v) { o.path[0].y = v; }, not_finite}});
+    check_fields<sb::polygon>("polygon.", {.corners = {{0, 0}, {1, 0}, {0, 1}}}, within,
+                              {{"corners", [](auto& o, double v) { o.corners[2].y = v; }, not_finite}});
+    check_fields<sb::stencil>(
+        "stencil.", {.coverage = in::image<float>(2, 2)}, within,
+        {FIELD(spacing, outside(0, most)),
+         FIELD(origin.x, outside(-1e9, 1e9)),
+         FIELD(origin.y, outside(-1e9, 1e9)),
+         {"coverage", [](auto& o, double v) { o.coverage(1, 1) = static_cast<float>(v); }, not_finite}});
     CHECK_THAT(refusal([&] { within(sb::band{}); }), ContainsSubstring("band.path"));
     CHECK_THAT(refusal([&] { within(sb::polygon{{{0, 0}, {1, 0}}}); }), ContainsSubstring("polygon.corners"));
     CHECK_THAT(refusal([&] { within(sb::stencil{}); }), ContainsSubstring("stencil.coverage"));
@@ -89,32 +94,31 @@ TEST_CASE("Each field of blends, layers and areas is refused by name") {
 
 TEST_CASE("Each field of an edit is refused by name") {
     static_assert(members<sb::raise>() == 3 && members<sb::flatten>() == 3 && members<sb::smooth>() == 3);
-    static_assert(members<sb::ramp>() == 5 && members<sb::scour>() == 6 && members<sb::heap>() == 4);
+    static_assert(members<sb::ramp>() == 5 && members<sb::heap>() == 4 && members<sb::moat>() == 6);
     const auto done = [](const auto& edit) { prepared(sb::sculpted{.edits = {edit}}); };
     const std::vector<double> height = outside(-most, most), size = outside(0, most);
-    walk<sb::raise>("raise.", {}, done, {POSITION(centre), FIELD(radius, size), FIELD(height, height)});
-    walk<sb::flatten>("flatten.", {}, done, {POSITION(centre), FIELD(radius, size), FIELD(level, height)});
-    walk<sb::smooth>("smooth.", {}, done, {POSITION(centre), FIELD(radius, size), FIELD(length, outside(1e-3, most))});
-    walk<sb::ramp>(
+    check_fields<sb::raise>("raise.", {}, done, {POSITION(centre), FIELD(radius, size), FIELD(height, height)});
+    check_fields<sb::flatten>("flatten.", {}, done, {POSITION(centre), FIELD(radius, size), FIELD(level, height)});
+    check_fields<sb::smooth>("smooth.", {}, done,
+                             {POSITION(centre), FIELD(radius, size), FIELD(length, outside(1e-3, most))});
+    check_fields<sb::ramp>(
         "ramp.", {}, done,
         {POSITION(from), POSITION(to), FIELD(width, size), FIELD(from_height, height), FIELD(to_height, height)});
-    walk<sb::stamp>("stamp.", {.path = {{0, 0}}}, done,
-                    {{"path", [](auto& o, double v) { o.path[0].x = v; }, not_finite},
-                     FIELD(radius, size),
-                     FIELD(height, height),
-                     FIELD(every, size)});
-    walk<sb::scour>("scour.", {}, done,
-                    {POSITION(centre), FIELD(radius, size), FIELD(depth, size), FIELD(width, size),
-                     FIELD(current, not_finite), FIELD(tail, size)});
-    walk<sb::heap>("heap.", {}, done,
-                   {POSITION(centre), FIELD(radius, size), FIELD(level, height), FIELD(slope, outside(1e-3, most))});
-    walk<sb::moat>("moat.", {}, done,
-                   {{"outline", [](auto& o, double v) { o.outline[1].y = v; }, not_finite},
-                    FIELD(depth, size),
-                    FIELD(width, size),
-                    FIELD(current, not_finite),
-                    FIELD(mound, size),
-                    FIELD(tail, size)});
+    check_fields<sb::stamp>("stamp.", {.path = {{0, 0}}}, done,
+                            {{"path", [](auto& o, double v) { o.path[0].x = v; }, not_finite},
+                             FIELD(radius, size),
+                             FIELD(height, height),
+                             FIELD(every, size)});
+    check_fields<sb::heap>(
+        "heap.", {}, done,
+        {POSITION(centre), FIELD(radius, size), FIELD(level, height), FIELD(slope, outside(1e-3, most))});
+    check_fields<sb::moat>("moat.", {}, done,
+                           {{"outline", [](auto& o, double v) { o.outline[1].y = v; }, not_finite},
+                            FIELD(depth, size),
+                            FIELD(width, size),
+                            FIELD(current, not_finite),
+                            FIELD(mound, size),
+                            FIELD(tail, size)});
 }
 
 TEST_CASE("Each field of heightfields and grids is refused by name") {
@@ -124,7 +128,7 @@ TEST_CASE("Each field of heightfields and grids is refused by name") {
         prepared(sb::detailed{.field = h});
         (void)sb::tessellate(h);
     };
-    walk<sb::heightfield>(
+    check_fields<sb::heightfield>(
         "heightfield.", field, used,
         {FIELD(origin.x, outside(-1e9, 1e9)), FIELD(origin.y, outside(-1e9, 1e9)), FIELD(spacing, outside(0, most))});
     CHECK_THAT(refusal([&] { used({.heights = in::image<float>(1, 3)}); }), ContainsSubstring("heights.width()"));

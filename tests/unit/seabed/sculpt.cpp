@@ -79,7 +79,7 @@ TEST_CASE("A moat follows its outline, deepest where the current arrives, and he
     CHECK(height({m}, 0, 1) == Approx(-0.3f));
     CHECK(height({m}, 4, 0) == Approx(-0.2f));
     CHECK(height({m}, -5, 0) == Approx(-0.4f * 0.5625f));
-    // The target keeps standing, and beyond the moat nothing changes.
+    // The ground under the target and beyond the moat keeps its height.
     CHECK(height({m}, 0, 0) == 0);
     CHECK(height({m}, -6, 0) == 0);
     CHECK(height({m}, 0, 3.001) == 0);
@@ -88,7 +88,7 @@ TEST_CASE("A moat follows its outline, deepest where the current arrives, and he
     CHECK(height({m}, 11, 0) == 0);
     CHECK(height({m}, 7, 2.001) == 0);
 
-    // Turning outline and current turns all of it, up to the borders of the box that it is kept in.
+    // Rotating outline and current rotates the whole moat, which stays within its extent.
     sb::moat turned = m;
     turned.current = 0.7f;
     for (glm::dvec2& p : turned.outline)
@@ -109,21 +109,6 @@ TEST_CASE("A moat follows its outline, deepest where the current arrives, and he
     CHECK_THROWS_WITH(prepare(sb::moat{.width = 0}), ContainsSubstring("moat.width is 0"));
     CHECK_THROWS_WITH(prepare(sb::moat{.mound = -1}), ContainsSubstring("moat.mound is -1"));
     CHECK_THROWS_WITH(prepare(sb::moat{.tail = -1}), ContainsSubstring("moat.tail is -1"));
-}
-
-TEST_CASE("Scour is deepest on the upstream side, with deposits down-current of the target") {
-    const sb::scour moat{.centre = {10, 0}, .radius = 0.5f, .depth = 0.2f, .width = 0.6f, .current = 0, .tail = 2};
-    const auto at = [&](double x, double y) { return height({moat}, x, y); };
-    CHECK(at(10 - 0.5, 0) == Approx(-0.2));
-    CHECK(at(10, 0.5) == Approx(-0.15));
-    CHECK(at(9.5, 0) < at(10.5, 0));
-    CHECK(at(10 - 1.11, 0) == 0);
-    CHECK(at(12, 0.5) > 0.05f);
-    CHECK(at(12, 0.5) == at(12, -0.5));
-    CHECK(at(13.2, 0.5) == 0);
-    sb::scour turned = moat;
-    turned.current = 1.5707964f;
-    CHECK(height({turned}, 10, -0.5) == Approx(-0.2));
 }
 
 TEST_CASE("A heap is level on top, slopes down its sides, and leaves higher ground alone") {
@@ -148,7 +133,7 @@ TEST_CASE("Edits apply in order") {
     const sb::edit hill = sb::raise{{0, 0}, 2, 0.5f}, level = sb::flatten{{0, 0}, 2, 0.1f};
     CHECK(height({hill, level}, 0, 0) == 0.1f);
     CHECK(height({level, hill}, 0, 0) == Approx(0.6f));
-    // What is smoothed is what earlier edits left.
+    // Smoothing applies to the result of earlier edits.
     CHECK(height({sb::raise{{0, 0}, 0.2f, 0.5f}, sb::smooth{{0, 0}, 2, 0.5f}}, 0, 0) < 0.1f);
     CHECK(height({sb::smooth{{0, 0}, 2, 0.5f}, sb::raise{{0, 0}, 0.2f, 0.5f}}, 0, 0) == 0.5f);
 }
@@ -158,7 +143,11 @@ TEST_CASE(
     const double origin = GENERATE(0.0, 10000000.0);
     const sb::blend ground{.first = sb::rock{}, .patch = 3};
     const sb::sculpted bed{.ground = ground,
-                           .edits = {sb::scour{.centre = {origin + 3, 2}}, sb::smooth{{origin + 4, 1}, 1.5f, 0.3f},
+                           .edits = {sb::moat{.outline = {{origin + 2.6, 1.7}, {origin + 3.4, 1.7}, {origin + 3, 2.4}},
+                                              .depth = 0.15f,
+                                              .width = 0.6f,
+                                              .tail = 2},
+                                     sb::smooth{{origin + 4, 1}, 1.5f, 0.3f},
                                      sb::stamp{{{origin + 1, 0}, {origin + 3, 3}}, 0.3f, 0.1f, 0.7f}}};
     const double spacing = 1.0 / 32;
     const sb::grid whole{.origin = {origin, 0}, .spacing = spacing, .width = 300, .height = 90};
@@ -181,13 +170,12 @@ TEST_CASE(
     CHECK(all.types == bare.types);
 }
 
-TEST_CASE("Edits name the parameter they refuse") {
+TEST_CASE("Refusals of edits name the parameter") {
     const auto prepare = [](sb::edit e) { return sb::sculpted{.ground = plane, .edits = {std::move(e)}}.prepare(); };
     CHECK_THROWS_WITH(prepare(sb::raise{.radius = 0}), ContainsSubstring("raise.radius is 0"));
     CHECK_THROWS_WITH(prepare(sb::flatten{.level = std::nanf("")}), ContainsSubstring("flatten.level"));
     CHECK_THROWS_WITH(prepare(sb::smooth{.length = 0}), ContainsSubstring("smooth.length is 0"));
     CHECK_THROWS_WITH(prepare(sb::ramp{.to = {0, 0}}), ContainsSubstring("ramp.to"));
     CHECK_THROWS_WITH(prepare(sb::stamp{}), ContainsSubstring("stamp.path.size() is 0"));
-    CHECK_THROWS_WITH(prepare(sb::scour{.depth = -1}), ContainsSubstring("scour.depth is -1"));
     CHECK_THROWS_WITH(prepare(sb::heap{.slope = 0}), ContainsSubstring("heap.slope is 0"));
 }

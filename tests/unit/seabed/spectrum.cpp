@@ -177,7 +177,7 @@ TEST_CASE("Ripples have the wavelength, spread and bandwidth of their parameters
     CHECK(mean.bandwidth == Approx(1.28 * 0.08).epsilon(0.1));
 }
 
-TEST_CASE("Crests fork as often as the parameters promise: 2 pi spread bandwidth / wavelength^2") {
+TEST_CASE("Crests fork 2 pi spread bandwidth / wavelength^2 times per square metre") {
     const float spread = GENERATE(0.06f, 0.15f);
     const float bandwidth = GENERATE(0.05f, 0.12f);
     double found = 0, promised = 0;
@@ -212,7 +212,7 @@ TEST_CASE("The profile of ripples is a trochoid's to within 0.07 of half their h
     CHECK(worst > 0.001);
 }
 
-TEST_CASE("Blocks of rock come in the numbers that their exponent says") {
+TEST_CASE("The number of rock blocks by size follows the exponent") {
     // The share of the ground under blocks of each size class, alone: with an exponent of 2 it is the same for all.
     const auto covered = [](float spacing, float share) {
         in::image<float> values(200, 200);

@@ -21,7 +21,7 @@ in::seabed::heightfield slope() {
 
 }  // namespace
 
-TEST_CASE("A slope becomes its vertices, normals and two triangles a cell, all of them facing up") {
+TEST_CASE("A slope is tessellated into its vertices, normals and two upward-facing triangles per cell") {
     const in::mesh m = in::seabed::tessellate(slope());
     REQUIRE(m.positions.size() == 12);
     REQUIRE(m.triangles.size() == 12);
@@ -39,7 +39,7 @@ TEST_CASE("A slope becomes its vertices, normals and two triangles a cell, all o
     }
 }
 
-TEST_CASE("A vertex without data takes its triangles with it, and no others") {
+TEST_CASE("A missing vertex removes its triangles and no others") {
     // Cells are cut from vertex (i, j) to (i + 1, j + 1): the ends of a diagonal belong to both triangles.
     const auto triangles_without = [](int i, int j, float value) {
         in::seabed::heightfield field = slope();

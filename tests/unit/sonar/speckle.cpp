@@ -5,14 +5,16 @@
 #include <cmath>
 
 #include "../../catch.hpp"
+#include "../../moments.hpp"
 
 namespace in = insonify;
+using moments::correlation, moments::of;
 
 namespace {
 
 constexpr int wide = 700, high = 400;
 
-/// Unit intensities of one type under a law, correlated no more than asked for.
+/// Unit intensities of one type under a law, with the given correlation lengths alone.
 in::image<float> speckled(const in::speckle_law& law, float along = 0, float across = 0,
                           in::side side = in::side::starboard, std::uint64_t seed = 3) {
     in::seabed_speckle s{.along_track = along, .across_track = across, .texture_length = 1, .seed = seed};
@@ -22,33 +24,9 @@ in::image<float> speckled(const in::speckle_law& law, float along = 0, float acr
     return in::with_speckle(mean.view(), types.view(), s, {.first = 7, .side = side});
 }
 
-struct moments {
-    double mean, index;  // variance / mean^2
-};
-moments of(const in::image<float>& picture) {
-    double sum = 0, squares = 0;
-    for (const float v : picture.pixels()) {
-        sum += static_cast<double>(v);
-        squares += static_cast<double>(v) * static_cast<double>(v);
-    }
-    const double mean = sum / static_cast<double>(picture.size());
-    return {mean, squares / static_cast<double>(picture.size()) / (mean * mean) - 1};
-}
-
-/// Correlation of a picture with another, shifted.
-double correlation(const in::image<float>& a, const in::image<float>& b, int dx = 0, int dy = 0) {
-    const moments ma = of(a), mb = of(b);
-    double sum = 0;
-    for (int y = 0; y + dy < a.height(); ++y)
-        for (int x = 0; x + dx < a.width(); ++x)
-            sum += (static_cast<double>(a(x, y)) - ma.mean) * (static_cast<double>(b(x + dx, y + dy)) - mb.mean);
-    const double deviation = ma.mean * std::sqrt(ma.index) * mb.mean * std::sqrt(mb.index);
-    return sum / ((a.width() - dx) * (a.height() - dy)) / deviation;
-}
-
 }  // namespace
 
-TEST_CASE("Fully developed speckle: exponential intensities, Rayleigh amplitudes") {
+TEST_CASE("Fully developed speckle has exponential intensities and Rayleigh amplitudes") {
     const auto picture = speckled({});
     const auto [mean, index] = of(picture);
     CHECK(mean == Approx(1).epsilon(0.01));

@@ -4,6 +4,7 @@
 #include <insonify/core/detail/correlation.hpp>
 #include <insonify/core/detail/tap_kernels.hpp>
 #include <insonify/filter/detail/noise_pass.hpp>
+#include <insonify/filter/parameter.hpp>
 
 #include <vector>
 
@@ -11,12 +12,6 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-
-/// Distance in pixels at which the noise's autocorrelation has fallen to 1 / e; for echo noise, that of the intensity.
-/// 0: white noise. Between lengths of 0 and 1 the correlation of adjacent pixels rises from 0 to 1 / e.
-struct correlation_length {
-    float x = 0, y = 0;  ///< 0 to 16
-};
 
 namespace detail::inline INSONIFY_FLAGS {
 

@@ -15,9 +15,6 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What an image's pixels hold. An amplitude is the square root of an intensity.
-enum class echo { amplitude, intensity };
-
 namespace detail::inline INSONIFY_FLAGS {
 
 struct exponential_draws {

@@ -12,12 +12,6 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Column and row of an image's first pixel, for filters that depend on the place: parts of an image that are filtered
-/// one by one pass theirs.
-struct pixel_origin {
-    int x = 0, y = 0;
-};
-
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Applies a pass to at most run_length adjacent pixels of a row; `to` may be `from`.

@@ -179,6 +179,26 @@ void by_stretches(const scanline& line, std::span<float> heights, Fill&& fill) {
     }
 }
 
+/// Kernel that calls `model.add_lanes<N>(part, values)`: adds a model's relief along a stretch to its values.
+template <class Model>
+struct relief_kernel {
+    static constexpr int widest = 16;
+
+    const Model& model;
+    const stretch& part;
+    float* values;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        model.template add_lanes<N>(part, values);
+    }
+};
+
+template <class Model>
+void add_relief(const Model& model, const stretch& part, stretch_values& values, isa level) {
+    dispatch(relief_kernel<Model>{model, part, values.data()}, level);
+}
+
 /// Concatenates two halves.
 template <int N, class Whole, class Half>
 INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
@@ -246,11 +266,24 @@ INSONIFY_INLINE constexpr void fade(T& into, const T& t) {
 constexpr float fade(float t) {
     return t * t * t * (t * (t * 6 - 15) + 10);
 }
+/// Catmull-Rom interpolation from the second (t = 0) to the third (t = 1) of four values.
+template <class T>
+INSONIFY_INLINE void catmull_rom(T& into, const T (&p)[4], const T& t) {
+    const T b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2.0f * p[2] - 0.5f * p[3],
+            d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
+    into = p[1] + t * (b + t * (c + t * d));
+}
 constexpr float mix(float a, float b, float t) {
     return a + t * (b - a);
 }
 [[nodiscard]] constexpr float clamp01(float t) {
     return t < 0 ? 0 : t > 1 ? 1 : t;
+}
+/// (1 - r^2)^2: 1 in the middle; its value and slope are 0 from a distance of 1 on.
+template <class T>
+constexpr T brush(T r) {
+    const T inside = r * r < 1 ? 1 - r * r : T(0);
+    return inside * inside;
 }
 template <class Lanes>
 INSONIFY_INLINE void clamp_lanes(Lanes& t) {

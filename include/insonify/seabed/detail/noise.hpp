@@ -177,7 +177,9 @@ class power_law_noise {
     }
 
     /// Adds the relief along a stretch to its values, metres.
-    void add(const detail::stretch& part, detail::stretch_values& values, isa level = best_isa()) const;
+    void add(const detail::stretch& part, detail::stretch_values& values, isa level = best_isa()) const {
+        if (!octaves_.empty()) detail::add_relief(*this, part, values, level);
+    }
 
     /// Upper bound of the relief's absolute value, metres.
     double upper_bound() const {
@@ -190,33 +192,23 @@ class power_law_noise {
     double rms_slope() const { return slope_; }
 
   private:
+    friend detail::relief_kernel<power_law_noise>;
+
     struct octave {
         gradient_noise noise;
         float amplitude;
     };
-    struct kernel {
-        static constexpr int widest = 16;
-
-        const power_law_noise& noise;
-        const detail::stretch& part;
-        float* values;
-
-        template <int N>
-        INSONIFY_INLINE void run() const {
-            for (const octave& o : noise.octaves_) {
-                const float kept = o.noise.carried_by(part);
-                if (kept == 0) break;  // finer octaves are not carried either
-                o.noise.template add<N>(part, kept * o.amplitude, values);
-            }
+    template <int N>
+    INSONIFY_INLINE void add_lanes(const detail::stretch& part, float* values) const {
+        for (const octave& o : octaves_) {
+            const float kept = o.noise.carried_by(part);
+            if (kept == 0) break;  // finer octaves are not carried either
+            o.noise.template add<N>(part, kept * o.amplitude, values);
         }
-    };
+    }
     std::vector<octave> octaves_;
     double slope_ = 0;
 };
-
-inline void power_law_noise::add(const detail::stretch& part, detail::stretch_values& values, isa level) const {
-    if (!octaves_.empty()) detail::dispatch(kernel{*this, part, values.data()}, level);
-}
 
 }  // namespace seabed::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI

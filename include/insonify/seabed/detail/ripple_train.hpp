@@ -43,14 +43,6 @@ INSONIFY_INLINE void turns(lanes<float, N>& into, const double* x, double freque
         join<N>(into, part[0], part[1]);
 }
 
-/// Catmull-Rom between the second and the third of four values.
-template <class Lanes>
-INSONIFY_INLINE void between(Lanes& into, const Lanes (&p)[4], const Lanes& t) {
-    const Lanes b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2.0f * p[2] - 0.5f * p[3],
-                d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
-    into = p[1] + t * (b + t * (c + t * d));
-}
-
 /// Evaluates a `ripple_system`.
 class ripple_train {
   public:
@@ -73,7 +65,9 @@ class ripple_train {
     }
 
     /// Adds the relief along a stretch to its values, metres.
-    void add(const stretch& part, stretch_values& values, isa level = best_isa()) const;
+    void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
+        if (half_height_ > 0 && carried(wavelength_, part.grid_spacing) > 0) add_relief(*this, part, values, level);
+    }
 
     /// Upper bound of the relief's absolute value, metres: the profile is within half the height, up to the carrier's
     /// error of 2e-6, which the sharpest crests multiply by 19.
@@ -96,6 +90,8 @@ class ripple_train {
     }
 
   private:
+    friend relief_kernel<ripple_train>;
+
     static constexpr std::size_t block = 32;    // lattice points whose rotations are tabulated
     static constexpr std::size_t points = 256;  // size of the table that a stretch shares
 
@@ -146,19 +142,6 @@ class ripple_train {
         const double side = u < 0.5 ? numeric::square_root(2 * u) - 1 : 1 - numeric::square_root(2 - 2 * u);
         return side * 2.449489742783178;
     }
-
-    struct kernel {
-        static constexpr int widest = 16;
-
-        const ripple_train& train;
-        const stretch& part;
-        float* values;
-
-        template <int N>
-        INSONIFY_INLINE void run() const {
-            train.add_lanes<N>(part, values);
-        }
-    };
 
     /// The envelope at `count` points of the lattice; writes whole vectors.
     template <int N>
@@ -243,8 +226,8 @@ class ripple_train {
             };
             stencil(stencil_re, table_re.data());
             stencil(stencil_im, table_im.data());
-            between(a, stencil_re, across);
-            between(b, stencil_im, across);
+            catmull_rom(a, stencil_re, across);
+            catmull_rom(b, stencil_im, across);
 
             lanes<float, N> phase;
             turns<N>(phase, &part.x[i], carrier_x_, across_rows);
@@ -266,11 +249,6 @@ class ripple_train {
     double step_ = 1, wavelength_;
     float half_height_, sharpness_;
 };
-
-inline void ripple_train::add(const stretch& part, stretch_values& values, isa level) const {
-    if (half_height_ > 0 && carried(wavelength_, part.grid_spacing) > 0)
-        dispatch(kernel{*this, part, values.data()}, level);
-}
 
 }  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI

@@ -40,7 +40,7 @@ class round_marks {
     }
 
     void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
-        if (filled_ > 0) dispatch(kernel{*this, part, values.data()}, level);
+        if (filled_ > 0) add_relief(*this, part, values, level);
     }
 
     /// The largest dent and the largest bump, metres.
@@ -48,53 +48,48 @@ class round_marks {
     double highest() const { return 1.00001 * static_cast<double>(mound_); }
 
   private:
-    struct kernel {
-        static constexpr int widest = 16;
+    friend relief_kernel<round_marks>;
 
-        const round_marks& marks;
-        const stretch& part;
-        float* values;
+    template <int N>
+    INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
+        const lattice& l = lattice_;
+        const float kept = carried(1 / l.frequency, part.grid_spacing);  // the largest span half a cell
+        if (kept == 0) return;
+        const lattice_coordinate v(l.v(part.y));
+        const cell_hash::row hash = hash_[v.cell];
+        visit_columns(l, part, 0, [&](std::int64_t first, std::int64_t count) INSONIFY_INLINE_LAMBDA {
+            for (std::int64_t column = first; column < first + count; ++column)
+                add_mark<N>(part, values, kept, v.fraction, column, hash(column));
+        });
+    }
 
-        template <int N>
-        INSONIFY_INLINE void run() const {
-            const lattice& l = marks.lattice_;
-            const float kept = carried(1 / l.frequency, part.grid_spacing);  // the largest span half a cell
-            if (kept == 0) return;
-            const lattice_coordinate v(l.v(part.y));
-            const cell_hash::row hash = marks.hash_[v.cell];
-            visit_columns(l, part, 0, [&](std::int64_t first, std::int64_t count) INSONIFY_INLINE_LAMBDA {
-                for (std::int64_t column = first; column < first + count; ++column)
-                    draw<N>(kept, v.fraction, column, hash(column));
-            });
+    template <int N>
+    INSONIFY_INLINE void add_mark(const stretch& part, float* values, float kept, float up, std::int64_t column,
+                                  std::uint64_t bits) const {
+        const lattice& l = lattice_;
+        const signed_pair centre(bits), traits(scramble(bits));
+        const float chance = 0.5f * traits.b + 0.5f;
+        if (chance >= filled_) return;
+        const float radius = 0.175f + 0.075f * traits.a;  // in cells; a quarter at most
+        const float y = up - (0.5f + 0.25f * centre.b);
+        const float y_square = y * y, inverse_square = 1 / (radius * radius);
+        if (y_square >= radius * radius) return;
+        const float height = kept * ((chance < high_ ? mound_ : pock_) * (radius * 4));
+
+        const double middle = 0.5 + 0.25 * static_cast<double>(centre.a), reach = static_cast<double>(radius);
+        const double left = static_cast<double>(column) + middle;
+        const double cell = 1 / l.frequency;
+        const stretch::range reached = part.within((left - reach) * cell, (left + reach) * cell);
+        for (std::size_t i = reached.begin; i < reached.end; i += N) {
+            lanes<float, N> dx, inside, sum;
+            offsets<N>(dx, &part.x[i], l.frequency, -left);
+            inside = 1.0f - (dx * dx + y_square) * inverse_square;
+            clamp_lanes(inside);
+            insonify::detail::load(sum, values + i);
+            sum = sum + height * inside * inside;
+            insonify::detail::store(values + i, sum);
         }
-
-        template <int N>
-        INSONIFY_INLINE void draw(float kept, float up, std::int64_t column, std::uint64_t bits) const {
-            const lattice& l = marks.lattice_;
-            const signed_pair centre(bits), traits(scramble(bits));
-            const float chance = 0.5f * traits.b + 0.5f;
-            if (chance >= marks.filled_) return;
-            const float radius = 0.175f + 0.075f * traits.a;  // in cells; a quarter at most
-            const float y = up - (0.5f + 0.25f * centre.b);
-            const float y_square = y * y, inverse_square = 1 / (radius * radius);
-            if (y_square >= radius * radius) return;
-            const float height = kept * ((chance < marks.high_ ? marks.mound_ : marks.pock_) * (radius * 4));
-
-            const double middle = 0.5 + 0.25 * static_cast<double>(centre.a), reach = static_cast<double>(radius);
-            const double left = static_cast<double>(column) + middle;
-            const double cell = 1 / l.frequency;
-            const stretch::range reached = part.within((left - reach) * cell, (left + reach) * cell);
-            for (std::size_t i = reached.begin; i < reached.end; i += N) {
-                lanes<float, N> dx, inside, sum;
-                offsets<N>(dx, &part.x[i], l.frequency, -left);
-                inside = 1.0f - (dx * dx + y_square) * inverse_square;
-                clamp_lanes(inside);
-                insonify::detail::load(sum, values + i);
-                sum = sum + height * inside * inside;
-                insonify::detail::store(values + i, sum);
-            }
-        }
-    };
+    }
 
     lattice lattice_;
     cell_hash hash_{0, stream::mounds};

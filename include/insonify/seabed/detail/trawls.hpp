@@ -41,7 +41,7 @@ class trawl_furrows {
     }
 
     void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
-        if (!families_.empty()) dispatch(kernel{*this, part, values.data()}, level);
+        if (!families_.empty()) add_relief(*this, part, values, level);
     }
 
     /// Bounds of the relief where furrows, or berms, of all directions cross, metres.
@@ -49,26 +49,20 @@ class trawl_furrows {
     double highest() const { return -0.3 * lowest(); }
 
   private:
+    friend relief_kernel<trawl_furrows>;
+
     /// Furrows of one direction.
     struct family {
         double cosine, sine, per_lane, per_length, per_bend;  // the last three per metre
     };
-    struct kernel {
-        static constexpr int widest = 16;
 
-        const trawl_furrows& furrows;
-        const stretch& part;
-        float* values;
-
-        template <int N>
-        INSONIFY_INLINE void run() const {
-            const float kept = carried(2 * furrows.width_, part.grid_spacing);  // a furrow between its berms
-            if (kept == 0) return;
-            for (std::size_t n = 0; n < furrows.families_.size(); ++n)
-                for (std::size_t i = 0; i < part.whole(); i += N)
-                    furrows.add_family<N>(furrows.families_[n], n, kept, part, i, values + i);
-        }
-    };
+    template <int N>
+    INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
+        const float kept = carried(2 * width_, part.grid_spacing);  // a furrow between its berms
+        if (kept == 0) return;
+        for (std::size_t n = 0; n < families_.size(); ++n)
+            for (std::size_t i = 0; i < part.whole(); i += N) add_family<N>(families_[n], n, kept, part, i, values + i);
+    }
 
     template <int N>
     INSONIFY_INLINE void add_family(const family& f, std::size_t n, float kept, const stretch& part, std::size_t i,
