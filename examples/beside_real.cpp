@@ -1,7 +1,8 @@
 // A rendered survey line above a real one: beside_real [real waterfall [picture]]
 //
 // The real one, 461 pings of both sides out to 30 m at 600 kHz, shows a wreck below a tow that comes down to it. The
-// rendered one has a wreck of about the size, such a tow, and the look of the recipe `sonar`; no pixel of the real one.
+// rendered one has a wreck of about the same size, a similar tow, and the look of the recipe `sonar`; it takes no pixel
+// from the real one.
 #include <insonify/geometry/objects/boulder.hpp>
 #include <insonify/geometry/objects/footprint.hpp>
 #include <insonify/geometry/objects/hull.hpp>
@@ -31,7 +32,7 @@ constexpr in::instrument sonar = in::instruments::side_scan_600;
 
 in::scene wreck_on_gravel() {
     in::scene scene;
-    // Gravel with waves of sand, and the moat that the current has dug about the hull.
+    // Gravel with waves of sand, and the moat that the current has dug around the hull.
     const in::seabed::any ground = in::seabed::ripples{.wavelength = 1.1f,
                                                        .steepness = 0.02f,
                                                        .direction = 40_deg,
@@ -70,7 +71,7 @@ in::scene wreck_on_gravel() {
     return scene;
 }
 
-/// The tow comes down from 14 m to 4, and does not hold its course.
+/// The tow descends from 14 m to 4 m and sways about its course.
 std::vector<in::ping> tow_of(const in::side_scan& rig) {
     std::vector<in::ping> track = in::track_of(rig);
     for (std::size_t i = 0; i < track.size(); ++i) {
@@ -86,8 +87,7 @@ std::vector<in::ping> tow_of(const in::side_scan& rig) {
 in::image<float> line_of(const in::scene& scene, in::side_scan rig, in::side side) {
     rig.side = side;
     const in::facet_backscatter law{.facets = 0.3f, .slope = 0.2f, .volume = 0.5f};
-    // Gains level what the vertical beam takes out to 45 degrees; below the sonar the beam is weak, and the echo with
-    // it.
+    // Gains level the vertical beam's pattern out to 45 degrees; below the sonar the beam is weak, and so is the echo.
     const in::sonar_equation equation{in::pulse{2 * sonar.range_resolution}, in::horizontal_beam{sonar.beam},
                                       in::vertical_beam{.width = sonar.vertical_beam}, in::level_gain{}};
     auto heard = in::record(scene, tow_of(rig), rig, in::record_options<>{}.with(law).with(equation));

@@ -1,7 +1,6 @@
-// Filters on a picture of your own: compose_filters in.png out.png [reference picture]
+// Filters on a user's picture: compose_filters in.png out.png [reference picture]
 //
-// What is chained here touches the pixels once: histogram match, speckle, a function of your own, and the colour map
-// fuse into one pass.
+// Histogram match, speckle, a function of the program and the colour map fuse into one pass over the pixels.
 #include <insonify/filter/colormap.hpp>
 #include <insonify/filter/match.hpp>
 #include <insonify/filter/noise.hpp>
@@ -22,7 +21,7 @@ int main(int argc, char** argv) try {
     const in::image<float> picture = examples::read_gray(argv[1]);
     const in::image<float> reference = argc > 3 ? examples::read_gray(argv[3]) : picture;
 
-    // Any function of a pixel is a filter: here, what is farther from the left border gets a little darker.
+    // Any function of a pixel is a filter: here, pixels get a little darker from left to right.
     const auto fade = [width = picture.width()](float v, int x, int) {
         return v * (1.0f - 0.3f * static_cast<float>(x) / static_cast<float>(width));
     };

@@ -68,7 +68,7 @@ std::map<std::string, std::vector<entry>> read_manifest(const std::string& folde
     return classes;
 }
 
-/// A picture shrunk to a tile, each pixel the mean of those it stands for.
+/// A picture shrunk to a tile, each pixel the mean of the pixels it covers.
 in::image<float> shrink(const in::image<float>& picture) {
     in::image<float> small_one(tile, tile);
     for (int y = 0; y < tile; ++y)

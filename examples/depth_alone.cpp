@@ -21,7 +21,7 @@ int main() {
     const auto stats = in::draw(bottom, [&](const in::vertex& v) { return view(v.position); }, in::depth_target{depth},
                                 {.keep = in::keep_depth::larger, .load = in::depth_load::clear});
 
-    // Depth is z_near / distance, and empty_depth where nothing is.
+    // Depth is z_near / distance, and empty_depth where no surface is.
     float nearest = 0;
     for (const float d : depth.pixels()) nearest = (std::max)(nearest, d);
     std::printf("%llu triangles, the nearest point is %.2f m away\n", static_cast<unsigned long long>(stats.triangles),

@@ -1,7 +1,7 @@
 // All filters on one page: filter_page out.png [picture [reference picture]]
 //
-// Each under its name: the picture as the filter leaves it, and beside it how its pixels are distributed, dark below
-// and light above, the picture's own distribution behind it in gray. Without pictures, a cylinder on rippled sand.
+// Each under its name: the filtered picture, and beside it its histogram, dark levels below and light ones above, in
+// front of the unfiltered picture's histogram in gray. Without pictures, a cylinder on rippled sand.
 #include <insonify/filter/poisson.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
@@ -24,7 +24,7 @@ in::image<float> scene_picture() {
     scene.seabed = in::seabed::ripples{.wavelength = 0.9f, .steepness = 0.08f, .direction = 0.5f, .seed = 7};
     scene.add(in::cylinder{.radius = 0.35f, .length = 2}, {.position = {-0.4, 0.3, 0.35}, .yaw = 60_deg}, "cylinder");
     const in::overhead rig{.altitude = 2.2f, .size = {tile, tile}, .grazing = 14_deg};
-    // Dim, and with a little grain, as recordings are: bright pixels of a picture in [0, 1] leave no room for speckle.
+    // Dim and slightly grainy, as recordings are: speckle would clip on bright pixels of a picture in [0, 1].
     return in::render(scene, rig).image | [](float v) { return 0.05f + 0.55f * v; } | in::gamma_speckle{.looks = 60};
 }
 
@@ -61,8 +61,7 @@ class page {
     const in::image<in::rgb8>& sheet() const { return sheet_; }
 
   private:
-    /// A bar for each of so many levels, the darkest at the bottom; a bar as wide as the chart is an eighth of the
-    /// pixels.
+    /// A histogram, its darkest bin at the bottom; a bar as wide as the chart is an eighth of the pixels.
     void draw(const in::image<float>& picture, int left, int top, const in::rgb8& color) {
         constexpr int bins = tile / 2;
         const in::histogram counted = in::histogram_of(picture, bins);

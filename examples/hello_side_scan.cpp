@@ -1,4 +1,4 @@
-// Both sides of a survey line, as a side-scan sonar hears them: hello_side_scan writes swath.png.
+// Both sides of a survey line, as a side-scan sonar records them: hello_side_scan writes swath.png.
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
 #include <insonify/seabed/blend.hpp>
@@ -15,10 +15,10 @@ int main() {
     scene.add(in::cube{.size = glm::vec3(0.6f)}, {.position = {-12, 8, 0.25}, .yaw = 20_deg}, "cube");
 
     in::side_scan rig{.altitude = 4, .ping_spacing = 0.05f, .pings = 400, .range = 20, .bins = 700};
-    const auto hear = [&](in::side side) {  // frame.image holds intensities, frame.labels their sources
+    const auto record = [&](in::side side) {  // frame.image holds intensities, frame.labels their sources
         rig.side = side;
         return in::with_speckle(in::render(scene, rig), {.seed = 7});
     };
-    const auto swath = in::both_sides(hear(in::side::port), hear(in::side::starboard));
+    const auto swath = in::both_sides(record(in::side::port), record(in::side::starboard));
     in::write_png("swath.png", swath.image | in::display{} | in::colormap::copper);
 }

@@ -1,7 +1,7 @@
 // A GeoTIFF of depths or heights as the bottom of a picture: import_geotiff <file> <out.png> [-1 for depths]
 //
-// GDAL reads it (GeoTIFF and a hundred other formats); pixels without data stay holes up to ten
-// vertices wide. Where the survey is too coarse for a sonar, sand of the survey's own roughness goes on.
+// GDAL reads it (GeoTIFF and a hundred other formats). Gaps without data are filled up to ten vertices wide. Sand of
+// the survey's own roughness adds the detail below its spacing.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>

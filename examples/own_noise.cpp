@@ -1,5 +1,4 @@
-// A noise filter of one's own, seeded by pixel: dropouts along rows, the same whatever tile, crop or thread computes
-// them.
+// A user's noise filter, seeded by pixel: dropouts along rows, the same in any tile, crop or thread.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>

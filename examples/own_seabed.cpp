@@ -1,4 +1,4 @@
-// An unbounded seabed of one's own, with its label, brightness and speckle, in both kinds of picture: own_seabed.
+// A user's unbounded seabed, with its label, brightness and speckle, in both kinds of picture: own_seabed.
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
 #include <insonify/seabed/blend.hpp>

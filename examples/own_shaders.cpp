@@ -6,7 +6,7 @@
 namespace in = insonify;
 using namespace in::literals;
 
-struct varyings {  // interpolated: floats, and what consists of them
+struct varyings {  // interpolated: floats and aggregates of them
     glm::vec3 normal;
     glm::vec2 texture;
 };

@@ -1,4 +1,4 @@
-// A shadow policy of one's own draws a frame: every triangle is tried along every ray, for light from far away.
+// A user's shadow policy draws a frame: every triangle is tried along every ray, for light from far away.
 #include <insonify/insonify.hpp>
 #include <insonify/sonar/overhead/render.hpp>
 

@@ -18,7 +18,7 @@ int main() {
                                       in::noise_floor{1e-9f}, in::level_gain{}};
     const auto options = in::record_options<>{}.with(equation).without_labels();
 
-    // The caller's memory: 120 rows of 640 floats, of which the last 40 are its own.
+    // The caller's memory: 120 rows of 640 floats, of which the last 40 hold the caller's data.
     std::vector<float> buffer(120 * 640, -1.0f);
     const in::image_view<float> rows(buffer.data(), 640, 120);
     for (int first = 0; first < 120; first += 8) {

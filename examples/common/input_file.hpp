@@ -1,4 +1,4 @@
-// Files that a user names as input: read whole, refused where they have no end or are larger than a limit.
+// Files that a user names as input: read whole; pipes, devices and files above a limit are refused.
 #pragma once
 
 #include <insonify/io/file.hpp>
@@ -10,10 +10,10 @@
 
 namespace examples {
 
-/// Bytes of the largest input that is taken if the user names no other limit.
+/// Default limit of an input's size, bytes.
 inline constexpr std::uint64_t usual_input_limit = std::uint64_t{1} << 30;
 
-/// @param raise  how the limit is raised, for the error
+/// @param raise  how the user raises the limit, for the error's text
 /// @throws insonify::io_error, naming the file, for a pipe, device or folder, a file above the limit, or one that can't
 /// be read
 inline std::string read_input(const std::string& path, std::uint64_t limit = usual_input_limit,

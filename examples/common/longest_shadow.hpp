@@ -6,13 +6,13 @@
 
 namespace examples {
 
-/// Of the vertex whose shadow reaches farthest. Metres, from the sonar.
+/// The shadow of the vertex that casts farthest. Metres, from the sonar.
 struct longest_shadow {
     double tip = 0;                            ///< ground range where the shadow ends
     double ground_range = 0, slant_range = 0;  ///< of the vertex
     double height = -1e30;                     ///< of the target's highest point above the datum
 
-    /// What the vertex hides, along slant ranges.
+    /// Length of the vertex's shadow in slant range.
     double slant_length(double altitude) const {
         return insonify::range_geometry::slant_range(tip, altitude) - slant_range;
     }

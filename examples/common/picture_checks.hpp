@@ -1,4 +1,4 @@
-// What stb_image relies on in a PNG or JPEG without looking: checked before it reads people's files.
+// Checks of PNG and JPEG files that stb_image leaves out, for files from users.
 #pragma once
 
 #include <cstddef>
@@ -22,9 +22,8 @@ inline bool has_whole_chunks(std::string_view png) {
     return true;
 }
 
-/// Whether each Huffman table of a JPEG has the 256 symbols at most that it may have (ITU-T T.81, B.2.4.2), and fills
-/// its segment. stb_image 2.27 writes the lengths of as many symbols as a table claims, 4080 at most, to an
-/// array of 257.
+/// Whether each Huffman table of a JPEG has at most 256 symbols (ITU-T T.81, B.2.4.2) and fills its segment.
+/// stb_image 2.27 writes the lengths of as many symbols as a table claims, 4080 at most, to an array of 257.
 ///
 /// Finds the markers that stb_image finds: bytes between segments are passed over, as are stuffed zeros and restart
 /// markers in the data of a scan.

@@ -1,4 +1,4 @@
-// Reading people's pictures as gray values from 0 to 1: PGM, PPM and PFM by insonify; PNG, JPEG and BMP by stb_image.
+// Reads users' pictures as gray values from 0 to 1: PGM, PPM and PFM by insonify; PNG, JPEG and BMP by stb_image.
 // The content decides which, not the file's name.
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace examples {
 
-/// Whether bytes begin as a picture does that `parse_gray` reads.
+/// Whether bytes begin like a picture in a format that `parse_gray` reads.
 inline bool is_netpbm(std::string_view bytes) {
     return bytes.size() >= 3 && bytes[0] == 'P' &&
            std::string_view("2356Ff").find(bytes[1]) != std::string_view::npos &&

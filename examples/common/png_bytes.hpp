@@ -8,7 +8,7 @@
 
 namespace examples {
 
-/// What a file would hold, of 8 bits gray or colour.
+/// The bytes of a PNG file, 8 bits gray or colour.
 /// @throws std::bad_alloc
 template <class Pixel>
 std::string png_bytes(const insonify::image<Pixel>& picture) {

@@ -15,11 +15,10 @@ inline double round_length(double metres) {
     return decade * (metres >= 5 * decade ? 5 : metres >= 2 * decade ? 2 : 1);
 }
 
-/// Draws a bar of a round length, at most a third of the tile, and how many metres it is, into the tile's lower right
-/// corner.
+/// Draws a bar of a round length, at most a third of the tile, and its metres into the tile's lower right corner.
 ///
 /// @param right, bottom  where the tile ends
-/// @param width, metres  how wide the tile is, in pixels and in metres
+/// @param width, metres  the tile's width in pixels and in metres
 template <class Pixel>
 void draw_scale_bar(insonify::image<Pixel>& sheet, int right, int bottom, int width, double metres, const Pixel& ink,
                     const Pixel& paper) {

@@ -16,13 +16,13 @@ struct bottom_point {
 
 class bottom {
   public:
-    /// Level sand or mud, all but flat: broad undulations of so many metres, rms.
+    /// Adds broad undulations of level sand or mud; `rms` in metres.
     void undulate(double rms, dice& random) {
         constexpr int count = 6;
         for (int i = 0; i < count; ++i) swells_.push_back(wave::any(random, 1.2, 5, rms * std::sqrt(2.0 / count)));
     }
 
-    /// Crests across `direction`, radians; they meander, and their height comes and goes a little.
+    /// Crests across `direction`, radians; they meander, and their height varies a little along them.
     void ripple(double wavelength, double height, double direction, dice& random) {
         height_ = height;
         number_ = 2 * std::numbers::pi / wavelength * glm::dvec2(std::cos(direction), std::sin(direction));
@@ -47,7 +47,7 @@ class bottom {
         return p;
     }
 
-    /// What crests may stand over troughs, metres.
+    /// Upper bound of crests over troughs, metres.
     double relief() const {
         double sum = 1.2 * height_;
         for (const wave& w : swells_) sum += 2 * w.amplitude;

@@ -1,4 +1,4 @@
-// From signal to picture, as sonars do it: detected, levelled by range, averaged into pixels, and shown.
+// From signal to picture, as in sonars: detection, levelling by range, averaging into pixels, display.
 #pragma once
 
 #include "echoes.hpp"
@@ -16,15 +16,15 @@ inline chip draw_chip(scene& s, double metres, std::size_t pixels) {
     constexpr std::size_t samples = 2;  // to a pixel
     const double pixel = metres / static_cast<double>(pixels);
     waterfall w(pixels, samples * pixels, pixel, s.left_edge, pixel / samples);
-    receiver ears(s, w);
-    ears.listen();
+    receiver sonar(s, w);
+    sonar.record();
 
     chip c{pixels, std::vector<std::uint8_t>(pixels * pixels)};
     for (std::size_t y = 0; y < pixels; ++y)
         for (std::size_t x = 0; x < pixels; ++x) {
             double power = 0;  // of level bottom: 1
             for (std::size_t i = samples * x; i < samples * (x + 1); ++i)
-                power += std::norm(w.row(y)[i]) / (ears.bottom_power(w.range(i)) * samples);
+                power += std::norm(w.row(y)[i]) / (sonar.bottom_power(w.range(i)) * samples);
             const double shown = std::pow(std::min(1.0, std::sqrt(power) / s.rig.white), s.rig.gamma);
             c.gray[(pixels - 1 - y) * pixels + x] = static_cast<std::uint8_t>(255 * shown + 0.5);
         }

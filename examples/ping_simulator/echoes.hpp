@@ -1,8 +1,7 @@
-// What comes back of pings, as a coherent sum: every point that scatters sends back the pulse with its own amplitude
-// and with the phase of its way, and the receiver adds them all up. Speckle, glints, layover, shadows and the blur of
-// the beam are in the sum; none of them is painted.
+// Echoes of pings as a coherent sum: every scatterer returns the pulse with its own amplitude and the phase of its
+// path, and the receiver adds them up. Speckle, glints, layover, shadows and the blur of the beam come from the sum.
 //
-// The sonar travels along y at x = 0 and listens towards +x. The points are the same for every ping.
+// The sonar travels along y at x = 0 and points towards +x. The points are the same for every ping.
 #pragma once
 
 #include <complex>
@@ -31,7 +30,7 @@ class table {
     std::vector<double> values_;
 };
 
-/// exp(-2 pi i turns) from a table, to 3 mrad: errors 50 dB below what is heard.
+/// exp(-2 pi i turns) from a table, to 3 mrad: errors 50 dB below the signal.
 class carrier {
   public:
     carrier() {
@@ -74,16 +73,16 @@ class receiver {
           pulse_(0.5 * pulse_width_, [this](double d) { return 0.5 * (1 + std::cos(2 * pi * d / pulse_width_)); }),
           reach_(lobes * lobe_ * w.end()) {}
 
-    /// Everything that is heard, and the receiver's own noise.
-    void listen() {
-        hear_bottom();
-        hear_target();
+    /// The echoes of bottom and target, and the receiver's noise.
+    void record() {
+        add_bottom();
+        add_target();
         const double middle = 0.5 * (out_.first + out_.end()),
                      level = std::sqrt(scene_.rig.noise * bottom_power(middle));
         for (auto& sample : out_.signal) sample += level * scene_.random.gaussian();
     }
 
-    /// Mean power that level bottom sends back from a range.
+    /// Mean echo power of level bottom at a range.
     double bottom_power(double range) const {
         const double sine = std::min(1.0, scene_.rig.altitude / range), cosine = std::sqrt(1 - sine * sine);
         // Integrals of the beam's and the pulse's power: sinc^4 is 2/3 lobes wide, the Hann pulse 3/8 of its length.
@@ -100,11 +99,11 @@ class receiver {
 
     glm::dvec3 beside(const glm::dvec3& p) const { return {0, p.y, scene_.rig.altitude}; }
 
-    /// The sea floor: a point in every cell, four cells to the pulse. What a crest hides is dropped here, seen from the
-    /// ping that is abreast; the target hides ping by ping.
-    void hear_bottom() {
+    /// The sea floor: a point in every cell, four cells to the pulse. Points behind a crest, seen from the ping
+    /// abreast, are dropped here; the target's shadow is found ping by ping.
+    void add_bottom() {
         const double altitude = scene_.rig.altitude, dx = scene_.rig.resolution / 4;
-        // Eight rows to the beam's half width on the bottom, and no shadow's edge coarser than that.
+        // Eight rows to the beam's half width on the bottom, for smooth edges of shadows.
         const double dy = std::max(0.02, scene_.rig.beam * out_.first / 8);
         const auto ground = [&](double r) { return std::sqrt(std::max(0.0, r * r - altitude * altitude)); };
         const double relief = scene_.ground.relief(), more = relief + pulse_width_;
@@ -132,7 +131,7 @@ class receiver {
     }
 
     /// The target: points all over its surface. Facets seen square glint.
-    void hear_target() {
+    void add_target() {
         const body& target = scene_.lying();
         const double cell = 1e-4;
         const auto count = static_cast<std::size_t>(target.area() / cell);
@@ -152,7 +151,7 @@ class receiver {
     bool is_buried(const glm::dvec3& p) const {
         if (p.z < scene_.ground({p.x, p.y}).height) return true;
         const glm::dvec3 towards = beside(p) - p;
-        const double reaches = std::max(0.0, scene_.ground.relief() - p.z) / towards.z;  // share of the way
+        const double reaches = std::max(0.0, scene_.ground.relief() - p.z) / towards.z;  // fraction of the path
         for (double t = 0.02 / glm::length(towards); t < std::min(reaches, 1.0); t += 0.02 / glm::length(towards)) {
             const glm::dvec3 q = p + t * towards;
             if (q.z < scene_.ground({q.x, q.y}).height) return true;
@@ -160,7 +159,7 @@ class receiver {
         return false;
     }
 
-    /// Adds one point's echoes to all pings that hear it.
+    /// Adds one point's echoes to all pings whose beam reaches it.
     void hear(const glm::dvec3& p, const std::complex<double>& amplitude, bool may_be_hidden) {
         const body& target = scene_.lying();
         const double across = p.x * p.x + (p.z - scene_.rig.altitude) * (p.z - scene_.rig.altitude);
@@ -176,9 +175,9 @@ class receiver {
             const double first = (range - 0.5 * pulse_width_ - out_.first) / out_.step + 0.5;
             const double last = (range + 0.5 * pulse_width_ - out_.first) / out_.step + 0.5;
             if (!(last > 0 && first < static_cast<double>(out_.samples))) continue;
-            const double heard = beam_(along / (range * lobe_)) / (range * range);
+            const double gain = beam_(along / (range * lobe_)) / (range * range);
             if (near_target && target.hides(p, {0, out_.y(ping), scene_.rig.altitude})) continue;
-            const std::complex<double> wave = heard * phase_(turns * range);
+            const std::complex<double> wave = gain * phase_(turns * range);
             const std::complex<double> echo(amplitude.real() * wave.real() - amplitude.imag() * wave.imag(),
                                             amplitude.real() * wave.imag() + amplitude.imag() * wave.real());
             std::complex<double>* const row = out_.row(ping);

@@ -1,7 +1,7 @@
-// ping_simulator: chips of a side-scan sonar that is computed, not drawn. See --help.
+// ping_simulator: chips of a simulated side-scan sonar. See --help.
 //
-// A test for what was learnt from this library's pictures, so nothing here is the library's but the writing of files:
-// solids are met by algebra, the bottom is a function, and a picture is the coherent sum of some 100 000 points.
+// A test set for classifiers trained on this library's pictures, so it uses the library only to write files: rays meet
+// solids in closed form, the bottom is a function, and a picture is the coherent sum of some 100 000 points.
 //
 // Based on: D. A. Abraham, A. P. Lyons. Novel Physical Interpretations of K-Distributed Reverberation. IEEE Journal of
 // Oceanic Engineering 27, 2002 (why a sum of points); P. Blondel. The Handbook of Sidescan Sonar. 2009.
@@ -58,7 +58,7 @@ options parse(int argc, char** argv) {
     return o;
 }
 
-/// Calls `fn(i)` for i below `count` on so many threads; the first exception is thrown on.
+/// Calls `fn(i)` for i below `count` on several threads; the first exception is rethrown.
 template <class Fn>
 void on_threads(unsigned threads, std::size_t count, const Fn& fn) {
     std::atomic<std::size_t> next{0};

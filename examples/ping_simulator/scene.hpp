@@ -26,7 +26,7 @@ struct sonar {
 struct scene {
     std::string class_name, seabed;
     sonar rig;
-    double size, length, yaw, burial;  ///< of the target; burial as a share of its height
+    double size, length, yaw, burial;  ///< of the target; burial as a fraction of its height
     double ground_range, along;        ///< of its middle, from the track and from the chip's lower edge
     double left_edge;                  ///< slant range where the chip begins
     double strength, glint;            ///< of the target's surface, power over the bottom's; and of facets seen square
@@ -80,7 +80,7 @@ inline scene make_scene(std::uint64_t seed, std::uint64_t index, std::size_t kin
         shape = sphere{0.5 * s.size};
     }
 
-    // It lies as the bottom around it does, in the mean over its footprint, and not quite level.
+    // It lies on the mean slope of the bottom under its footprint, slightly tilted.
     const double half = 0.5 * s.length, c = std::cos(s.yaw), sn = std::sin(s.yaw);
     double height = 0;
     constexpr int steps = 9;

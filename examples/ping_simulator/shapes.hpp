@@ -1,4 +1,4 @@
-// The targets, as the solids that they are: lines are met by algebra, without a mesh.
+// The targets as solids, intersected with lines in closed form, without meshes.
 #pragma once
 
 #include <limits>
@@ -22,22 +22,22 @@ struct stretch {
         return {a.from > b.from ? a.from : b.from, a.to < b.to ? a.to : b.to};
     }
 };
-inline constexpr stretch nowhere{1, 0};
+inline constexpr stretch no_stretch{1, 0};
 
 /// Between two planes at a coordinate of -half and half.
 inline stretch in_slab(double p, double d, double half) {
-    if (d == 0) return p > -half && p < half ? stretch{} : nowhere;
+    if (d == 0) return p > -half && p < half ? stretch{} : no_stretch;
     const double a = (-half - p) / d, b = (half - p) / d;
     return a < b ? stretch{a, b} : stretch{b, a};
 }
 
-/// Within a distance of the origin, in as many dimensions as the vectors have.
+/// Within a distance of the origin, in the vectors' dimensions.
 template <class Vector>
 stretch in_ball(const Vector& p, const Vector& d, double radius) {
     const double a = glm::dot(d, d), b = glm::dot(p, d), c = glm::dot(p, p) - radius * radius;
     const double inside = b * b - a * c;
-    if (!(inside > 0)) return nowhere;
-    if (a == 0) return c < 0 ? stretch{} : nowhere;
+    if (!(inside > 0)) return no_stretch;
+    if (a == 0) return c < 0 ? stretch{} : no_stretch;
     const double root = std::sqrt(inside);
     return {(-b - root) / a, (-b + root) / a};
 }
@@ -102,7 +102,7 @@ struct cylinder {
 
 using solid = std::variant<cylinder, box, sphere>;
 
-/// A solid where it lies.
+/// A solid with its position and rotation.
 class body {
   public:
     /// @param turn  from its own frame to the world's, a rotation

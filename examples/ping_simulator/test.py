@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures chips against closed forms, and sees that nothing in them is the library's: test.py <ping_simulator>"""
+"""Measures chips against closed forms, and checks that the simulator uses the library only to write files: test.py <ping_simulator>"""
 
 import csv
 import hashlib
@@ -55,7 +55,7 @@ def read_png(path):
 
 
 def chips(folder):
-    """The manifest's rows, each with its intensities: 1 is what level bottom sends back."""
+    """The manifest's rows, each with its intensities: 1 is the mean of level bottom."""
     for row in csv.DictReader((folder / "manifest.csv").read_text().splitlines()):
         v = {name: value if name in ("file", "class", "seabed") else float(value) for name, value in row.items()}
         back = [(v["white"] * (gray / 255) ** (1 / v["gamma"])) ** 2 for gray in range(256)]

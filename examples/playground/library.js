@@ -1,4 +1,4 @@
-// What the module needs from JavaScript: errors of the library become JavaScript's.
+// Throws the library's errors as JavaScript errors.
 mergeInto(LibraryManager.library, {
     playground_fail: function (message) {
         throw new Error(UTF8ToString(message));

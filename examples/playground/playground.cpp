@@ -20,7 +20,7 @@ enum overlay { nothing, targets, shadows, bottom_types };
 struct settings {
     int mode, bottom, target, look, overlay;
     int size, seed;
-    float altitude, grazing, yaw, burial, speckle;  // metres, degrees, degrees, share of the height, looks
+    float altitude, grazing, yaw, burial, speckle;  // metres, degrees, degrees, fraction of the height, looks
 };
 
 /// Metres that the picture shows across track.

@@ -1,7 +1,6 @@
-// Chips of a folder, and what is measured of each: gradients, moments, spectrum and co-occurrence.
+// Chips of a folder and their features: gradients, moments, spectrum and co-occurrence.
 //
-// Each chip is prepared by itself and the same way, wherever it is from: 64 x 64 pixels, gray values from its first to
-// its last percentile.
+// Each chip is prepared the same way and by itself: 64 x 64 pixels, gray values from its first to its last percentile.
 #pragma once
 
 #include <filesystem>

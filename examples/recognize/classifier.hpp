@@ -12,11 +12,12 @@ namespace recognition {
 
 /// A row of features per picture. Each is made of its picture alone.
 struct features {
-    cv::Mat rows, mirrored;  ///< of the pictures, and of their mirror images along the track: as good a scene
+    cv::Mat rows,
+        mirrored;  ///< of the pictures, and of their mirror images along the track, which are scenes as plausible
     std::vector<std::size_t> kinds;
 };
 
-/// Where the target is in a picture of 128 x 128: brighter than what lies behind it, by most, of where chips may have
+/// Position of the target in a picture of 128 x 128: of the possible ones, where it is brightest over the pixels behind
 /// it.
 inline cv::Point target_in(const cv::Mat& picture) {
     cv::Mat sums;

@@ -1,4 +1,4 @@
-// Two classifiers of OpenCV's, and how well they rank: a linear support vector machine and a forest of random trees.
+// Two of OpenCV's classifiers and their scores: a linear support vector machine and a forest of random trees.
 #pragma once
 
 #include <algorithm>
@@ -90,7 +90,7 @@ inline answers learn_by_trees(const sample& train, const cv::Mat& test, std::uin
     return out;
 }
 
-/// A point of a ROC curve for each threshold: false alarms and detections, shares.
+/// A point of a ROC curve for each threshold: rates of false alarms and of detections.
 struct roc_point {
     double false_alarms, detections;
 };

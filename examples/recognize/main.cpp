@@ -1,6 +1,6 @@
-// recognize: how well is recognised what was learnt from synthetic pictures? See --help.
+// recognize: trains on synthetic pictures, tests on the ping simulator's. See --help.
 //
-// ./tools/recognize runs all of it: it builds this and ping_simulator, makes the simulator's sets, and writes the
+// tools/recognize runs the whole experiment: builds this and ping_simulator, makes the simulator's sets, and writes the
 // figures of docs/recognition.md to out/recognize.
 #include "classifier.hpp"
 #include "report.hpp"
@@ -48,15 +48,15 @@ options parse(int argc, char** argv) {
     return o;
 }
 
-/// So many of each class, in the published proportions: 21 cylinders, 27 cubes and 32 spheres of 80.
-class_counts shares(std::size_t images) {
+/// Numbers of each class, in the published proportions: 21 cylinders, 27 cubes and 32 spheres of 80.
+class_counts counts_of(std::size_t images) {
     class_counts c{(images * 21 + 40) / 80, (images * 27 + 40) / 80, 0};
     for (std::size_t k = 0; k < 2; ++k) c[k] = (std::max)(c[k], std::size_t{1});
     c[2] = (std::max)(images, c[0] + c[1] + 1) - c[0] - c[1];
     return c;
 }
 
-/// So many rows of each class, from a number on that wraps around.
+/// The given number of rows of each class, from a first one on, cyclically.
 features some_of(const features& f, const class_counts& counts, const class_counts& from = {}) {
     std::array<std::vector<std::size_t>, 3> of_class;
     for (std::size_t i = 0; i < f.kinds.size(); ++i) of_class[f.kinds[i]].push_back(i);
@@ -84,7 +84,7 @@ class experiment {
           most_(*std::max_element(o.sizes.begin(), o.sizes.end())),
           test_(features_of(read_set(o.test))) {}
 
-    /// Learns from pictures that are drawn by a recipe. A set of another seed is the test on pictures of its own kind.
+    /// Trains on a recipe's pictures. A set of another seed tests it on pictures of the same recipe.
     void learn_from(const recipe& r) {
         const artist hand(
             r, options_.references.empty() ? std::vector<std::string>{} : class_folders(options_.references), pool_);
@@ -92,14 +92,13 @@ class experiment {
         const features own = features_of(hand.draw_set(tested, options_.seeds + 1));
         std::vector<features> sets;
         for (std::size_t seed = 1; seed <= options_.seeds; ++seed)
-            sets.push_back(features_of(hand.draw_set(shares(most_), seed)));
+            sets.push_back(features_of(hand.draw_set(counts_of(most_), seed)));
         learn(
             r.name, r.description,
-            [&](std::size_t seed, std::size_t images) { return some_of(sets[seed], shares(images)); }, &own);
+            [&](std::size_t seed, std::size_t images) { return some_of(sets[seed], counts_of(images)); }, &own);
     }
 
-    /// Learns from the simulator's own pictures, of another seed than the test set's: nothing synthetic can be
-    /// expected to do better.
+    /// Trains on the simulator's own pictures, of another seed than the test set's: an upper bound for synthetic ones.
     void learn_from_simulator() {
         const features all = features_of(read_set(options_.own));
         const class_counts there = counted(all);
@@ -108,7 +107,7 @@ class experiment {
             [&](std::size_t seed, std::size_t images) {
                 class_counts from;
                 for (std::size_t k = 0; k < 3; ++k) from[k] = seed * there[k] / options_.seeds;
-                return some_of(all, shares(images), from);
+                return some_of(all, counts_of(images), from);
             },
             nullptr);
     }
@@ -140,7 +139,7 @@ class experiment {
     std::vector<outcome> outcomes_;
 };
 
-/// The recipes that are asked for: those of the table, then those of the command line.
+/// The requested recipes: those of the table, then those of the command line.
 std::vector<recipe> chosen(const options& o) {
     std::vector<recipe> all;
     for (const recipe& r : recipes())

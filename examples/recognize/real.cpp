@@ -1,4 +1,5 @@
-// recognize_real: what a generated set teaches about real side-scan images. See --help, and tools/recognize --real DIR.
+// recognize_real: trains with a generated set, tests on real side-scan images. See --help, and tools/recognize --real
+// DIR.
 #include "real_report.hpp"
 #include <CLI/CLI.hpp>
 

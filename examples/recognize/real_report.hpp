@@ -1,4 +1,4 @@
-// What the trial on real images found, as a table and as plots: ROC curves, learning curves, confusion.
+// Results of the trial on real images, as a table and as plots: ROC curves, learning curves, confusion.
 #pragma once
 
 #include <insonify/io/file.hpp>
@@ -75,7 +75,7 @@ inline const char* color_of(std::size_t real) {
     return real == 0 ? "#000000" : real <= 20 ? "#b5651d" : real <= 80 ? "#1f77b4" : "#2ca02c";
 }
 
-/// The mean of several curves: detections at each share of false alarms.
+/// The mean of several curves: detections at each rate of false alarms.
 inline std::vector<std::pair<double, double>> mean_curve(const std::vector<std::vector<roc_point>>& curves) {
     std::vector<std::pair<double, double>> mean;
     for (int i = 0; i <= 200; ++i) {
@@ -156,7 +156,7 @@ inline std::string curves_svg(const std::vector<lesson>& lessons) {
                      svg::text(60, 18, "Learning curves, object or bare bottom", " font-weight='bold'") + body);
 }
 
-/// What was answered, in per cent of what was shown, all seeds together.
+/// Answers in per cent of the pictures of each class, over all seeds.
 inline std::string confusion_svg(const std::vector<lesson>& lessons) {
     constexpr double cell = 52, left = 86, top = 70, width = left + 3 * cell + 24;
     std::string body;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The trial on real images, on pictures made up for it: real_test.py <recognize_real>"""
+"""Tests the trial on real images with drawn pictures: real_test.py <recognize_real>"""
 
 import pathlib
 import random

@@ -1,4 +1,4 @@
-// The trial on real images: what so many of them teach, with a generated set and without.
+// The trial on real images: accuracy by number of real training images, with a generated set and without.
 #pragma once
 
 #include <insonify/core/random.hpp>
@@ -32,7 +32,8 @@ struct lesson {
     std::size_t better() const { return spread(area[0]).mean >= spread(area[1]).mean ? 0 : 1; }
 };
 
-/// Which real chips train and which test, for one seed: as many objects as bare bottoms to choose from, the rest tests.
+/// The real chips for training and for testing, for one seed: as many objects as bare bottoms to train with, the rest
+/// to test.
 struct division {
     struct item {
         std::size_t of_class, number;
@@ -56,13 +57,13 @@ struct division {
     }
 };
 
-/// Real chips of which there are few count as often as generated ones, up to ten times.
+/// Real chips are repeated up to the number of generated ones, ten times at most.
 inline int repeats_of(std::size_t real, std::size_t generated) {
     return real == 0 || generated == 0 ? 1 : static_cast<int>(std::clamp<std::size_t>(generated / real, 1, 10));
 }
 
 /// Trains and tests one point of the curve with one seed.
-/// @param three  tells planes, ships and bottoms apart, instead of objects from bottoms
+/// @param three  classes are plane, ship and bottom instead of object and bottom
 inline std::array<answers, 2> taught(const collection& real, const collection& made, const division& d,
                                      std::size_t count, bool generated, bool three, std::uint64_t seed,
                                      std::vector<int>& truth) {
@@ -93,10 +94,10 @@ inline lesson learn(const collection& real, const collection& made, std::size_t 
         const std::array<answers, 2> found = taught(real, made, d, count, generated, false, seed, truth);
         for (std::size_t c = 0; c < 2; ++c) {
             const std::vector<roc_point> curve = roc_of(truth, found[c].scores);
-            std::vector<int> said;
-            for (const double score : found[c].scores) said.push_back(score > 0 ? 1 : 0);
+            std::vector<int> predicted;
+            for (const double score : found[c].scores) predicted.push_back(score > 0 ? 1 : 0);
             l.area[c].push_back(area_under(curve));
-            l.balanced[c].push_back(balanced_accuracy(truth, said, 2));
+            l.balanced[c].push_back(balanced_accuracy(truth, predicted, 2));
             l.curves[c].push_back(curve);
         }
         const std::array<answers, 2> named = taught(real, made, d, count, generated, true, seed, truth);
@@ -110,7 +111,7 @@ inline lesson learn(const collection& real, const collection& made, std::size_t 
 }
 
 /// How well a forest tells generated bare bottoms from real ones, by texture: the area under its ROC curve over five
-/// parts, of which each is judged by what the others teach. 0.5: never, 1: always.
+/// parts, each scored by a forest that is trained on the others. 0.5: never, 1: always.
 inline double told_apart(const std::vector<chip>& real, const std::vector<chip>& made) {
     std::vector<std::pair<const chip*, int>> all;
     for (const chip& c : real) all.emplace_back(&c, 1);

@@ -14,14 +14,14 @@ namespace in = insonify;
 inline const std::array<std::string, 3> classes{"cylinder", "cube", "sphere"};
 using class_counts = std::array<std::size_t, 3>;
 
-/// What is looked for, as generate_dataset says it: the sizes that are all that is known of the objects beforehand. The
-/// simulator's lie within.
+/// The objects as a recipe of generate_dataset: only their sizes are known beforehand, and the simulator's lie within
+/// them.
 inline const std::array<std::vector<std::string>, 3> objects{
     {{"--targets", "cylinder", "--target-size", "0.4:0.6", "--aspect", "0.9:1.15"},
      {"--targets", "cube", "--target-size", "0.4:0.8", "--aspect", "1"},
      {"--targets", "sphere", "--target-size", "0.5:0.9", "--aspect", "1"}}};
 
-/// A picture and what it shows.
+/// A picture and its class.
 struct example {
     in::image<std::uint8_t> picture;
     std::size_t kind;
@@ -47,7 +47,7 @@ inline std::vector<recipe> recipes() {
              {"--mode", "slant_range", "--seabeds", "sand,mud,ripples", "--noise", "seabed"}}};
 }
 
-/// What generate_dataset would do with the recipe's command line, for one class.
+/// The options that generate_dataset reads from the recipe's command line, for one class.
 /// @param references  folders of pictures to match histograms with, for recipes that do
 inline generator::options options_of(const recipe& r, std::size_t kind, const std::vector<std::string>& references) {
     std::vector<std::string> words{

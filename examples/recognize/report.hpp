@@ -1,4 +1,4 @@
-// What was found, as a table for people and as a picture of the confusion matrices.
+// Results as a table and as a picture of the confusion matrices.
 #pragma once
 
 #include <cstdio>
@@ -69,7 +69,7 @@ inline std::string markdown(const std::vector<outcome>& outcomes, const class_co
     return out;
 }
 
-/// A square for each pair of shown and answered, darker for more: one matrix beside the other.
+/// Confusion matrices side by side, darker squares for more chips.
 inline std::string svg(const std::vector<outcome>& outcomes) {
     constexpr int cell = 44, left = 62, top = 42, width = left + 3 * cell + 40, height = top + 3 * cell + 14;
     constexpr std::size_t columns = 4;

@@ -1,4 +1,4 @@
-// How good answers are: confusion matrices, and what is said of them.
+// Scores of answers: confusion matrices and statistics over runs.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace recognition {
 
-/// Rows: what was shown; columns: what was answered.
+/// Rows: true classes; columns: answers.
 struct confusion {
     std::array<std::array<double, 3>, 3> counts{};
 
@@ -27,7 +27,7 @@ struct confusion {
     double recall(std::size_t kind) const { return shown(kind) > 0 ? counts[kind][kind] / shown(kind) : 0; }
 
     double accuracy() const { return (counts[0][0] + counts[1][1] + counts[2][2]) / total(); }
-    /// The mean of the classes' recalls: a third for guessing, and for always saying the same.
+    /// The mean of the classes' recalls: a third for guessing and for one constant answer.
     double balanced_accuracy() const { return (recall(0) + recall(1) + recall(2)) / 3; }
     double macro_f1() const {
         double sum = 0;
@@ -39,7 +39,7 @@ struct confusion {
     }
 };
 
-/// Of several runs.
+/// Statistics over several runs.
 struct spread {
     double mean = 0, deviation = 0, lowest = 0, highest = 0;
 

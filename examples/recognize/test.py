@@ -41,9 +41,9 @@ class Recognition(unittest.TestCase):
         for row in rows:
             mean, lowest, highest = map(float, re.match(r"(\S+) ± \S+ \((\S+) to (\S+)\)", row[3]).groups())
             self.assertTrue(0 <= lowest <= mean <= highest <= 1, row)
-        shares = [list(map(float, re.findall(r"(\S+) %", row))) for row in report.splitlines() if row.count("%") == 3]
-        self.assertEqual(len(shares), 18)
-        for row in shares:
+        percentages = [list(map(float, re.findall(r"(\S+) %", row))) for row in report.splitlines() if row.count("%") == 3]
+        self.assertEqual(len(percentages), 18)
+        for row in percentages:
             self.assertAlmostEqual(sum(row), 100, delta=0.2)
 
     def test_the_test_set_has_no_part_in_training(self):
@@ -52,7 +52,7 @@ class Recognition(unittest.TestCase):
                for test in ("test", "another")]
         self.assertEqual(own[0], own[1])
 
-    def test_what_cannot_be_is_refused_with_a_reason(self):
+    def test_impossible_options_are_refused_with_a_reason(self):
         self.assertIn("holds no PNG", run(RECOGNIZE, "--out", self.folder / "c", "--test", self.folder, expect=1))
         self.assertIn("--own", run(RECOGNIZE, "--out", self.folder / "c", "--test", self.folder / "test", "--own",
                                    self.folder / "own", "--recipes", "none", "--sizes", 300, expect=1))

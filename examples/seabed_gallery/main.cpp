@@ -28,7 +28,7 @@ struct entry {
     const char* name;
     double cell;  // metres per pixel
     sb::any seabed;
-    const char* real;  // a tile of the folder that shows the like, and where to cut it
+    const char* real;  // a tile of the folder that shows a similar bottom, and its crop
     int left, top;
 };
 

@@ -1,4 +1,4 @@
-// What a patch of a sonar picture is like, in a few numbers that a real one can be compared by.
+// Texture statistics of a patch of a sonar picture, to compare with real ones.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -18,7 +18,7 @@ struct texture {
     double tails;        ///< their kurtosis
     double correlation;  ///< of neighbours across the track; the next: along it
     double along;
-    double contrast;   ///< of the gray-level co-occurrence matrix, 8 levels of equal shares, 2 pixels apart
+    double contrast;   ///< of the gray-level co-occurrence matrix, 8 equally frequent levels, 2 pixels apart
     double evenness;   ///< its homogeneity
     double slope;      ///< of the radially averaged periodogram, from 4 to n / 8 cycles
     double direction;  ///< of the periodogram's longer axis below n / 8 cycles, degrees; the next: how much longer

@@ -1,7 +1,7 @@
 // Compares rendered bottoms with real ones: seabed_textures [folder of real tiles]
 //
 // Prints statistics of bottoms in slant range, by kind, and how far their means lie from those of real crops of the
-// kind, in standard deviations over the crops. Fails if one lies farther than the kind's tolerance. The real tiles are
+// kind, in standard deviations over the crops. Fails if one lies beyond the kind's tolerance. The real tiles are
 // of a synthetic aperture, tone-mapped; grain, grazing angle and display below are those at which they agree best.
 #include <insonify/insonify.hpp>
 #include <insonify/sonar/bottom_tone.hpp>

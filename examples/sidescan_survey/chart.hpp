@@ -20,7 +20,7 @@ class chart {
         for (int y = 0; y < picture_.height(); ++y)
             for (int x = 0; x < picture_.width(); ++x) {
                 const int row = picture_.height() - 1 - y;
-                // Light from the upper left; what a step is higher than the one before is brighter.
+                // Light from the upper left: slopes that face it are brighter.
                 const float rise = field.heights(x, row) -
                                    field.heights((std::max)(x - 1, 0), (std::min)(row + 1, picture_.height() - 1));
                 const float shade = 0.5f + 1.2f * rise / static_cast<float>(spacing_);

@@ -1,4 +1,4 @@
-// Contacts: where a target and its shadow are in the waterfall, and whether they are where geometry says.
+// Contacts: the position of each target and its shadow in the waterfall, compared with the expected one.
 #pragma once
 
 #include "../common/longest_shadow.hpp"
@@ -7,7 +7,7 @@
 
 namespace survey {
 
-/// Where a target is in the waterfall: a box that grows until the target is out of sight.
+/// A target's box in the waterfall; it grows until the target is out of sight.
 struct contact {
     in::target target;
     in::side side;
@@ -15,10 +15,10 @@ struct contact {
     int first_bin = 1 << 30, last_bin = -1, shadow_end = -1;
     std::int64_t area = 0, shadow_area = 0;
     fix closest{};                ///< the ping from which it is abeam
-    double closest_along = 1e30;  ///< how far ahead or behind it was there, squared
+    double closest_along = 1e30;  ///< its distance ahead or behind at that ping, squared
 };
 
-/// All contacts in sight, and the table of those that were.
+/// All contacts in sight, and the table of earlier ones.
 class contact_list {
   public:
     explicit contact_list(const std::string& path)
@@ -91,7 +91,7 @@ class contact_list {
         const examples::longest_shadow shadow = examples::shadow_of(
             c.target, frame, altitude,
             [&](const glm::dvec3& v) { farthest = (std::max)(farthest, geometry::slant_range(v.x, altitude, v.z)); });
-        // From the echo of what casts the tip to the tip.
+        // From the echo of the vertex that casts the tip to the tip.
         const double measured = c.shadow_end < 0 ? 0 : (c.shadow_end + 1) * rig.bin() - shadow.slant_range;
         const bool at_an_end = at_the_end || c.first_ping == 0;
         table_.line(std::to_string(target) + "," + c.target.class_name +

@@ -1,5 +1,5 @@
-// What lies on the bottom: targets strewn over the whole plane, at most one in each square of a lattice, so that only
-// those in sight need to be there.
+// Targets strewn over the whole plane, at most one in each square of a lattice, so that a scene holds only those in
+// sight.
 #pragma once
 
 #include <insonify/insonify.hpp>
@@ -78,7 +78,7 @@ struct sight {
     std::vector<std::uint16_t> numbers{0};  ///< by instance
 };
 
-/// Gives numbers to targets as they come into sight, and forgets them when they are out of it.
+/// Numbers targets when they come into sight and forgets them afterwards.
 class lookout {
   public:
     sight around(const target_field& field, const in::seabed::any& seabed, std::span<const in::ping> pings,
@@ -96,7 +96,7 @@ class lookout {
     }
 
   private:
-    /// 16 bits hold it; by the time a number comes again, its first owner is far away.
+    /// Wraps around after 16 bits; by then the first target of that number is far away.
     std::uint16_t fresh() { return last_ = static_cast<std::uint16_t>(last_ == 65000 ? 1 : last_ + 1); }
 
     std::map<square, std::uint16_t> numbers_;

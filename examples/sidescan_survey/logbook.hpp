@@ -1,5 +1,5 @@
-// What a survey leaves behind, written as it comes: the waterfall and its labels row by row, pages to look at, the
-// navigation, a line for every contact, and at the end the map.
+// The files of a survey, written as it runs: the waterfall and its labels row by row, pages to look at, the navigation,
+// a line for every contact, and at the end the map.
 #pragma once
 
 #include "chart.hpp"
@@ -9,7 +9,7 @@ namespace survey {
 
 class logbook {
   public:
-    /// @param total  how many pings there will be
+    /// @param total  number of pings of the whole survey
     logbook(const options& o, const in::seabed::any& seabed, std::int64_t total, chart map)
         : folder_(o.out),
           waterfall_(o.out + "/waterfall.pgm", 2 * o.bins, total, 255),

@@ -1,5 +1,5 @@
-// sidescan_survey: a vehicle runs along way-points over a seabed with targets and leaves a waterfall of both sides, its
-// labels, its navigation, a line per contact, and a map. See --help.
+// sidescan_survey: a vehicle follows way-points over a seabed with targets. Writes a waterfall of both sides, its
+// labels, the navigation, a line per contact, and a map. See --help.
 //
 // It works in blocks of pings and keeps nothing but the block: a track of any length takes the same memory.
 #include <insonify/core/thread_pool.hpp>
@@ -18,7 +18,7 @@ int main(int argc, char** argv) try {
         o.waypoints.empty() ? survey::lawnmower(o.length, o.width, o.between) : survey::read_waypoints(o.waypoints);
     const in::seabed::any seabed = survey::bottom_of(o);
 
-    // Once along the track without a sonar: how many pings there will be, and what the map shows.
+    // Once along the track without a sonar: for the number of pings and the bounds of the map.
     std::int64_t total = 0;
     glm::dvec2 low(1e30), high(-1e30);
     survey::fix f{};
@@ -37,7 +37,7 @@ int main(int argc, char** argv) try {
     examples::progress bar(static_cast<std::size_t>(total));
     constexpr int most = 128;
     const int halo = sonar.halo();
-    std::vector<survey::fix> window;  // the block, with the pings before and after it that its beam hears
+    std::vector<survey::fix> window;  // the block, with the pings before and after it that its beam overlaps
     for (int before = 0;;) {
         while (static_cast<int>(window.size()) < before + most + halo && vehicle.ping(f)) window.push_back(f);
         const int count = (std::min)(most, static_cast<int>(window.size()) - before);
@@ -45,7 +45,7 @@ int main(int argc, char** argv) try {
         std::vector<in::ping> track;
         for (const survey::fix& w : window) track.push_back(w.at);
         const survey::sight in_sight = lookout.around(field, seabed, track, o.range);
-        log.write(sonar.hear(in_sight, window, before, count, pool), in_sight, sonar.rig());
+        log.write(sonar.record_block(in_sight, window, before, count, pool), in_sight, sonar.rig());
         for (int i = 0; i < count; ++i) bar.finished_one();
 
         const int kept = (std::min)(halo, before + count);

@@ -1,4 +1,4 @@
-// What a survey shall be: everything that the command line can say.
+// Options of a survey, from the command line.
 #pragma once
 
 #include <insonify/insonify.hpp>
@@ -51,7 +51,7 @@ inline options parse(int argc, char** argv) {
     return o;
 }
 
-/// The seabed that the options name.
+/// The seabed of the options.
 inline in::seabed::any bottom_of(const options& o) {
     const auto kind = [&](const std::string& name) -> in::seabed::any {
         if (name == "ripples") return in::seabed::ripples{.wavelength = 0.7f, .steepness = 0.07f, .seed = o.seed};

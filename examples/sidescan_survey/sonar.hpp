@@ -1,4 +1,4 @@
-// The sonar: what a block of pings sounds like, on both sides.
+// The sonar: blocks of pings, recorded on both sides.
 #pragma once
 
 #include <insonify/sonar/side_scan/record_options.hpp>
@@ -12,7 +12,7 @@
 
 namespace survey {
 
-/// Some pings in a row: gray values and labels, a row per ping, port to the left. Targets have their contact numbers.
+/// Consecutive pings: gray values and labels, a row per ping, port to the left. Targets have their contact numbers.
 struct block {
     std::span<const fix> pings;
     in::image<std::uint8_t> gray;
@@ -30,13 +30,13 @@ class sonar {
           speckle_{.seed = o.seed} {}
 
     const in::side_scan& rig() const { return rig_; }
-    /// How many pings before and after it a ping shares its beam with.
+    /// Number of pings before and after a ping that its beam overlaps.
     int halo() const {
         return static_cast<int>(beam_.reach(static_cast<double>(rig_.range)) / static_cast<double>(rig_.ping_spacing));
     }
 
-    /// Hears `count` pings from the first + `before` on; the others are there for the beam.
-    block hear(const sight& in_sight, std::span<const fix> pings, int before, int count, auto& ex) {
+    /// Records `count` pings from the first + `before` on; the others only overlap the beam.
+    block record_block(const sight& in_sight, std::span<const fix> pings, int before, int count, auto& ex) {
         const in::sonar_equation equation{
             in::transmission_loss{},   in::absorption{}, in::vertical_beam{.side_lobes = 0.01f}, beam_, in::pulse{},
             in::noise_floor{2.5e-13f}, in::level_gain{}};
@@ -44,19 +44,19 @@ class sonar {
         for (const fix& f : pings) track.push_back(f.at);
         const auto side = [&](in::side looks) {
             rig_.side = looks;
-            auto heard = in::record(in_sight.scene, std::span<const in::ping>(track), rig_,
-                                    in::record_options<>{}.with(equation), ex);
+            auto recorded = in::record(in_sight.scene, std::span<const in::ping>(track), rig_,
+                                       in::record_options<>{}.with(equation), ex);
             const auto cut = [&](auto& picture) {
                 picture =
                     std::remove_reference_t<decltype(picture)>(picture.view().part(0, before, picture.width(), count));
             };
-            cut(heard.image);
-            cut(heard.labels.instance);
-            cut(heard.labels.shadow);
-            cut(heard.labels.seabed);
-            heard.image = in::with_speckle(heard.image.view(), heard.labels.seabed.view(), speckle_,
-                                           {pings[static_cast<std::size_t>(before)].number, 1, looks}, ex);
-            return heard;
+            cut(recorded.image);
+            cut(recorded.labels.instance);
+            cut(recorded.labels.shadow);
+            cut(recorded.labels.seabed);
+            recorded.image = in::with_speckle(recorded.image.view(), recorded.labels.seabed.view(), speckle_,
+                                              {pings[static_cast<std::size_t>(before)].number, 1, looks}, ex);
+            return recorded;
         };
         auto both = in::both_sides(side(in::side::port), side(in::side::starboard));
         const auto global = [&](std::uint16_t& i) {

@@ -56,7 +56,7 @@ class csv_stream {
     std::ofstream file_;
 };
 
-/// Text of numbers, printf's way.
+/// Text of numbers, formatted by printf.
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
     char text[512];
@@ -73,7 +73,7 @@ class pages {
         std::copy(pixels.begin(), pixels.end(), page_.row(used_).begin());
         if (++used_ == page_.height()) finish();
     }
-    /// Writes what there is.
+    /// Writes the rows so far.
     void finish() {
         if (used_ == 0) return;
         const in::image<std::uint8_t> part(page_.view().part(0, 0, page_.width(), used_));

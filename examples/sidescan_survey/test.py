@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs a small survey and reads back what it left: test.py <sidescan_survey>"""
+"""Runs a small survey and reads its files back: test.py <sidescan_survey>"""
 
 import csv
 import hashlib
@@ -49,7 +49,7 @@ class Survey(unittest.TestCase):
             run("--out", self.folder / f"t{threads}", "--threads", threads, *SMALL)
         self.assertEqual(digest(self.folder / "t1"), digest(self.folder / "t3"))
 
-    def test_waterfall_labels_and_navigation_tell_one_story(self):
+    def test_waterfall_labels_and_navigation_agree(self):
         run("--out", self.folder, *SMALL)
         track = list(csv.DictReader((self.folder / "navigation.csv").read_text().splitlines()))
         image = read_pgm(self.folder / "waterfall.pgm")
@@ -74,7 +74,7 @@ class Survey(unittest.TestCase):
             quiet = int(0.8 * float(ping["altitude_over_bottom_m"]) / RANGE * BINS)
             self.assertLess(sum(row[BINS - quiet:BINS + quiet]) / (2 * quiet), 12)
 
-    def test_contacts_are_where_the_labels_are_and_as_high_as_their_shadows_say(self):
+    def test_contacts_match_the_labels_and_the_expected_shadows(self):
         run("--out", self.folder, *SMALL, "--length", "40", "--targets", "1", "--bottom", "ripples+mud", "--heave", "0")
         targets = read_pgm(self.folder / "targets.pgm")
         contacts = list(csv.DictReader((self.folder / "contacts.csv").read_text().splitlines()))
@@ -95,7 +95,7 @@ class Survey(unittest.TestCase):
                 self.assertEqual(c["shadow_is_cut"], "true")
             if last == BINS - 1 or c["first_ping"] == "0" or int(c["last_ping"]) == len(targets) - 1:
                 self.assertEqual(c["target_is_cut"], "true", c)
-            # Far from nadir and whole, a shadow ends where that of the vertex ends that casts farthest, whatever the
+            # A whole shadow far from nadir ends where that of the vertex ends that casts farthest, whatever the
             # target's shape and heading; the bottom's relief adds its own.
             if c["shadow_is_cut"] == "false" and c["target_is_cut"] == "false" and float(c["grazing_deg"]) < 35:
                 self.assertAlmostEqual(float(c["shadow_measured_m"]), float(c["shadow_theory_m"]),

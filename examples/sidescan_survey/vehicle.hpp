@@ -1,4 +1,4 @@
-// The vehicle: steers from way-point to way-point, heaves, and pings.
+// The vehicle: steers from way-point to way-point, heaves and sends pings.
 #pragma once
 
 #include <insonify/sonar/side_scan/side_scan.hpp>
@@ -16,15 +16,15 @@ namespace survey {
 
 namespace in = insonify;
 
-/// How it moves. Lengths are metres, times seconds.
+/// The vehicle's motion. Lengths are metres, times seconds.
 struct handling {
     double speed = 1.5, ping_rate = 15;
     double turn_rate = 6;          ///< degrees per second at most
     double altitude = 6;           ///< above the datum, on average
-    double altitude_change = 1.5;  ///< it rises and sinks by so much, slowly
-    double heave = 0.15;           ///< and by so much with the swell
+    double altitude_change = 1.5;  ///< amplitude of its slow rise and descent
+    double heave = 0.15;           ///< amplitude of its motion with the swell
     double heave_period = 7;
-    double arrival = 2;  ///< a way-point is reached so near
+    double arrival = 2;  ///< distance at which a way-point counts as reached
 };
 
 /// One ping and when it was sent.
@@ -82,10 +82,10 @@ inline std::vector<glm::dvec2> read_waypoints(const std::string& path) {
     return parse_waypoints(examples::read_input(path), path);
 }
 
-/// Goes along a list of way-points, a ping at a time; what it remembers doesn't grow.
+/// Follows a list of way-points, a ping at a time, in constant memory.
 class vehicle {
   public:
-    vehicle(const handling& h, std::span<const glm::dvec2> points) : how_(h), points_(points), place_(points[0]) {
+    vehicle(const handling& h, std::span<const glm::dvec2> points) : handling_(h), points_(points), place_(points[0]) {
         yaw_ = wanted();
     }
 
@@ -93,39 +93,39 @@ class vehicle {
     bool ping(fix& f) {
         while (next_ < points_.size() && is_there()) ++next_;
         if (next_ >= points_.size()) return false;
-        const double step = 1 / how_.ping_rate, time = static_cast<double>(number_) * step;
+        const double step = 1 / handling_.ping_rate, time = static_cast<double>(number_) * step;
         // The shorter way round, as fast as it can.
-        const double turn = 2 * in::numeric::pi, most = in::numeric::to_radians(how_.turn_rate) * step;
+        const double turn = 2 * in::numeric::pi, most = in::numeric::to_radians(handling_.turn_rate) * step;
         double off = wanted() - yaw_;
         off -= turn * static_cast<double>(in::numeric::floor_to_int(off / turn + 0.5));
         yaw_ += (std::min)((std::max)(off, -most), most);
         const auto [sine, cosine] = in::numeric::sin_cos(yaw_);
-        place_ += how_.speed * step * glm::dvec2(-sine, cosine);
+        place_ += handling_.speed * step * glm::dvec2(-sine, cosine);
 
         const auto wave = [&](double period) { return in::numeric::sin_cos_turns(time / period).sine; };
-        const double z =
-            how_.altitude + how_.altitude_change * wave(11 * how_.heave_period) + how_.heave * wave(how_.heave_period);
+        const double z = handling_.altitude + handling_.altitude_change * wave(11 * handling_.heave_period) +
+                         handling_.heave * wave(handling_.heave_period);
         f = {number_++, time, {{place_.x, place_.y, z}, yaw_}};
         return true;
     }
 
-    double spacing() const { return how_.speed / how_.ping_rate; }
+    double spacing() const { return handling_.speed / handling_.ping_rate; }
 
   private:
     double wanted() const {
         const glm::dvec2 to = points_[(std::min)(next_, points_.size() - 1)] - place_;
         return in::numeric::atan2(-to.x, to.y);
     }
-    /// Reached, or passed: what lies within the turning circle can't be steered for.
+    /// Reached, or passed: a way-point within the turning circle can't be reached.
     bool is_there() const {
         const glm::dvec2 to = points_[next_] - place_;
         const auto [sine, cosine] = in::numeric::sin_cos(yaw_);
         const double distance = in::numeric::square_root(to.x * to.x + to.y * to.y);
-        const double circle = 2 * how_.speed / in::numeric::to_radians(how_.turn_rate);
-        return distance < how_.arrival || (distance < circle && -to.x * sine + to.y * cosine < 0);
+        const double circle = 2 * handling_.speed / in::numeric::to_radians(handling_.turn_rate);
+        return distance < handling_.arrival || (distance < circle && -to.x * sine + to.y * cosine < 0);
     }
 
-    handling how_;
+    handling handling_;
     std::span<const glm::dvec2> points_;
     glm::dvec2 place_;
     double yaw_ = 0;

@@ -1221,6 +1221,10 @@ template <std::floating_point Number>
 void require_finite(std::string_view argument, Number value) {
     require(numeric::is_finite(value), argument, value, "finite");
 }
+template <std::floating_point Number>
+void require_positive(std::string_view argument, Number value) {
+    require(numeric::is_finite(value) && value > 0, argument, value, "finite and positive");
+}
 
 /// Calls the `validate` that a type brings along, if it brings one.
 template <class T>
@@ -2271,6 +2275,12 @@ concept pixel_function = requires(Fn& fn, const Pixel& pixel) {
     { detail::call_pixel(fn, pixel, 0, 0) } -> detail::storable;
 };
 
+/// Column and row of an image's first pixel, for filters that depend on the place: parts of an image that are filtered
+/// one by one pass theirs.
+struct pixel_origin {
+    int x = 0, y = 0;
+};
+
 /// Origin and size of an image, which may be part of a larger one.
 struct pixel_area {
     int x, y, width, height;
@@ -2958,6 +2968,106 @@ void apply_rule(const Rule& rule, const float* from, const float* draw, const fl
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/filter/parameter.hpp -------------------------------------------------------------
+// Parameters of filters: a number for all pixels, for each pixel or for each seabed type; correlation lengths of noise;
+// what pixels hold.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+
+namespace detail::inline INSONIFY_FLAGS {
+
+/// @throws invalid_input for a map of another size than the area
+inline void check_size(const std::string& name, int width, int height, const pixel_area& area) {
+    require(width == area.width, "width of the map for " + name, width, "that of the image");
+    require(height == area.height, "height of the map for " + name, height, "that of the image");
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
+/// One number for all pixels, or a map of the image's size. Views are read when the filter runs; their pixels have to
+/// exist until then.
+///
+///     in::speckle{.variance = 0.05f}
+///     in::speckle{.variance = variances.view()}
+///     in::speckle{.variance = {labels.seabed, {0.02f, 0.05f, 0.05f, 0.1f}}}   // by seabed::type
+class parameter {
+  public:
+    template <std::convertible_to<float> Number>
+        requires(std::is_arithmetic_v<Number>)
+    INSONIFY_MEMBER parameter(Number value) : values_{static_cast<float>(value)} {}
+
+    /// A number for each pixel.
+    INSONIFY_MEMBER parameter(image_view<const float> map) : map_(map) {}
+    INSONIFY_MEMBER parameter(image_view<float> map) : map_(map) {}
+
+    /// `values[type]` for a pixel of that type; types past the end take the last value.
+    /// @throws invalid_input for no values
+    INSONIFY_MEMBER parameter(image_view<const std::uint8_t> types, std::vector<float> values)
+        : values_(std::move(values)), types_(types), by_type_(true) {
+        detail::require(!values_.empty(), "values of a parameter by type", values_.size(), "at least 1");
+    }
+
+    INSONIFY_MEMBER bool is_constant() const { return !by_type_ && !values_.empty(); }
+
+    /// The number of all pixels. @pre is_constant()
+    INSONIFY_MEMBER float value() const { return values_.front(); }
+
+    /// Sets the image's origin and size before the first call of `row`.
+    /// @throws invalid_input for a map of another size
+    INSONIFY_TAGGED void prepare(const std::string& name, const pixel_area& area) {
+        x_ = area.x, y_ = area.y;
+        if (by_type_) {
+            detail::check_size(name, types_.width(), types_.height(), area);
+        } else if (!is_constant()) {
+            detail::check_size(name, map_.width(), map_.height(), area);
+        }
+    }
+
+    /// Writes the numbers of `count` pixels of a row, the first at (x, y), to `buffer`.
+    INSONIFY_TAGGED void row(float* buffer, int count, int x, int y) const {
+        if (by_type_) {
+            const std::uint8_t* const type = types_.row(y - y_).data() + (x - x_);
+            for (int i = 0; i < count; ++i) buffer[i] = values_[(std::min)(std::size_t{type[i]}, values_.size() - 1)];
+        } else if (values_.empty()) {
+            std::copy_n(map_.row(y - y_).data() + (x - x_), count, buffer);
+        } else {
+            std::fill_n(buffer, count, values_.front());
+        }
+    }
+
+    /// @throws invalid_input for a number that isn't `allowed`
+    template <std::predicate<float> Allowed>
+    INSONIFY_TAGGED void check(std::string_view name, const Allowed& allowed, std::string_view expected) const {
+        for (const float value : values_) detail::require(allowed(value), name, value, expected);
+        for (int y = 0; y < map_.height(); ++y)
+            for (const float value : map_.row(y)) detail::require(allowed(value), name, value, expected);
+    }
+
+  private:
+    std::vector<float> values_;  // one for all, or one for each type
+    image_view<const float> map_;
+    image_view<const std::uint8_t> types_;
+    bool by_type_ = false;
+    int x_ = 0, y_ = 0;
+};
+
+/// Distance in pixels at which the noise's autocorrelation has fallen to 1 / e; for echo noise, that of the intensity.
+/// 0: white noise. Between lengths of 0 and 1 the correlation of adjacent pixels rises from 0 to 1 / e.
+struct correlation_length {
+    float x = 0, y = 0;  ///< 0 to 16
+};
+
+/// What an image's pixels hold. An amplitude is the square root of an intensity.
+enum class echo { amplitude, intensity };
+
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/filter/detail/correlated.hpp -----------------------------------------------------
 // Correlated normal draws: white noise through a separable filter, row by row.
 
@@ -2965,12 +3075,6 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-
-/// Distance in pixels at which the noise's autocorrelation has fallen to 1 / e; for echo noise, that of the intensity.
-/// 0: white noise. Between lengths of 0 and 1 the correlation of adjacent pixels rises from 0 to 1 / e.
-struct correlation_length {
-    float x = 0, y = 0;  ///< 0 to 16
-};
 
 namespace detail::inline INSONIFY_FLAGS {
 
@@ -3231,96 +3335,6 @@ struct rejection_kernel {
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/filter/parameter.hpp -------------------------------------------------------------
-// Filter parameters: one number, a number for each pixel, or a number for each seabed type.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-
-namespace detail::inline INSONIFY_FLAGS {
-
-/// @throws invalid_input for a map of another size than the area
-inline void check_size(const std::string& name, int width, int height, const pixel_area& area) {
-    require(width == area.width, "width of the map for " + name, width, "that of the image");
-    require(height == area.height, "height of the map for " + name, height, "that of the image");
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-
-/// One number for all pixels, or a map of the image's size. Views are read when the filter runs; their pixels have to
-/// exist until then.
-///
-///     in::speckle{.variance = 0.05f}
-///     in::speckle{.variance = variances.view()}
-///     in::speckle{.variance = {labels.seabed, {0.02f, 0.05f, 0.05f, 0.1f}}}   // by seabed::type
-class parameter {
-  public:
-    template <std::convertible_to<float> Number>
-        requires(std::is_arithmetic_v<Number>)
-    INSONIFY_MEMBER parameter(Number value) : values_{static_cast<float>(value)} {}
-
-    /// A number for each pixel.
-    INSONIFY_MEMBER parameter(image_view<const float> map) : map_(map) {}
-    INSONIFY_MEMBER parameter(image_view<float> map) : map_(map) {}
-
-    /// `values[type]` for a pixel of that type; types past the end take the last value.
-    /// @throws invalid_input for no values
-    INSONIFY_MEMBER parameter(image_view<const std::uint8_t> types, std::vector<float> values)
-        : values_(std::move(values)), types_(types), by_type_(true) {
-        detail::require(!values_.empty(), "values of a parameter by type", values_.size(), "at least 1");
-    }
-
-    INSONIFY_MEMBER bool is_constant() const { return !by_type_ && !values_.empty(); }
-
-    /// The number of all pixels. @pre is_constant()
-    INSONIFY_MEMBER float value() const { return values_.front(); }
-
-    /// Sets the image's origin and size before the first call of `row`.
-    /// @throws invalid_input for a map of another size
-    INSONIFY_TAGGED void prepare(const std::string& name, const pixel_area& area) {
-        x_ = area.x, y_ = area.y;
-        if (by_type_) {
-            detail::check_size(name, types_.width(), types_.height(), area);
-        } else if (!is_constant()) {
-            detail::check_size(name, map_.width(), map_.height(), area);
-        }
-    }
-
-    /// Writes the numbers of `count` pixels of a row, the first at (x, y), to `buffer`.
-    INSONIFY_TAGGED void row(float* buffer, int count, int x, int y) const {
-        if (by_type_) {
-            const std::uint8_t* const type = types_.row(y - y_).data() + (x - x_);
-            for (int i = 0; i < count; ++i) buffer[i] = values_[(std::min)(std::size_t{type[i]}, values_.size() - 1)];
-        } else if (values_.empty()) {
-            std::copy_n(map_.row(y - y_).data() + (x - x_), count, buffer);
-        } else {
-            std::fill_n(buffer, count, values_.front());
-        }
-    }
-
-    /// @throws invalid_input for a number that isn't `allowed`
-    template <std::predicate<float> Allowed>
-    INSONIFY_TAGGED void check(std::string_view name, const Allowed& allowed, std::string_view expected) const {
-        for (const float value : values_) detail::require(allowed(value), name, value, expected);
-        for (int y = 0; y < map_.height(); ++y)
-            for (const float value : map_.row(y)) detail::require(allowed(value), name, value, expected);
-    }
-
-  private:
-    std::vector<float> values_;  // one for all, or one for each type
-    image_view<const float> map_;
-    image_view<const std::uint8_t> types_;
-    bool by_type_ = false;
-    int x_ = 0, y_ = 0;
-};
-
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/filter/detail/echo_law.hpp -------------------------------------------------------
 // The echo law as a noise pass: draws intensities of mean 1 and multiplies pixels by them or by their square roots.
 
@@ -3330,9 +3344,6 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-
-/// What an image's pixels hold. An amplitude is the square root of an intensity.
-enum class echo { amplitude, intensity };
 
 namespace detail::inline INSONIFY_FLAGS {
 
@@ -4507,12 +4518,6 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// Column and row of an image's first pixel, for filters that depend on the place: parts of an image that are filtered
-/// one by one pass theirs.
-struct pixel_origin {
-    int x = 0, y = 0;
-};
-
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Applies a pass to at most run_length adjacent pixels of a row; `to` may be `from`.
@@ -5274,7 +5279,7 @@ inline affine to_world(const pose& p) {
     require_finite("pose.pitch", p.pitch);
     require_finite("pose.roll", p.roll);
     require_finite("pose.burial", p.burial);
-    detail::require(numeric::is_finite(p.scale) && p.scale > 0, "pose.scale", p.scale, "finite and positive");
+    detail::require_positive("pose.scale", p.scale);
 
     const auto [sy, cy] = numeric::sin_cos(static_cast<double>(p.yaw));
     const auto [sp, cp] = numeric::sin_cos(static_cast<double>(p.pitch));
@@ -5414,9 +5419,8 @@ inline namespace INSONIFY_FLAGS {
 /// @param radius, chord_error  in the same unit, finite and positive
 /// @throws invalid_input for other values, or if more than 2^20 segments were needed
 inline int segments_for(float radius, float chord_error) {
-    detail::require(numeric::is_finite(radius) && radius > 0, "radius", radius, "finite and positive");
-    detail::require(numeric::is_finite(chord_error) && chord_error > 0, "chord_error", chord_error,
-                    "finite and positive");
+    detail::require_positive("radius", radius);
+    detail::require_positive("chord_error", chord_error);
     const double ratio = static_cast<double>(chord_error) / static_cast<double>(radius);
     if (ratio >= 0.5) return 3;  // a triangle's edges are r / 2 away
 
@@ -5573,10 +5577,8 @@ inline namespace INSONIFY_FLAGS {
 /// @throws invalid_input for a radius or height that is not finite and positive, a top radius that is not finite or
 ///         negative, or segments outside 3 to 2^20
 inline mesh to_mesh(const cone& shape) {
-    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "cone.radius", shape.radius,
-                    "finite and positive");
-    detail::require(numeric::is_finite(shape.height) && shape.height > 0, "cone.height", shape.height,
-                    "finite and positive");
+    detail::require_positive("cone.radius", shape.radius);
+    detail::require_positive("cone.height", shape.height);
     detail::require(numeric::is_finite(shape.top_radius) && shape.top_radius >= 0, "cone.top_radius", shape.top_radius,
                     "finite and at least 0");
     const auto radius = static_cast<double>(shape.radius);
@@ -5629,8 +5631,7 @@ inline namespace INSONIFY_FLAGS {
 inline mesh to_mesh(const cube& shape) {
     mesh out;
     for (int along = 0; along < 3; ++along) {
-        detail::require(numeric::is_finite(shape.size[along]) && shape.size[along] > 0, "cube.size", shape.size[along],
-                        "finite and positive");
+        detail::require_positive("cube.size", shape.size[along]);
         for (const float side : {-1.0f, 1.0f}) {
             // Across the face the axes follow cyclically; on the negative side they change places to face outwards.
             const int u = (along + (side > 0 ? 1 : 2)) % 3;
@@ -5685,10 +5686,8 @@ inline namespace INSONIFY_FLAGS {
 /// 4 segments + 2 vertices, of which the rims have two sets, one for each normal.
 /// @throws invalid_input for a radius or length that is not finite and positive, or segments outside 3 to 2^20
 inline mesh to_mesh(const cylinder& shape) {
-    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "cylinder.radius", shape.radius,
-                    "finite and positive");
-    detail::require(numeric::is_finite(shape.length) && shape.length > 0, "cylinder.length", shape.length,
-                    "finite and positive");
+    detail::require_positive("cylinder.radius", shape.radius);
+    detail::require_positive("cylinder.length", shape.length);
     const auto radius = static_cast<double>(shape.radius);
     const double half = 0.5 * static_cast<double>(shape.length);
     const std::array<outline_point, 6> outline = {{{0, -half, 0, -1},
@@ -5703,8 +5702,7 @@ inline mesh to_mesh(const cylinder& shape) {
 /// @throws invalid_input for a radius that is not finite and positive, a length that is not finite or below 2 radius,
 ///         or segments outside 3 to 8192
 inline mesh to_mesh(const capsule& shape) {
-    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "capsule.radius", shape.radius,
-                    "finite and positive");
+    detail::require_positive("capsule.radius", shape.radius);
     detail::require(numeric::is_finite(shape.length) && shape.length >= 2 * shape.radius, "capsule.length",
                     shape.length, "finite and at least twice the radius");
     detail::require_round_segments("capsule.segments", shape.segments);
@@ -6661,7 +6659,7 @@ inline mesh stretched_round(const std::vector<outline_point>& outline, const cha
     if (aspect == glm::vec3(1)) return out;
     affine stretch;
     for (int i = 0; i < 3; ++i) {
-        require(numeric::is_finite(aspect[i]) && aspect[i] > 0, name, aspect[i], "finite and positive");
+        require_positive(name, aspect[i]);
         stretch.linear[i][i] = static_cast<double>(aspect[i]);
     }
     return transformed(std::move(out), stretch);
@@ -6674,8 +6672,7 @@ inline namespace INSONIFY_FLAGS {
 /// Closed by index: every vertex is shared, and the poles are one vertex each.
 /// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
 inline mesh to_mesh(const sphere& shape) {
-    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "sphere.radius", shape.radius,
-                    "finite and positive");
+    detail::require_positive("sphere.radius", shape.radius);
     detail::require_round_segments("sphere.segments", shape.segments);
     std::vector<outline_point> outline;
     detail::append_arc(outline, static_cast<double>(shape.radius), 0.0, 0.0, 0.5, (shape.segments + 1) / 2);
@@ -6684,8 +6681,7 @@ inline mesh to_mesh(const sphere& shape) {
 
 /// @throws invalid_input for a radius or aspect that is not finite and positive, or segments outside 3 to 8192
 inline mesh to_mesh(const hemisphere& shape) {
-    detail::require(numeric::is_finite(shape.radius) && shape.radius > 0, "hemisphere.radius", shape.radius,
-                    "finite and positive");
+    detail::require_positive("hemisphere.radius", shape.radius);
     detail::require_round_segments("hemisphere.segments", shape.segments);
     const auto radius = static_cast<double>(shape.radius);
     std::vector<outline_point> outline = {{0, 0, 0, -1}, {radius, 0, 0, -1}};
@@ -8072,6 +8068,26 @@ void by_stretches(const scanline& line, std::span<float> heights, Fill&& fill) {
     }
 }
 
+/// Kernel that calls `model.add_lanes<N>(part, values)`: adds a model's relief along a stretch to its values.
+template <class Model>
+struct relief_kernel {
+    static constexpr int widest = 16;
+
+    const Model& model;
+    const stretch& part;
+    float* values;
+
+    template <int N>
+    INSONIFY_INLINE void run() const {
+        model.template add_lanes<N>(part, values);
+    }
+};
+
+template <class Model>
+void add_relief(const Model& model, const stretch& part, stretch_values& values, isa level) {
+    dispatch(relief_kernel<Model>{model, part, values.data()}, level);
+}
+
 /// Concatenates two halves.
 template <int N, class Whole, class Half>
 INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
@@ -8139,11 +8155,24 @@ INSONIFY_INLINE constexpr void fade(T& into, const T& t) {
 constexpr float fade(float t) {
     return t * t * t * (t * (t * 6 - 15) + 10);
 }
+/// Catmull-Rom interpolation from the second (t = 0) to the third (t = 1) of four values.
+template <class T>
+INSONIFY_INLINE void catmull_rom(T& into, const T (&p)[4], const T& t) {
+    const T b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2.0f * p[2] - 0.5f * p[3],
+            d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
+    into = p[1] + t * (b + t * (c + t * d));
+}
 constexpr float mix(float a, float b, float t) {
     return a + t * (b - a);
 }
 [[nodiscard]] constexpr float clamp01(float t) {
     return t < 0 ? 0 : t > 1 ? 1 : t;
+}
+/// (1 - r^2)^2: 1 in the middle; its value and slope are 0 from a distance of 1 on.
+template <class T>
+constexpr T brush(T r) {
+    const T inside = r * r < 1 ? 1 - r * r : T(0);
+    return inside * inside;
 }
 template <class Lanes>
 INSONIFY_INLINE void clamp_lanes(Lanes& t) {
@@ -8332,7 +8361,9 @@ class power_law_noise {
     }
 
     /// Adds the relief along a stretch to its values, metres.
-    void add(const detail::stretch& part, detail::stretch_values& values, isa level = best_isa()) const;
+    void add(const detail::stretch& part, detail::stretch_values& values, isa level = best_isa()) const {
+        if (!octaves_.empty()) detail::add_relief(*this, part, values, level);
+    }
 
     /// Upper bound of the relief's absolute value, metres.
     double upper_bound() const {
@@ -8345,33 +8376,23 @@ class power_law_noise {
     double rms_slope() const { return slope_; }
 
   private:
+    friend detail::relief_kernel<power_law_noise>;
+
     struct octave {
         gradient_noise noise;
         float amplitude;
     };
-    struct kernel {
-        static constexpr int widest = 16;
-
-        const power_law_noise& noise;
-        const detail::stretch& part;
-        float* values;
-
-        template <int N>
-        INSONIFY_INLINE void run() const {
-            for (const octave& o : noise.octaves_) {
-                const float kept = o.noise.carried_by(part);
-                if (kept == 0) break;  // finer octaves are not carried either
-                o.noise.template add<N>(part, kept * o.amplitude, values);
-            }
+    template <int N>
+    INSONIFY_INLINE void add_lanes(const detail::stretch& part, float* values) const {
+        for (const octave& o : octaves_) {
+            const float kept = o.noise.carried_by(part);
+            if (kept == 0) break;  // finer octaves are not carried either
+            o.noise.template add<N>(part, kept * o.amplitude, values);
         }
-    };
+    }
     std::vector<octave> octaves_;
     double slope_ = 0;
 };
-
-inline void power_law_noise::add(const detail::stretch& part, detail::stretch_values& values, isa level) const {
-    if (!octaves_.empty()) detail::dispatch(kernel{*this, part, values.data()}, level);
-}
 
 }  // namespace seabed::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
@@ -8503,7 +8524,7 @@ class round_marks {
     }
 
     void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
-        if (filled_ > 0) dispatch(kernel{*this, part, values.data()}, level);
+        if (filled_ > 0) add_relief(*this, part, values, level);
     }
 
     /// The largest dent and the largest bump, metres.
@@ -8511,53 +8532,48 @@ class round_marks {
     double highest() const { return 1.00001 * static_cast<double>(mound_); }
 
   private:
-    struct kernel {
-        static constexpr int widest = 16;
+    friend relief_kernel<round_marks>;
 
-        const round_marks& marks;
-        const stretch& part;
-        float* values;
+    template <int N>
+    INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
+        const lattice& l = lattice_;
+        const float kept = carried(1 / l.frequency, part.grid_spacing);  // the largest span half a cell
+        if (kept == 0) return;
+        const lattice_coordinate v(l.v(part.y));
+        const cell_hash::row hash = hash_[v.cell];
+        visit_columns(l, part, 0, [&](std::int64_t first, std::int64_t count) INSONIFY_INLINE_LAMBDA {
+            for (std::int64_t column = first; column < first + count; ++column)
+                add_mark<N>(part, values, kept, v.fraction, column, hash(column));
+        });
+    }
 
-        template <int N>
-        INSONIFY_INLINE void run() const {
-            const lattice& l = marks.lattice_;
-            const float kept = carried(1 / l.frequency, part.grid_spacing);  // the largest span half a cell
-            if (kept == 0) return;
-            const lattice_coordinate v(l.v(part.y));
-            const cell_hash::row hash = marks.hash_[v.cell];
-            visit_columns(l, part, 0, [&](std::int64_t first, std::int64_t count) INSONIFY_INLINE_LAMBDA {
-                for (std::int64_t column = first; column < first + count; ++column)
-                    draw<N>(kept, v.fraction, column, hash(column));
-            });
+    template <int N>
+    INSONIFY_INLINE void add_mark(const stretch& part, float* values, float kept, float up, std::int64_t column,
+                                  std::uint64_t bits) const {
+        const lattice& l = lattice_;
+        const signed_pair centre(bits), traits(scramble(bits));
+        const float chance = 0.5f * traits.b + 0.5f;
+        if (chance >= filled_) return;
+        const float radius = 0.175f + 0.075f * traits.a;  // in cells; a quarter at most
+        const float y = up - (0.5f + 0.25f * centre.b);
+        const float y_square = y * y, inverse_square = 1 / (radius * radius);
+        if (y_square >= radius * radius) return;
+        const float height = kept * ((chance < high_ ? mound_ : pock_) * (radius * 4));
+
+        const double middle = 0.5 + 0.25 * static_cast<double>(centre.a), reach = static_cast<double>(radius);
+        const double left = static_cast<double>(column) + middle;
+        const double cell = 1 / l.frequency;
+        const stretch::range reached = part.within((left - reach) * cell, (left + reach) * cell);
+        for (std::size_t i = reached.begin; i < reached.end; i += N) {
+            lanes<float, N> dx, inside, sum;
+            offsets<N>(dx, &part.x[i], l.frequency, -left);
+            inside = 1.0f - (dx * dx + y_square) * inverse_square;
+            clamp_lanes(inside);
+            insonify::detail::load(sum, values + i);
+            sum = sum + height * inside * inside;
+            insonify::detail::store(values + i, sum);
         }
-
-        template <int N>
-        INSONIFY_INLINE void draw(float kept, float up, std::int64_t column, std::uint64_t bits) const {
-            const lattice& l = marks.lattice_;
-            const signed_pair centre(bits), traits(scramble(bits));
-            const float chance = 0.5f * traits.b + 0.5f;
-            if (chance >= marks.filled_) return;
-            const float radius = 0.175f + 0.075f * traits.a;  // in cells; a quarter at most
-            const float y = up - (0.5f + 0.25f * centre.b);
-            const float y_square = y * y, inverse_square = 1 / (radius * radius);
-            if (y_square >= radius * radius) return;
-            const float height = kept * ((chance < marks.high_ ? marks.mound_ : marks.pock_) * (radius * 4));
-
-            const double middle = 0.5 + 0.25 * static_cast<double>(centre.a), reach = static_cast<double>(radius);
-            const double left = static_cast<double>(column) + middle;
-            const double cell = 1 / l.frequency;
-            const stretch::range reached = part.within((left - reach) * cell, (left + reach) * cell);
-            for (std::size_t i = reached.begin; i < reached.end; i += N) {
-                lanes<float, N> dx, inside, sum;
-                offsets<N>(dx, &part.x[i], l.frequency, -left);
-                inside = 1.0f - (dx * dx + y_square) * inverse_square;
-                clamp_lanes(inside);
-                insonify::detail::load(sum, values + i);
-                sum = sum + height * inside * inside;
-                insonify::detail::store(values + i, sum);
-            }
-        }
-    };
+    }
 
     lattice lattice_;
     cell_hash hash_{0, stream::mounds};
@@ -8640,14 +8656,6 @@ INSONIFY_INLINE void turns(lanes<float, N>& into, const double* x, double freque
         join<N>(into, part[0], part[1]);
 }
 
-/// Catmull-Rom between the second and the third of four values.
-template <class Lanes>
-INSONIFY_INLINE void between(Lanes& into, const Lanes (&p)[4], const Lanes& t) {
-    const Lanes b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2.0f * p[2] - 0.5f * p[3],
-                d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
-    into = p[1] + t * (b + t * (c + t * d));
-}
-
 /// Evaluates a `ripple_system`.
 class ripple_train {
   public:
@@ -8670,7 +8678,9 @@ class ripple_train {
     }
 
     /// Adds the relief along a stretch to its values, metres.
-    void add(const stretch& part, stretch_values& values, isa level = best_isa()) const;
+    void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
+        if (half_height_ > 0 && carried(wavelength_, part.grid_spacing) > 0) add_relief(*this, part, values, level);
+    }
 
     /// Upper bound of the relief's absolute value, metres: the profile is within half the height, up to the carrier's
     /// error of 2e-6, which the sharpest crests multiply by 19.
@@ -8693,6 +8703,8 @@ class ripple_train {
     }
 
   private:
+    friend relief_kernel<ripple_train>;
+
     static constexpr std::size_t block = 32;    // lattice points whose rotations are tabulated
     static constexpr std::size_t points = 256;  // size of the table that a stretch shares
 
@@ -8743,19 +8755,6 @@ class ripple_train {
         const double side = u < 0.5 ? numeric::square_root(2 * u) - 1 : 1 - numeric::square_root(2 - 2 * u);
         return side * 2.449489742783178;
     }
-
-    struct kernel {
-        static constexpr int widest = 16;
-
-        const ripple_train& train;
-        const stretch& part;
-        float* values;
-
-        template <int N>
-        INSONIFY_INLINE void run() const {
-            train.add_lanes<N>(part, values);
-        }
-    };
 
     /// The envelope at `count` points of the lattice; writes whole vectors.
     template <int N>
@@ -8840,8 +8839,8 @@ class ripple_train {
             };
             stencil(stencil_re, table_re.data());
             stencil(stencil_im, table_im.data());
-            between(a, stencil_re, across);
-            between(b, stencil_im, across);
+            catmull_rom(a, stencil_re, across);
+            catmull_rom(b, stencil_im, across);
 
             lanes<float, N> phase;
             turns<N>(phase, &part.x[i], carrier_x_, across_rows);
@@ -8863,11 +8862,6 @@ class ripple_train {
     double step_ = 1, wavelength_;
     float half_height_, sharpness_;
 };
-
-inline void ripple_train::add(const stretch& part, stretch_values& values, isa level) const {
-    if (half_height_ > 0 && carried(wavelength_, part.grid_spacing) > 0)
-        dispatch(kernel{*this, part, values.data()}, level);
-}
 
 }  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
@@ -8912,7 +8906,7 @@ class trawl_furrows {
     }
 
     void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
-        if (!families_.empty()) dispatch(kernel{*this, part, values.data()}, level);
+        if (!families_.empty()) add_relief(*this, part, values, level);
     }
 
     /// Bounds of the relief where furrows, or berms, of all directions cross, metres.
@@ -8920,26 +8914,20 @@ class trawl_furrows {
     double highest() const { return -0.3 * lowest(); }
 
   private:
+    friend relief_kernel<trawl_furrows>;
+
     /// Furrows of one direction.
     struct family {
         double cosine, sine, per_lane, per_length, per_bend;  // the last three per metre
     };
-    struct kernel {
-        static constexpr int widest = 16;
 
-        const trawl_furrows& furrows;
-        const stretch& part;
-        float* values;
-
-        template <int N>
-        INSONIFY_INLINE void run() const {
-            const float kept = carried(2 * furrows.width_, part.grid_spacing);  // a furrow between its berms
-            if (kept == 0) return;
-            for (std::size_t n = 0; n < furrows.families_.size(); ++n)
-                for (std::size_t i = 0; i < part.whole(); i += N)
-                    furrows.add_family<N>(furrows.families_[n], n, kept, part, i, values + i);
-        }
-    };
+    template <int N>
+    INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
+        const float kept = carried(2 * width_, part.grid_spacing);  // a furrow between its berms
+        if (kept == 0) return;
+        for (std::size_t n = 0; n < families_.size(); ++n)
+            for (std::size_t i = 0; i < part.whole(); i += N) add_family<N>(families_[n], n, kept, part, i, values + i);
+    }
 
     template <int N>
     INSONIFY_INLINE void add_family(const family& f, std::size_t n, float kept, const stretch& part, std::size_t i,
@@ -9435,27 +9423,16 @@ class rock_sampler {
     height_range range() const {
         double blocks = 0;
         for (const detail::block_layer& layer : blocks_) blocks += layer.upper_bound();
-        // See add_relief: the top of an outcrop, and the fraction of its blocks' height that rises above it.
+        // See add_lanes: the top of an outcrop, and the fraction of its blocks' height that rises above it.
         const double top = 1.00001 * (0.4 * static_cast<double>(relief_) + 0.8 * blocks);
         return {-surface_.upper_bound(), surface_.upper_bound() + top};
     }
 
   private:
-    struct kernel {
-        static constexpr int widest = 16;
-
-        const rock_sampler& rock;
-        const detail::stretch& part;
-        float* values;
-
-        template <int N>
-        INSONIFY_INLINE void run() const {
-            rock.add_relief<N>(part, values);
-        }
-    };
+    friend detail::relief_kernel<rock_sampler>;
 
     template <int N>
-    INSONIFY_INLINE void add_relief(const detail::stretch& part, float* heights) const {
+    INSONIFY_INLINE void add_lanes(const detail::stretch& part, float* heights) const {
         using lanes = insonify::detail::lanes<float, N>;
         using insonify::detail::load;
         using insonify::detail::store;
@@ -9511,7 +9488,7 @@ inline namespace INSONIFY_FLAGS {
 
 inline void rock_sampler::row(const scanline& line, std::span<float> heights) const {
     detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
-        if (relief_ > 0) detail::dispatch(kernel{*this, part, values.data()}, best_isa());
+        if (relief_ > 0) detail::add_relief(*this, part, values, best_isa());
         surface_.add(part, values);
     });
 }
@@ -10844,7 +10821,7 @@ struct pixel_difference {
     /// @param peak  the largest value a pixel can take, finite and positive: 1 for the library's floats, 255 for bytes
     /// @throws invalid_input for another peak
     INSONIFY_TAGGED double psnr(double peak) const {
-        detail::require(numeric::is_finite(peak) && peak > 0, "peak", peak, "finite and positive");
+        detail::require_positive("peak", peak);
         if (mean_square == 0) return std::numeric_limits<double>::infinity();
         constexpr double decibels = 20 / 2.302585092994045684;  // 20 / ln 10
         return decibels * (numeric::log(peak) - 0.5 * numeric::log(mean_square));
@@ -20776,6 +20753,14 @@ inline void validate_points(const std::vector<glm::dvec2>& points, const char* n
         require(numeric::is_finite(p.y), name, p.y, "finite positions");
     }
 }
+inline void require_position(const char* name, const glm::dvec2& p) {
+    require(p.x >= -1e9 && p.x <= 1e9, name, p.x, "within 1e9 metres");
+    require(p.y >= -1e9 && p.y <= 1e9, name, p.y, "within 1e9 metres");
+}
+inline void require_metres(const char* name, float value, bool positive) {
+    require((positive ? value > 0 : value >= 0) && value < 1e6f, name, value,
+            positive ? "metres above 0" : "metres, at least 0");
+}
 inline void validate(const band& b) {
     validate_points(b.path, "band.path", 1);
     require(b.width >= 0 && b.width < 1e9f, "band.width", b.width, "metres, at least 0");
@@ -21228,598 +21213,6 @@ void by_parts(const scanline& line, std::span<float> heights, std::span<type> ty
 
 INSONIFY_ARITHMETIC_END
 
-// ------------ insonify/seabed/blend.hpp -----------------------------------------------------------------
-// Blends of two seabeds: patches of one in the other, with natural borders and a label at every point.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace seabed {
-
-inline namespace INSONIFY_FLAGS {
-
-class blend_sampler;
-
-}  // namespace INSONIFY_FLAGS
-
-/// Patches of `first` in `second`, placed by a noise that exceeds a threshold. Across the border one relief sinks below
-/// the other, so that ripples end in tips within about a border's width.
-struct blend {
-    any first = ripples{};
-    any second = flat{};
-    float coverage = 0.5f;  ///< in [0, 1]: fraction of the area that is `first`, over many patches
-    float patch = 12.0f;    ///< metres, > 0: scale of the patches
-    float border = 0.6f;    ///< metres, in (0, patch]: typical width of borders, about a ripple or two
-    std::uint64_t seed = 1;
-
-    /// @throws invalid_input for parameters out of their range
-    INSONIFY_TAGGED blend_sampler prepare() const;
-    INSONIFY_TAGGED std::vector<type_properties> legend() const {
-        std::vector<type_properties> all = first.legend();
-        extend(all, second.legend());
-        return all;
-    }
-};
-
-inline namespace INSONIFY_FLAGS {
-
-/// Evaluates `blend`.
-class blend_sampler {
-  public:
-    explicit blend_sampler(const blend& b)
-        : first_(b.first.prepare()),
-          second_(b.second.prepare()),
-          where_(patches_of(b), b.border, 0, b.seed, 0),
-          edge_(b.border, (std::max)(b.first.sink_depth(), b.second.sink_depth())) {}
-
-    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
-        const auto second = [&](const scanline& l, std::span<float> h, std::span<type> t) { second_.row(l, h, t); };
-        detail::by_parts(line, heights, types, [&](const scanline& l, std::span<float> h, std::span<type> t) {
-            detail::lay_over(where_, edge_, first_, l, h, t, second);
-        });
-    }
-
-    height_range range() const { return merge(first_.range(), second_.range()); }
-
-  private:
-    static patches patches_of(const blend& b) {
-        detail::require(b.coverage >= 0 && b.coverage <= 1, "blend.coverage", b.coverage, "0 to 1");
-        detail::require(b.patch > 0 && b.patch < 1e6f, "blend.patch", b.patch, "metres above 0");
-        detail::require(b.border >= 1e-3f && b.border <= b.patch, "blend.border", b.border,
-                        "metres from 0.001 to blend.patch");
-        return {b.coverage, b.patch};
-    }
-
-    any_sampler first_, second_;
-    detail::outline where_;
-    detail::border edge_;
-};
-
-}  // namespace INSONIFY_FLAGS
-
-inline blend_sampler blend::prepare() const {
-    return blend_sampler(*this);
-}
-
-}  // namespace seabed
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/detailed.hpp --------------------------------------------------------------
-// Adds relief finer than the grid to a coarse survey: multibeam maps of a metre's spacing lack what a sonar of
-// centimetres resolves.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace seabed {
-
-inline namespace INSONIFY_FLAGS {
-
-class detailed_sampler;
-
-}  // namespace INSONIFY_FLAGS
-
-/// A heightfield with cubic interpolation between its vertices, plus roughness.
-///
-/// To continue the survey's spectrum, set the roughness's longest cell to the survey's spacing: a sediment's relief of
-/// wavelengths below L metres has an rms of facts_of(sediment).rms() L^0.625.
-struct detailed {
-    heightfield field{};
-    roughness surface{.rms = 0.01f, .longest = 1, .shortest = 0.06f};
-    std::uint64_t seed = 1;
-
-    /// By reference: the heightfield has to outlive the sampler.
-    /// @throws invalid_input as `validate` of heightfields, and for parameters of the roughness out of their range
-    INSONIFY_TAGGED detailed_sampler prepare() const;
-    INSONIFY_MEMBER std::optional<type> only_type() const { return field.only_type(); }
-    INSONIFY_MEMBER std::vector<type_properties> legend() const { return field.legend(); }
-};
-
-inline namespace INSONIFY_FLAGS {
-
-/// Evaluates `detailed`.
-class detailed_sampler {
-  public:
-    explicit detailed_sampler(const detailed& d)
-        : field_(&d.field), surface_(d.surface, d.seed, detail::stream::survey) {
-        validate(d.field);
-    }
-
-    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
-        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
-            for (std::size_t i = 0; i < part.count; ++i) values[i] = smooth_at(part.x[i], part.y);
-            surface_.add(part, values);
-        });
-        for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
-    }
-
-    /// Catmull-Rom's negative weights add up to 1/8 at most: rows overshoot the range by 1/8 at either end, and columns
-    /// of rows by 1/8 of the resulting five quarters more.
-    height_range range() const {
-        const height_range field = field_->prepare().range();
-        const double over = 0.2813 * (field.highest - field.lowest) + surface_.upper_bound();
-        return field.empty() ? field : height_range{field.lowest - over, field.highest + over};
-    }
-
-  private:
-    /// Catmull-Rom interpolation in both directions; beside missing vertices, the facets of the mesh.
-    float smooth_at(double x, double y) const {
-        const image<float>& h = field_->heights;
-        const detail::grid_coordinate u((x - field_->origin.x) / field_->spacing, h.width() - 1),
-            v((y - field_->origin.y) / field_->spacing, h.height() - 1);
-        const auto held = [](int i, int size) { return i < 0 ? 0 : i < size ? i : size - 1; };
-        float column[4];
-        for (int j = 0; j < 4; ++j) {
-            const int row = held(v.cell - 1 + j, h.height());
-            float p[4];
-            for (int i = 0; i < 4; ++i) p[i] = h(held(u.cell - 1 + i, h.width()), row);
-            column[j] = between(p, static_cast<float>(u.across));
-        }
-        const float height = between(column, static_cast<float>(v.across));
-        return numeric::is_finite(height) ? height : field_->height_at(x, y);
-    }
-    static float between(const float (&p)[4], float t) {
-        const float b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2 * p[2] - 0.5f * p[3],
-                    d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
-        return p[1] + t * (b + t * (c + t * d));
-    }
-
-    const heightfield* field_;
-    power_law_noise surface_;
-};
-
-}  // namespace INSONIFY_FLAGS
-
-inline detailed_sampler detailed::prepare() const {
-    return detailed_sampler(*this);
-}
-
-}  // namespace seabed
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/moat.hpp ------------------------------------------------------------------
-// Scour around an object: a moat along its outline and a mound of sediment down-current.
-//
-// Sources: Richard J. S. Whitehouse. Scour at Marine Structures: A Manual for Practical Applications, 1998 (scour is
-// deepest up-current, and half of that in the lee). G. F. Caston. Wreck marks: indicators of net sand transport. Marine
-// Geology 33, 1979 (tails of sand down-current of wrecks). Around piles in sand the depth reaches 1.38 diameters (R. J.
-// S. Whitehouse and others. The nature of scour development and scour protection at offshore windfarm foundations.
-// Marine Pollution Bulletin 62, 2011).
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace seabed {
-
-/// Scour around a footprint of any outline; see `scour` for round ones. The ground below the middle of the footprint
-/// keeps its height, so that the target still rests on it.
-struct moat {
-    std::vector<glm::dvec2> outline{
-        {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  ///< of the target on the ground, 3 to 4096 corners
-    float depth = 0.3f;                       ///< metres, >= 0, on the upstream side; half of it in the lee
-    float width = 1.5f;                       ///< metres, > 0: from the outline to the end of the moat
-    float current = 0;                        ///< radians from +x: where it flows to
-    float mound = 0.15f;                      ///< height of the deposit down-current, metres, >= 0
-    float tail = 6;                           ///< its length, metres, >= 0; 0: none
-};
-
-namespace detail::inline INSONIFY_FLAGS {
-
-inline void validate(const moat& m) {
-    validate_points(m.outline, "moat.outline", 3);
-    require(m.outline.size() <= 4096, "moat.outline.size()", m.outline.size(), "at most 4096");
-    for (const glm::dvec2& p : m.outline) {
-        require(p.x >= -1e9 && p.x <= 1e9, "moat.outline", p.x, "within 1e9 metres");
-        require(p.y >= -1e9 && p.y <= 1e9, "moat.outline", p.y, "within 1e9 metres");
-    }
-    require(m.depth >= 0 && m.depth < 1e6f, "moat.depth", m.depth, "metres, at least 0");
-    require(m.width > 0 && m.width < 1e6f, "moat.width", m.width, "metres above 0");
-    require(m.mound >= 0 && m.mound < 1e6f, "moat.mound", m.mound, "metres, at least 0");
-    require(m.tail >= 0 && m.tail < 1e6f, "moat.tail", m.tail, "metres, at least 0");
-    require(numeric::is_finite(m.current), "moat.current", m.current, "a finite angle");
-}
-
-/// (1 - t^2)^2: 1 at 0, and 0 with its slope from 1 on.
-constexpr double soft_edge(double t) {
-    const double inside = t * t < 1 ? 1 - t * t : 0.0;
-    return inside * inside;
-}
-
-/// Upper bound of a moat's distance from the corners of its outline.
-inline double moat_reach(const moat& m) {
-    // The tail is as wide as the outline, whose corners may all lie to one side of it.
-    double square = 0;
-    for (const glm::dvec2& p : m.outline) {
-        const glm::dvec2 off = p - m.outline.front();
-        square = (std::max)(square, off.x * off.x + off.y * off.y);
-    }
-    return numeric::square_root(square) + static_cast<double>(m.width) + static_cast<double>(m.tail);
-}
-
-/// Change of the ground's height at a position, metres.
-inline double moat_change(const moat& m, const glm::dvec2& p) {
-    const numeric::sine_cosine flow = numeric::sin_cos(static_cast<double>(m.current));
-    // Along the current and across it, of the outline and of the position, from the outline's mean corner.
-    glm::dvec2 centre(0, 0);
-    for (const glm::dvec2& c : m.outline) centre += c / static_cast<double>(m.outline.size());
-    const auto turned = [&](const glm::dvec2& q) {
-        const glm::dvec2 off = q - centre;
-        return glm::dvec2(off.x * flow.cosine + off.y * flow.sine, off.y * flow.cosine - off.x * flow.sine);
-    };
-    double lee_end = 0, left = 0, right = 0;
-    for (const glm::dvec2& c : m.outline) {
-        const glm::dvec2 q = turned(c);
-        lee_end = (std::max)(lee_end, q.x);
-        left = (std::min)(left, q.y);
-        right = (std::max)(right, q.y);
-    }
-
-    const double width = static_cast<double>(m.width), outside = -inside(polygon{m.outline}, p);
-    const glm::dvec2 at = turned(p);
-    const double away = numeric::square_root(at.x * at.x + at.y * at.y);
-    const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;
-    double change =
-        -static_cast<double>(m.depth) * facing * soft_edge(outside > 0 ? outside / width : 2 * outside / width);
-
-    if (m.tail > 0) {
-        // A ridge behind the moat, as wide as the outline is across the current.
-        const double length = static_cast<double>(m.tail), along = (at.x - lee_end - 0.5 * width) / length;
-        const double half = 0.5 * (right - left), side = std::abs(at.y - 0.5 * (left + right));
-        if (along > 0 && along < 1)
-            change += static_cast<double>(m.mound) * 6.75 * along * (1 - along) * (1 - along) *
-                      soft_edge(side / (half + 0.5 * width));
-    }
-    return change;
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-}  // namespace seabed
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
-// ------------ insonify/seabed/edit.hpp ------------------------------------------------------------------
-// Edits of a seabed: hills, furrows, ramps, scour, deposits. sculpt.hpp applies them.
-
-INSONIFY_ARITHMETIC_BEGIN
-
-namespace insonify {
-inline namespace INSONIFY_ABI {
-namespace seabed {
-
-/// Adds a round hill with soft edges, or with a negative height a hollow.
-struct raise {
-    glm::dvec2 centre{0.0, 0.0};
-    float radius = 1;     ///< metres, > 0
-    float height = 0.1f;  ///< metres, in the middle
-};
-
-/// Levels the ground.
-struct flatten {
-    glm::dvec2 centre{0.0, 0.0};
-    float radius = 1;  ///< metres, > 0: of the plain, whose outer quarter is its edge
-    float level = 0;   ///< metres above the datum
-};
-
-/// Removes relief shorter than one to two lengths.
-struct smooth {
-    glm::dvec2 centre{0.0, 0.0};
-    float radius = 1;      ///< metres, > 0: with its edge
-    float length = 0.25f;  ///< metres, > 0; to eight bits, so that its multiples are exact
-};
-
-/// A straight slope between two points, like a slipway.
-struct ramp {
-    glm::dvec2 from{0.0, 0.0}, to{1.0, 0.0};
-    float width = 1;                          ///< metres, > 0: with its edges, a quarter of it each
-    float from_height = 0, to_height = 0.5f;  ///< metres above the datum
-};
-
-/// A furrow or ridge along a path, or a row of marks.
-struct stamp {
-    std::vector<glm::dvec2> path;  ///< at least one point
-    float radius = 0.3f;           ///< metres, > 0: half the width of a furrow, with its edges
-    float height = -0.1f;          ///< metres, in the middle; negative to dig
-    float every = 0;               ///< metres along the path from mark to mark; 0: a continuous furrow
-};
-
-/// Scour by a current around a target: a moat, deepest upstream, and two tails of deposited sediment.
-struct scour {
-    glm::dvec2 centre{0.0, 0.0};
-    float radius = 0.5f;  ///< metres, > 0: of the target
-    float depth = 0.15f;  ///< metres, >= 0
-    float width = 0.6f;   ///< metres, > 0: of the moat
-    float current = 0;    ///< radians from +x: where it flows to
-    float tail = 2;       ///< metres, >= 0
-};
-
-/// Sediment heaped up to a level, to half bury a target. Higher ground stays.
-struct heap {
-    glm::dvec2 centre{0.0, 0.0};
-    float radius = 0.5f;  ///< metres, >= 0: of its level top
-    float level = 0.2f;   ///< metres above the datum
-    float slope = 0.6f;   ///< > 0: of its sides; sand lies at 0.6, mud flatter
-};
-
-/// One change of a seabed.
-using edit = std::variant<raise, flatten, smooth, ramp, stamp, scour, heap, moat>;
-
-namespace detail::inline INSONIFY_FLAGS {
-
-/// 1 in the middle, 0 with its slope from a distance of 1.
-constexpr float brush(float r) {
-    const float inside = clamp01(1 - r * r);
-    return inside * inside;
-}
-/// 1 up to three quarters of the way, then down to 0.
-constexpr float plateau(float r) {
-    return fade(clamp01(4 - 4 * r));
-}
-
-/// Linear interpolation; the target height at a weight of 1.
-constexpr float lerp(float height, float to, float weight) {
-    return height * (1 - weight) + to * weight;
-}
-
-inline float length(double x, double y) {
-    return static_cast<float>(numeric::square_root(x * x + y * y));
-}
-
-/// Bounding rectangle of the ground that an edit changes, metres.
-struct extent {
-    glm::dvec2 low, high;
-};
-inline extent extent_around(const glm::dvec2& centre, double reach) {
-    return {centre - glm::dvec2(reach), centre + glm::dvec2(reach)};
-}
-inline extent extent_around(const std::vector<glm::dvec2>& points, double reach) {
-    extent all = extent_around(points.front(), reach);
-    for (const glm::dvec2& p : points) {
-        all.low = {(std::min)(all.low.x, p.x - reach), (std::min)(all.low.y, p.y - reach)};
-        all.high = {(std::max)(all.high.x, p.x + reach), (std::max)(all.high.y, p.y + reach)};
-    }
-    return all;
-}
-
-inline void require_position(const char* name, const glm::dvec2& p) {
-    require(p.x >= -1e9 && p.x <= 1e9, name, p.x, "within 1e9 metres");
-    require(p.y >= -1e9 && p.y <= 1e9, name, p.y, "within 1e9 metres");
-}
-inline void require_metres(const char* name, float value, bool positive) {
-    require((positive ? value > 0 : value >= 0) && value < 1e6f, name, value,
-            positive ? "metres above 0" : "metres, at least 0");
-}
-inline void require_height(const char* name, float value) {
-    require(value > -1e6f && value < 1e6f, name, value, "a finite height");
-}
-
-inline extent extent_of(const raise& e) {
-    require_position("raise.centre", e.centre);
-    require_metres("raise.radius", e.radius, true);
-    require_height("raise.height", e.height);
-    return extent_around(e.centre, static_cast<double>(e.radius));
-}
-inline extent extent_of(const flatten& e) {
-    require_position("flatten.centre", e.centre);
-    require_metres("flatten.radius", e.radius, true);
-    require_height("flatten.level", e.level);
-    return extent_around(e.centre, static_cast<double>(e.radius));
-}
-inline extent extent_of(const smooth& e) {
-    require_position("smooth.centre", e.centre);
-    require_metres("smooth.radius", e.radius, true);
-    require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres from 0.001");
-    return extent_around(e.centre, static_cast<double>(e.radius));
-}
-inline extent extent_of(const ramp& e) {
-    require_position("ramp.from", e.from);
-    require_position("ramp.to", e.to);
-    require_metres("ramp.width", e.width, true);
-    require_height("ramp.from_height", e.from_height);
-    require_height("ramp.to_height", e.to_height);
-    require(e.from != e.to, "ramp.to", e.to.x, "another point than ramp.from");
-    return extent_around(std::vector<glm::dvec2>{e.from, e.to}, static_cast<double>(e.width));
-}
-inline extent extent_of(const stamp& e) {
-    require(!e.path.empty(), "stamp.path.size()", e.path.size(), "at least 1");
-    for (const glm::dvec2& p : e.path) require_position("stamp.path", p);
-    require_metres("stamp.radius", e.radius, true);
-    require_height("stamp.height", e.height);
-    require_metres("stamp.every", e.every, false);
-    return extent_around(e.path, static_cast<double>(e.radius));
-}
-inline extent extent_of(const scour& e) {
-    require_position("scour.centre", e.centre);
-    require_metres("scour.radius", e.radius, true);
-    require_metres("scour.depth", e.depth, false);
-    require_metres("scour.width", e.width, true);
-    require_metres("scour.tail", e.tail, false);
-    require(numeric::is_finite(e.current), "scour.current", e.current, "a finite angle");
-    return extent_around(e.centre, static_cast<double>(e.radius) + static_cast<double>(e.width + e.tail));
-}
-inline extent extent_of(const heap& e) {
-    require_position("heap.centre", e.centre);
-    require_metres("heap.radius", e.radius, false);
-    require_height("heap.level", e.level);
-    require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope from 0.001");
-    // The ground may be at any height; the search ends a hundred metres below the top.
-    return extent_around(e.centre, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
-}
-
-inline extent extent_of(const moat& e) {
-    validate(e);
-    return extent_around(e.outline, moat_reach(e));
-}
-
-/// The height at a position after an edit.
-inline float height_after(const raise& e, const glm::dvec2& p, float height) {
-    return height + e.height * brush(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius);
-}
-inline float height_after(const flatten& e, const glm::dvec2& p, float height) {
-    return lerp(height, e.level, plateau(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius));
-}
-inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
-    const glm::dvec2 way = e.to - e.from, off = p - e.from;
-    const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
-    const double t = (way.x * off.x + way.y * off.y) / square;
-    const double side = (way.x * off.y - way.y * off.x) / span;
-    // Beyond its ends the ramp is level, and fades as at its sides.
-    const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
-    const float weight = plateau(static_cast<float>(2 * numeric::abs(side)) / e.width) *
-                         fade(clamp01(1 - 4 * static_cast<float>(past) / e.width));
-    return lerp(height, mix(e.from_height, e.to_height, clamp01(static_cast<float>(t))), weight);
-}
-inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
-    if (e.every <= 0) return height + e.height * brush(static_cast<float>(distance_to_path(p, e.path)) / e.radius);
-    // The mark next to the nearest place on each leg of the path, counted along it.
-    const double every = static_cast<double>(e.every);
-    double before = 0, nearest = square_distance(p, e.path[0], e.path[0]);
-    for (std::size_t i = 1; i < e.path.size(); ++i) {
-        const glm::dvec2 &a = e.path[i - 1], way = e.path[i] - a, off = p - a;
-        const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
-        if (span == 0) continue;
-        const double along = before + (way.x * off.x + way.y * off.y) / span;
-        const double last = static_cast<double>(numeric::floor_to_int((before + span) / every)) * every;
-        const double first = -static_cast<double>(numeric::floor_to_int(-before / every)) * every;
-        const double mark = static_cast<double>(numeric::floor_to_int(along / every + 0.5)) * every;
-        const double place = ((std::min)((std::max)(mark, first), last) - before) / span;
-        const glm::dvec2 at = a + way * place;
-        if (first <= last) nearest = (std::min)(nearest, square_distance(p, at, at));
-        before += span;
-    }
-    return height + e.height * brush(static_cast<float>(numeric::square_root(nearest)) / e.radius);
-}
-inline float height_after(const scour& e, const glm::dvec2& p, float height) {
-    const auto flow = numeric::sin_cos(static_cast<double>(e.current));
-    const glm::dvec2 off = p - e.centre;
-    const auto along = static_cast<float>(off.x * flow.cosine + off.y * flow.sine);
-    const auto across = static_cast<float>(off.y * flow.cosine - off.x * flow.sine);
-    const float r = length(off.x, off.y), beyond = (r - e.radius) / e.width;
-    // The moat is half as deep on the lee side.
-    const float lee = r > 0 ? 0.75f - 0.25f * along / r : 1.0f;
-    const float moat = -e.depth * lee * brush(beyond > 0 ? beyond : 0.0f);
-    if (e.tail <= 0 || along <= 0) return height + moat;
-    const float way = clamp01(along / (e.radius + e.width + e.tail)), side = numeric::abs(across);
-    const float tail = 0.4f * e.depth * 4 * way * (1 - way) * brush((side - e.radius) / e.width);
-    return height + moat + tail;
-}
-inline float height_after(const moat& e, const glm::dvec2& p, float height) {
-    return height + static_cast<float>(moat_change(e, p));
-}
-inline float height_after(const heap& e, const glm::dvec2& p, float height) {
-    const float beyond = length(p.x - e.centre.x, p.y - e.centre.y) - e.radius;
-    return (std::max)(height, e.level - e.slope * (std::max)(beyond, 0.0f));
-}
-
-/// The range of heights after an edit, for heights in a given range before it.
-inline height_range added(const height_range& ground, double least, double most) {
-    return {ground.lowest + (std::min)(1.00001 * least, 0.0), ground.highest + (std::max)(1.00001 * most, 0.0)};
-}
-inline height_range including(const height_range& ground, double to) {
-    return merge(ground, {to, to});
-}
-inline height_range range_after(const raise& e, const height_range& ground) {
-    return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
-}
-inline height_range range_after(const flatten& e, const height_range& ground) {
-    return including(ground, static_cast<double>(e.level));
-}
-/// Means stay within the range.
-inline height_range range_after(const smooth&, const height_range& ground) {
-    return ground;
-}
-inline height_range range_after(const ramp& e, const height_range& ground) {
-    return including(including(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height));
-}
-inline height_range range_after(const stamp& e, const height_range& ground) {
-    return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
-}
-inline height_range range_after(const scour& e, const height_range& ground) {
-    return added(ground, -static_cast<double>(e.depth), 0.4 * static_cast<double>(e.depth));
-}
-inline height_range range_after(const moat& e, const height_range& ground) {
-    return added(ground, -static_cast<double>(e.depth), static_cast<double>(e.mound));
-}
-inline height_range range_after(const heap& e, const height_range& ground) {
-    return {ground.lowest, (std::max)(ground.highest, static_cast<double>(e.level))};
-}
-
-/// Weights of the 16 nodes around a coordinate, four to a length, in the smoothed value: a cubic B-spline, which
-/// preserves slopes.
-inline std::array<float, 16> spline_weights(float fraction) {
-    std::array<float, 16> weights;
-    for (std::size_t n = 0; n < 16; ++n) {
-        const float t = numeric::abs(0.25f * (fraction + 7 - static_cast<float>(n)));
-        const float s = 2 - t;
-        weights[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
-    }
-    return weights;
-}
-
-/// Smooths a row of the ground.
-/// @param ground  fills the heights of rows
-template <class Ground>
-void smooth_row(const smooth& e, const scanline& line, std::span<float> heights, Ground&& ground) {
-    const double step = rounded_to_eight_bits(static_cast<double>(e.length)) / 4;
-    const lattice_coordinate v(line.y / step);
-    const std::int64_t first = numeric::floor_to_int(line.x(0) / step) - 7;
-    const std::int64_t last = numeric::floor_to_int(line.x(heights.size() - 1) / step) + 8;
-    std::vector<float> nodes(static_cast<std::size_t>(last - first + 1)), column(nodes.size(), 0.0f);
-    const auto up = spline_weights(v.fraction);
-    for (std::size_t j = 0; j < 16; ++j) {
-        const double y = step * static_cast<double>(v.cell - 7 + static_cast<std::int64_t>(j));
-        ground(scanline{.y = y, .origin = step * static_cast<double>(first), .spacing = step}, std::span(nodes));
-        for (std::size_t n = 0; n < nodes.size(); ++n) column[n] += up[j] * nodes[n];
-    }
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-        const double x = line.x(i);
-        const lattice_coordinate u(x / step);
-        const float* const from = &column[static_cast<std::size_t>(u.cell - 7 - first)];
-        const auto across = spline_weights(u.fraction);
-        float even = 0;
-        for (std::size_t n = 0; n < 16; ++n) even += across[n] * from[n];
-        heights[i] = lerp(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));
-    }
-}
-
-}  // namespace detail::inline INSONIFY_FLAGS
-
-}  // namespace seabed
-}  // namespace INSONIFY_ABI
-}  // namespace insonify
-
-INSONIFY_ARITHMETIC_END
-
 // ------------ insonify/seabed/mixed.hpp -----------------------------------------------------------------
 // Layered seabeds: models composited over a base, each within its area, with a label at every point.
 
@@ -21917,8 +21310,497 @@ inline mixed_sampler mixed::prepare() const {
 
 INSONIFY_ARITHMETIC_END
 
+// ------------ insonify/seabed/blend.hpp -----------------------------------------------------------------
+// Blends of two seabeds: patches of one in the other, with natural borders and a label at every point.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+/// Patches of `first` in `second`, placed by a noise that exceeds a threshold: `mixed` with one layer. Across the
+/// border one relief sinks below the other, so that ripples end in tips within about a border's width.
+struct blend {
+    any first = ripples{};
+    any second = flat{};
+    float coverage = 0.5f;  ///< in [0, 1]: fraction of the area that is `first`, over many patches
+    float patch = 12.0f;    ///< metres, > 0: scale of the patches
+    float border = 0.6f;    ///< metres, in (0, patch]: typical width of borders, about a ripple or two
+    std::uint64_t seed = 1;
+
+    /// @throws invalid_input for parameters out of their range
+    INSONIFY_TAGGED mixed_sampler prepare() const {
+        detail::require(coverage >= 0 && coverage <= 1, "blend.coverage", coverage, "0 to 1");
+        detail::require(patch > 0 && patch < 1e6f, "blend.patch", patch, "metres above 0");
+        detail::require(border >= 1e-3f && border <= patch, "blend.border", border, "metres from 0.001 to blend.patch");
+        const layer top{.bottom = first, .where = patches{coverage, patch}, .border = border};
+        return mixed{.base = second, .layers = {top}, .seed = seed}.prepare();
+    }
+    INSONIFY_TAGGED std::vector<type_properties> legend() const {
+        std::vector<type_properties> all = first.legend();
+        extend(all, second.legend());
+        return all;
+    }
+};
+
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/detailed.hpp --------------------------------------------------------------
+// Adds relief finer than the grid to a coarse survey: multibeam maps of a metre's spacing lack what a sonar of
+// centimetres resolves.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+inline namespace INSONIFY_FLAGS {
+
+class detailed_sampler;
+
+}  // namespace INSONIFY_FLAGS
+
+/// A heightfield with cubic interpolation between its vertices, plus roughness.
+///
+/// To continue the survey's spectrum, set the roughness's longest cell to the survey's spacing: a sediment's relief of
+/// wavelengths below L metres has an rms of facts_of(sediment).rms() L^0.625.
+struct detailed {
+    heightfield field{};
+    roughness surface{.rms = 0.01f, .longest = 1, .shortest = 0.06f};
+    std::uint64_t seed = 1;
+
+    /// By reference: the heightfield has to outlive the sampler.
+    /// @throws invalid_input as `validate` of heightfields, and for parameters of the roughness out of their range
+    INSONIFY_TAGGED detailed_sampler prepare() const;
+    INSONIFY_MEMBER std::optional<type> only_type() const { return field.only_type(); }
+    INSONIFY_MEMBER std::vector<type_properties> legend() const { return field.legend(); }
+};
+
+inline namespace INSONIFY_FLAGS {
+
+/// Evaluates `detailed`.
+class detailed_sampler {
+  public:
+    explicit detailed_sampler(const detailed& d)
+        : field_(&d.field), surface_(d.surface, d.seed, detail::stream::survey) {
+        validate(d.field);
+    }
+
+    void row(const scanline& line, std::span<float> heights, std::span<type> types) const {
+        detail::by_stretches(line, heights, [&](const detail::stretch& part, detail::stretch_values& values) {
+            for (std::size_t i = 0; i < part.count; ++i) values[i] = smooth_at(part.x[i], part.y);
+            surface_.add(part, values);
+        });
+        for (std::size_t i = 0; i < types.size(); ++i) types[i] = field_->type_at(line.x(i), line.y);
+    }
+
+    /// Catmull-Rom's negative weights add up to 1/8 at most: rows overshoot the range by 1/8 at either end, and columns
+    /// of rows by 1/8 of the resulting five quarters more.
+    height_range range() const {
+        const height_range field = field_->prepare().range();
+        const double over = 0.2813 * (field.highest - field.lowest) + surface_.upper_bound();
+        return field.empty() ? field : height_range{field.lowest - over, field.highest + over};
+    }
+
+  private:
+    /// Catmull-Rom interpolation in both directions; beside missing vertices, the facets of the mesh.
+    float smooth_at(double x, double y) const {
+        const image<float>& h = field_->heights;
+        const detail::grid_coordinate u((x - field_->origin.x) / field_->spacing, h.width() - 1),
+            v((y - field_->origin.y) / field_->spacing, h.height() - 1);
+        const auto held = [](int i, int size) { return i < 0 ? 0 : i < size ? i : size - 1; };
+        float column[4];
+        for (int j = 0; j < 4; ++j) {
+            const int row = held(v.cell - 1 + j, h.height());
+            float p[4];
+            for (int i = 0; i < 4; ++i) p[i] = h(held(u.cell - 1 + i, h.width()), row);
+            detail::catmull_rom(column[j], p, static_cast<float>(u.across));
+        }
+        float height;
+        detail::catmull_rom(height, column, static_cast<float>(v.across));
+        return numeric::is_finite(height) ? height : field_->height_at(x, y);
+    }
+
+    const heightfield* field_;
+    power_law_noise surface_;
+};
+
+}  // namespace INSONIFY_FLAGS
+
+inline detailed_sampler detailed::prepare() const {
+    return detailed_sampler(*this);
+}
+
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/moat.hpp ------------------------------------------------------------------
+// Scour around an object: a moat along its outline and a mound of sediment down-current.
+//
+// Sources: Richard J. S. Whitehouse. Scour at Marine Structures: A Manual for Practical Applications, 1998 (scour is
+// deepest up-current, and half of that in the lee). G. F. Caston. Wreck marks: indicators of net sand transport. Marine
+// Geology 33, 1979 (tails of sand down-current of wrecks). Around piles in sand the depth reaches 1.38 diameters (R. J.
+// S. Whitehouse and others. The nature of scour development and scour protection at offshore windfarm foundations.
+// Marine Pollution Bulletin 62, 2011).
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+/// Scour by a current around a footprint, such as that of a target: `moat{.outline = footprint(mesh, pose, height)}`.
+/// The ground below the middle of the footprint keeps its height, so that the target still rests on it.
+struct moat {
+    std::vector<glm::dvec2> outline{
+        {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  ///< of the target on the ground, 3 to 4096 corners
+    float depth = 0.3f;                       ///< metres, >= 0, on the upstream side; half of it in the lee
+    float width = 1.5f;                       ///< metres, > 0: from the outline to the end of the moat
+    float current = 0;                        ///< radians from +x: where it flows to
+    float mound = 0.15f;                      ///< height of the deposit down-current, metres, >= 0
+    float tail = 6;                           ///< its length, metres, >= 0; 0: none
+};
+
+namespace detail::inline INSONIFY_FLAGS {
+
+inline void validate(const moat& m) {
+    validate_points(m.outline, "moat.outline", 3);
+    require(m.outline.size() <= 4096, "moat.outline.size()", m.outline.size(), "at most 4096");
+    for (const glm::dvec2& p : m.outline) require_position("moat.outline", p);
+    require_metres("moat.depth", m.depth, false);
+    require_metres("moat.width", m.width, true);
+    require_metres("moat.mound", m.mound, false);
+    require_metres("moat.tail", m.tail, false);
+    require(numeric::is_finite(m.current), "moat.current", m.current, "a finite angle");
+}
+
+/// Upper bound of a moat's distance from the corners of its outline.
+inline double moat_reach(const moat& m) {
+    // The tail is as wide as the outline, whose corners may all lie to one side of it.
+    double square = 0;
+    for (const glm::dvec2& p : m.outline) {
+        const glm::dvec2 off = p - m.outline.front();
+        square = (std::max)(square, off.x * off.x + off.y * off.y);
+    }
+    return numeric::square_root(square) + static_cast<double>(m.width) + static_cast<double>(m.tail);
+}
+
+/// Change of the ground's height at a position, metres.
+inline double moat_change(const moat& m, const glm::dvec2& p) {
+    const numeric::sine_cosine flow = numeric::sin_cos(static_cast<double>(m.current));
+    // Along the current and across it, of the outline and of the position, from the outline's mean corner.
+    glm::dvec2 centre(0, 0);
+    for (const glm::dvec2& c : m.outline) centre += c / static_cast<double>(m.outline.size());
+    const auto turned = [&](const glm::dvec2& q) {
+        const glm::dvec2 off = q - centre;
+        return glm::dvec2(off.x * flow.cosine + off.y * flow.sine, off.y * flow.cosine - off.x * flow.sine);
+    };
+    double lee_end = 0, left = 0, right = 0;
+    for (const glm::dvec2& c : m.outline) {
+        const glm::dvec2 q = turned(c);
+        lee_end = (std::max)(lee_end, q.x);
+        left = (std::min)(left, q.y);
+        right = (std::max)(right, q.y);
+    }
+
+    const double width = static_cast<double>(m.width), outside = -inside(polygon{m.outline}, p);
+    const glm::dvec2 at = turned(p);
+    const double away = numeric::square_root(at.x * at.x + at.y * at.y);
+    const double facing = away > 0 ? 0.75 - 0.25 * at.x / away : 0.75;
+    double change = -static_cast<double>(m.depth) * facing * brush(outside > 0 ? outside / width : 2 * outside / width);
+
+    if (m.tail > 0) {
+        // A ridge behind the moat, as wide as the outline is across the current.
+        const double length = static_cast<double>(m.tail), along = (at.x - lee_end - 0.5 * width) / length;
+        const double half = 0.5 * (right - left), side = std::abs(at.y - 0.5 * (left + right));
+        if (along > 0 && along < 1)
+            change += static_cast<double>(m.mound) * 6.75 * along * (1 - along) * (1 - along) *
+                      brush(side / (half + 0.5 * width));
+    }
+    return change;
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
+// ------------ insonify/seabed/edit.hpp ------------------------------------------------------------------
+// Edits of a seabed: hills, furrows, ramps, deposits; moat.hpp has scour. sculpt.hpp applies them.
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace seabed {
+
+/// Adds a round hill with soft edges, or with a negative height a hollow.
+struct raise {
+    glm::dvec2 centre{0.0, 0.0};
+    float radius = 1;     ///< metres, > 0
+    float height = 0.1f;  ///< metres, in the middle
+};
+
+/// Levels the ground.
+struct flatten {
+    glm::dvec2 centre{0.0, 0.0};
+    float radius = 1;  ///< metres, > 0: of the plain, whose outer quarter is its edge
+    float level = 0;   ///< metres above the datum
+};
+
+/// Removes relief shorter than one to two lengths.
+struct smooth {
+    glm::dvec2 centre{0.0, 0.0};
+    float radius = 1;      ///< metres, > 0: with its edge
+    float length = 0.25f;  ///< metres, > 0; to eight bits, so that its multiples are exact
+};
+
+/// A straight slope between two points, like a slipway.
+struct ramp {
+    glm::dvec2 from{0.0, 0.0}, to{1.0, 0.0};
+    float width = 1;                          ///< metres, > 0: with its edges, a quarter of it each
+    float from_height = 0, to_height = 0.5f;  ///< metres above the datum
+};
+
+/// A furrow or ridge along a path, or a row of marks.
+struct stamp {
+    std::vector<glm::dvec2> path;  ///< at least one point
+    float radius = 0.3f;           ///< metres, > 0: half the width of a furrow, with its edges
+    float height = -0.1f;          ///< metres, in the middle; negative to dig
+    float every = 0;               ///< metres along the path from mark to mark; 0: a continuous furrow
+};
+
+/// Sediment heaped up to a level, to half bury a target. Higher ground stays.
+struct heap {
+    glm::dvec2 centre{0.0, 0.0};
+    float radius = 0.5f;  ///< metres, >= 0: of its level top
+    float level = 0.2f;   ///< metres above the datum
+    float slope = 0.6f;   ///< > 0: of its sides; sand lies at 0.6, mud flatter
+};
+
+/// One change of a seabed.
+using edit = std::variant<raise, flatten, smooth, ramp, stamp, heap, moat>;
+
+namespace detail::inline INSONIFY_FLAGS {
+
+/// 1 up to three quarters of the way, then down to 0.
+constexpr float plateau(float r) {
+    return fade(clamp01(4 - 4 * r));
+}
+
+/// Linear interpolation; the target height at a weight of 1.
+constexpr float lerp(float height, float to, float weight) {
+    return height * (1 - weight) + to * weight;
+}
+
+inline float length(double x, double y) {
+    return static_cast<float>(numeric::square_root(x * x + y * y));
+}
+
+/// Bounding rectangle of the ground that an edit changes, metres.
+struct extent {
+    glm::dvec2 low, high;
+};
+inline extent extent_around(const glm::dvec2& centre, double reach) {
+    return {centre - glm::dvec2(reach), centre + glm::dvec2(reach)};
+}
+inline extent extent_around(const std::vector<glm::dvec2>& points, double reach) {
+    extent all = extent_around(points.front(), reach);
+    for (const glm::dvec2& p : points) {
+        all.low = {(std::min)(all.low.x, p.x - reach), (std::min)(all.low.y, p.y - reach)};
+        all.high = {(std::max)(all.high.x, p.x + reach), (std::max)(all.high.y, p.y + reach)};
+    }
+    return all;
+}
+
+inline void require_height(const char* name, float value) {
+    require(value > -1e6f && value < 1e6f, name, value, "a finite height");
+}
+
+inline extent extent_of(const raise& e) {
+    require_position("raise.centre", e.centre);
+    require_metres("raise.radius", e.radius, true);
+    require_height("raise.height", e.height);
+    return extent_around(e.centre, static_cast<double>(e.radius));
+}
+inline extent extent_of(const flatten& e) {
+    require_position("flatten.centre", e.centre);
+    require_metres("flatten.radius", e.radius, true);
+    require_height("flatten.level", e.level);
+    return extent_around(e.centre, static_cast<double>(e.radius));
+}
+inline extent extent_of(const smooth& e) {
+    require_position("smooth.centre", e.centre);
+    require_metres("smooth.radius", e.radius, true);
+    require(e.length >= 1e-3f && e.length < 1e6f, "smooth.length", e.length, "metres from 0.001");
+    return extent_around(e.centre, static_cast<double>(e.radius));
+}
+inline extent extent_of(const ramp& e) {
+    require_position("ramp.from", e.from);
+    require_position("ramp.to", e.to);
+    require_metres("ramp.width", e.width, true);
+    require_height("ramp.from_height", e.from_height);
+    require_height("ramp.to_height", e.to_height);
+    require(e.from != e.to, "ramp.to", e.to.x, "another point than ramp.from");
+    return extent_around(std::vector<glm::dvec2>{e.from, e.to}, static_cast<double>(e.width));
+}
+inline extent extent_of(const stamp& e) {
+    require(!e.path.empty(), "stamp.path.size()", e.path.size(), "at least 1");
+    for (const glm::dvec2& p : e.path) require_position("stamp.path", p);
+    require_metres("stamp.radius", e.radius, true);
+    require_height("stamp.height", e.height);
+    require_metres("stamp.every", e.every, false);
+    return extent_around(e.path, static_cast<double>(e.radius));
+}
+inline extent extent_of(const heap& e) {
+    require_position("heap.centre", e.centre);
+    require_metres("heap.radius", e.radius, false);
+    require_height("heap.level", e.level);
+    require(e.slope >= 1e-3f && e.slope < 1e6f, "heap.slope", e.slope, "a slope from 0.001");
+    // The ground may be at any height; the search ends a hundred metres below the top.
+    return extent_around(e.centre, static_cast<double>(e.radius) + 100 / static_cast<double>(e.slope));
+}
+
+inline extent extent_of(const moat& e) {
+    validate(e);
+    return extent_around(e.outline, moat_reach(e));
+}
+
+/// The height at a position after an edit.
+inline float height_after(const raise& e, const glm::dvec2& p, float height) {
+    return height + e.height * brush(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius);
+}
+inline float height_after(const flatten& e, const glm::dvec2& p, float height) {
+    return lerp(height, e.level, plateau(length(p.x - e.centre.x, p.y - e.centre.y) / e.radius));
+}
+inline float height_after(const ramp& e, const glm::dvec2& p, float height) {
+    const glm::dvec2 way = e.to - e.from, off = p - e.from;
+    const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
+    const double t = (way.x * off.x + way.y * off.y) / square;
+    const double side = (way.x * off.y - way.y * off.x) / span;
+    // Beyond its ends the ramp is level, and fades as at its sides.
+    const double past = (t < 0 ? -t : t > 1 ? t - 1 : 0.0) * span;
+    const float weight = plateau(static_cast<float>(2 * numeric::abs(side)) / e.width) *
+                         fade(clamp01(1 - 4 * static_cast<float>(past) / e.width));
+    return lerp(height, mix(e.from_height, e.to_height, clamp01(static_cast<float>(t))), weight);
+}
+inline float height_after(const stamp& e, const glm::dvec2& p, float height) {
+    if (e.every <= 0) return height + e.height * brush(static_cast<float>(distance_to_path(p, e.path)) / e.radius);
+    // The mark next to the nearest place on each leg of the path, counted along it.
+    const double every = static_cast<double>(e.every);
+    double before = 0, nearest = square_distance(p, e.path[0], e.path[0]);
+    for (std::size_t i = 1; i < e.path.size(); ++i) {
+        const glm::dvec2 &a = e.path[i - 1], way = e.path[i] - a, off = p - a;
+        const double square = way.x * way.x + way.y * way.y, span = numeric::square_root(square);
+        if (span == 0) continue;
+        const double along = before + (way.x * off.x + way.y * off.y) / span;
+        const double last = static_cast<double>(numeric::floor_to_int((before + span) / every)) * every;
+        const double first = -static_cast<double>(numeric::floor_to_int(-before / every)) * every;
+        const double mark = static_cast<double>(numeric::floor_to_int(along / every + 0.5)) * every;
+        const double place = ((std::min)((std::max)(mark, first), last) - before) / span;
+        const glm::dvec2 at = a + way * place;
+        if (first <= last) nearest = (std::min)(nearest, square_distance(p, at, at));
+        before += span;
+    }
+    return height + e.height * brush(static_cast<float>(numeric::square_root(nearest)) / e.radius);
+}
+inline float height_after(const moat& e, const glm::dvec2& p, float height) {
+    return height + static_cast<float>(moat_change(e, p));
+}
+inline float height_after(const heap& e, const glm::dvec2& p, float height) {
+    const float beyond = length(p.x - e.centre.x, p.y - e.centre.y) - e.radius;
+    return (std::max)(height, e.level - e.slope * (std::max)(beyond, 0.0f));
+}
+
+/// The range of heights after an edit, for heights in a given range before it.
+inline height_range added(const height_range& ground, double least, double most) {
+    return {ground.lowest + (std::min)(1.00001 * least, 0.0), ground.highest + (std::max)(1.00001 * most, 0.0)};
+}
+inline height_range including(const height_range& ground, double to) {
+    return merge(ground, {to, to});
+}
+inline height_range range_after(const raise& e, const height_range& ground) {
+    return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
+}
+inline height_range range_after(const flatten& e, const height_range& ground) {
+    return including(ground, static_cast<double>(e.level));
+}
+/// Means stay within the range.
+inline height_range range_after(const smooth&, const height_range& ground) {
+    return ground;
+}
+inline height_range range_after(const ramp& e, const height_range& ground) {
+    return including(including(ground, static_cast<double>(e.from_height)), static_cast<double>(e.to_height));
+}
+inline height_range range_after(const stamp& e, const height_range& ground) {
+    return added(ground, static_cast<double>(e.height), static_cast<double>(e.height));
+}
+inline height_range range_after(const moat& e, const height_range& ground) {
+    return added(ground, -static_cast<double>(e.depth), static_cast<double>(e.mound));
+}
+inline height_range range_after(const heap& e, const height_range& ground) {
+    return {ground.lowest, (std::max)(ground.highest, static_cast<double>(e.level))};
+}
+
+/// Weights of the 16 nodes around a coordinate, four to a length, in the smoothed value: a cubic B-spline, which
+/// preserves slopes.
+inline std::array<float, 16> spline_weights(float fraction) {
+    std::array<float, 16> weights;
+    for (std::size_t n = 0; n < 16; ++n) {
+        const float t = numeric::abs(0.25f * (fraction + 7 - static_cast<float>(n)));
+        const float s = 2 - t;
+        weights[n] = 0.25f * (t < 1 ? 2.0f / 3 - 0.5f * t * t * s : s > 0 ? s * s * s / 6 : 0.0f);
+    }
+    return weights;
+}
+
+/// Smooths a row of the ground.
+/// @param ground  fills the heights of rows
+template <class Ground>
+void smooth_row(const smooth& e, const scanline& line, std::span<float> heights, Ground&& ground) {
+    const double step = rounded_to_eight_bits(static_cast<double>(e.length)) / 4;
+    const lattice_coordinate v(line.y / step);
+    const std::int64_t first = numeric::floor_to_int(line.x(0) / step) - 7;
+    const std::int64_t last = numeric::floor_to_int(line.x(heights.size() - 1) / step) + 8;
+    std::vector<float> nodes(static_cast<std::size_t>(last - first + 1)), column(nodes.size(), 0.0f);
+    const auto up = spline_weights(v.fraction);
+    for (std::size_t j = 0; j < 16; ++j) {
+        const double y = step * static_cast<double>(v.cell - 7 + static_cast<std::int64_t>(j));
+        ground(scanline{.y = y, .origin = step * static_cast<double>(first), .spacing = step}, std::span(nodes));
+        for (std::size_t n = 0; n < nodes.size(); ++n) column[n] += up[j] * nodes[n];
+    }
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        const double x = line.x(i);
+        const lattice_coordinate u(x / step);
+        const float* const from = &column[static_cast<std::size_t>(u.cell - 7 - first)];
+        const auto across = spline_weights(u.fraction);
+        float even = 0;
+        for (std::size_t n = 0; n < 16; ++n) even += across[n] * from[n];
+        heights[i] = lerp(heights[i], even, plateau(length(x - e.centre.x, line.y - e.centre.y) / e.radius));
+    }
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+
+}  // namespace seabed
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
+
 // ------------ insonify/seabed/sculpt.hpp ----------------------------------------------------------------
-// Sculpted seabeds: a base and a sequence of edits that raise, lower, flatten, smooth, ramp, stamp, scour or heap.
+// Sculpted seabeds: a base and a sequence of edits that raise, lower, flatten, smooth, ramp, stamp, heap or scour.
 //
 // An edit is a function of the position and of the height after the edits before it, so that a sculpted seabed stays
 // unbounded and independent of the grid. Outside an edit's bounds no bit changes.
