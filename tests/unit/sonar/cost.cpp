@@ -1,5 +1,7 @@
 // The cost of a picture depends on the ground in view, not on the extent of the seabed: samples are counted.
 #include <insonify/insonify.hpp>
+#include <insonify/seabed/blend.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
 
 #include <cmath>
 

@@ -2,6 +2,12 @@
 // forms and moments, and at extremes.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
+#include <insonify/sonar/bottom_tone.hpp>
+#include <insonify/sonar/instruments.hpp>
+#include <insonify/sonar/side_scan/ping_gain.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
+#include <insonify/sonar/side_scan/water_column.hpp>
+#include <insonify/sonar/speckle.hpp>
 
 #include <cmath>
 #include <limits>

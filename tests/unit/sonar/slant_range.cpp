@@ -2,6 +2,12 @@
 // dimensions and at the limits of their ranges.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
+#include <insonify/seabed/blend.hpp>
+#include <insonify/seabed/heightfield.hpp>
+#include <insonify/sonar/side_scan/range_geometry.hpp>
+#include <insonify/sonar/side_scan/recording.hpp>
+#include <insonify/sonar/side_scan/slant_to_ground.hpp>
+#include <insonify/sonar/side_scan/swath.hpp>
 
 #include <cmath>
 #include <memory>
