@@ -1,4 +1,4 @@
-// Walks the fields of an aggregate: every value that cannot be right is refused by a message that names the field.
+// Checks the fields of an aggregate: every value out of range is refused by a message that names the field.
 #pragma once
 
 #include <insonify/core/error.hpp>
@@ -17,7 +17,7 @@ namespace refusals {
 inline constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Values that cannot be right.
+// Values out of range.
 inline const std::vector<double> not_finite{nan_value, infinity, -infinity};
 inline const std::vector<double> not_above_0{nan_value, infinity, -infinity, -1, 0};
 inline const std::vector<double> below_0{nan_value, infinity, -infinity, -1};
@@ -31,7 +31,7 @@ inline std::vector<double> outside_whole(double least, double most) {
     return {least - 1, most + 1, -1e9};
 }
 
-/// A field: its name as messages have it, how it is set, and what it cannot be.
+/// A field: its name in messages, how it is set, and values that are refused.
 template <class T>
 struct field {
     const char* name;
@@ -46,7 +46,7 @@ struct field {
             [](auto& o, double v) { o.member = static_cast<std::remove_cvref_t<decltype(o.member)>>(v); }, __VA_ARGS__ \
     }
 
-/// What `use` says when it refuses; empty if it does not.
+/// The message with which `use` refuses; empty if it does not.
 template <class Use>
 std::string refusal(const Use& use) {
     try {
@@ -60,7 +60,7 @@ std::string refusal(const Use& use) {
 /// Checks that `use` takes `good`, and refuses it by name with each of the values in each of the fields.
 /// @param owner  how messages begin: "overhead." before "altitude"
 template <class T, class Use>
-void walk(const std::string& owner, const T& good, const Use& use, std::initializer_list<field<T>> fields) {
+void check_fields(const std::string& owner, const T& good, const Use& use, std::initializer_list<field<T>> fields) {
     INFO(owner);
     CHECK(refusal([&] { use(good); }) == "");
     for (const field<T>& f : fields)
@@ -72,13 +72,13 @@ void walk(const std::string& owner, const T& good, const Use& use, std::initiali
         }
 }
 
-/// Converts to any type: for counting what an aggregate takes.
+/// Converts to any type, to count the members of aggregates.
 struct anything {
     template <class T>
     operator T() const;
 };
 
-/// How many members an aggregate has, so that a member that a table leaves out breaks the build.
+/// Number of members of an aggregate. Tests assert it, so that a member missing from a table breaks the build.
 template <class T, class... Given>
 constexpr std::size_t members() {
     if constexpr (requires { T{Given{}..., anything{}}; })

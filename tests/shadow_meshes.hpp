@@ -99,7 +99,7 @@ inline in::mesh bowl(int cells = 40) {
     }));
 }
 
-/// A sheet that is rolled up one and a half times and hangs over itself.
+/// A sheet that is rolled up one and a half times and overhangs itself.
 inline in::mesh scroll() {
     return sheet(60, 20, [](double u, double v) {
         const glm::dvec2 around = on_circle(u * 1.5 >= 1 ? u * 1.5 - 1 : u * 1.5);
@@ -224,7 +224,7 @@ inline in::mesh relief(int cells = 96) {
     });
 }
 
-/// Heights that aren't known: vertices that are NaN.
+/// Missing heights: NaN vertices.
 inline in::mesh with_nodata(in::mesh m) {
     const auto side = static_cast<std::size_t>(in::numeric::square_root(static_cast<double>(m.positions.size())) + 0.5);
     for (std::size_t i = 0; i < m.positions.size(); ++i) {
@@ -270,7 +270,7 @@ inline in::mesh in_cache_order(const in::mesh& m, int cells) {
     return out;
 }
 
-/// A blob, and one triangle that reaches to the end of what a float holds.
+/// A blob, and one triangle that reaches to the largest float.
 inline in::mesh with_huge_vertex(in::mesh m) {
     const auto first = static_cast<std::uint32_t>(m.positions.size());
     m.positions.insert(m.positions.end(), {{-0.9f, -0.9f, 0.4f}, {-0.9f, -0.5f, 0.4f}, {-3.4e38f, -0.7f, 0.4f}});

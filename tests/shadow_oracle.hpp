@@ -86,7 +86,7 @@ struct tally {
     }
 };
 
-/// The triangles of a scene in a rig's frame, ready to be asked about rays.
+/// The triangles of a scene in a rig's frame, prepared for rays.
 class oracle {
   public:
     /// @param s  without a library seabed: its bottom is one of the targets
@@ -106,7 +106,7 @@ class oracle {
     std::size_t triangles() const { return triangles_.size(); }
 
     /// @param rig    of the same position, yaw and altitude as the oracle's; size, field of view and light are free
-    /// @param shown  what its picture shows
+    /// @param shown  the triangle that each pixel of its picture shows
     template <in::executor_argument E = in::serial_executor>
     in::image<judged_pixel> judge(const in::overhead& rig, const in::visibility& shown, E&& ex = {}) const {
         const source light = light_of(rig);
@@ -230,7 +230,7 @@ class oracle {
             const real off = std::hypot(px + held * dx - ray.x, py + held * dy - ray.y);
             if (off >= closest) continue;
             closest = off;
-            const real weight_p = (1 - held) / p.z, weight_q = held / q.z;  // as perspective has it
+            const real weight_p = (1 - held) / p.z, weight_q = held / q.z;  // perspective-correct
             nearest = p + weight_q / (weight_p + weight_q) * (q - p);
         }
         return nearest;
@@ -256,7 +256,7 @@ class oracle {
         return dark ? verdict::dark : unsure ? verdict::undecided : verdict::lit;
     }
 
-    /// Whether a ray clearly passes a triangle, in doubles: spares most of them the long ones.
+    /// Whether a ray clearly misses a triangle. Computed in doubles, to spare most triangles the long doubles.
     bool is_passed(const triangle& t, const glm::dvec3& from, const glm::dvec3& d) const {
         const glm::dvec3 a = t.a - from, b = t.b - from, c = t.c - from;
         const auto size = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
@@ -274,7 +274,7 @@ class oracle {
         return left && right;
     }
 
-    /// What one triangle does to the light: stops it (dark), lets it pass (lit), or neither for sure.
+    /// Whether one triangle blocks the light (dark), lets it pass (lit), or is too close to tell (undecided).
     verdict look(const source& light, const receiver& at, const vector& toward, std::uint32_t id) const {
         const triangle& t = triangles_[id];
         const vector a = vector(t.a) - at.point, b = vector(t.b) - at.point, c = vector(t.c) - at.point;
@@ -310,7 +310,7 @@ class oracle {
     ray_tree tree_;
 };
 
-/// @param dark  is_dark(x, y): what the picture says
+/// @param is_dark  of (x, y): whether the picture shows shadow there
 template <class Dark>
 tally compare(const in::image<judged_pixel>& truth, const Dark& is_dark) {
     tally t;

@@ -1,5 +1,5 @@
 // Scenes whose shadows are compared with other renderers': three seabeds, each with the four targets, an imported mesh
-// and an open sheet on it, all of them meshes, so that everyone is given the same triangles.
+// and an open sheet on it, all of them meshes, so that every renderer gets the same triangles.
 #pragma once
 
 #include <insonify/insonify.hpp>
@@ -63,7 +63,7 @@ inline in::scene make(int kind, double spacing) {
     return s;
 }
 
-/// The azimuths that are asked for: the grid's axes, its diagonals, and some that follow nothing.
+/// Azimuths: the grid's axes, its diagonals, and some that are aligned with neither.
 inline constexpr double azimuths[] = {0, 45, 90, 135, 23.7, 160, 251.3, 328.9};
 inline constexpr double elevations[] = {0.5, 1, 2, 6, 20, 45, 89};
 
@@ -90,7 +90,7 @@ inline std::vector<triangle> triangles(const in::scene& s) {
     return all;
 }
 
-/// How two masks of what is lit differ.
+/// Difference between two masks of lit pixels.
 struct difference {
     long pixels = 0, wrong = 0, both = 0, either = 0;
 

@@ -1,6 +1,6 @@
-# Sourced by the tools: what a build needs, found or installed.
+# Sourced by the tools: finds or installs what a build needs.
 #
-#   need <name>...   sees that each is there; on Debian and Ubuntu installs what is missing, elsewhere says what to install
+#   need <name>...   checks that each is present; on Debian and Ubuntu installs what is missing, elsewhere says what to install
 #   ways             fills the array `generator` with CMake's options for the best build program at hand
 
 set -u -o pipefail
@@ -50,7 +50,7 @@ doxygen       command:doxygen                         doxygen               doxy
 clang-format  command:clang-format                    clang-format          clang-tools-extra   clang-format
 '
 
-# Whether one of the alternatives `a|b` of a probe is there.
+# Whether one of the alternatives `a|b` of a probe is present.
 present() {
     local kind=${1%%:*} candidates=${1#*:} candidate prefix
     for candidate in ${candidates//|/ }; do
@@ -76,7 +76,7 @@ present() {
     return 1
 }
 
-# The rows of the table, of those named, that are not there.
+# The table's rows of those named that are missing.
 missing() {
     local name probe packages
     while read -r name probe packages; do

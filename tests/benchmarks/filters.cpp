@@ -1,7 +1,7 @@
-// How long filters take: filters [threads] [pixels] [turns] prints the best of 15 in milliseconds, for an image of so
-// many pixels a side, filtered where it is.
+// Times of filters: filters [threads] [pixels] [runs] prints the best of 15 runs in milliseconds, for an image of
+// `pixels` x `pixels`.
 //
-// Filters take turns, so that what else the machine does falls on all of them.
+// Filters run in turn, so that other load affects all of them alike.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 
@@ -23,8 +23,8 @@ struct task {
     double best = 1e9;
 };
 
-void race(std::vector<task>& tasks, int turns) {
-    for (int turn = 0; turn < turns; ++turn) {
+void measure(std::vector<task>& tasks, int runs) {
+    for (int run_number = 0; run_number < runs; ++run_number) {
         for (task& t : tasks) {
             const auto start = std::chrono::steady_clock::now();
             t.run();
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
                          in::apply_into(work.view(), between.view(), invert, pool);
                          in::apply_into(between.view(), work.view(), halve, pool);
                      }});
-    race(tasks, argc > 3 ? std::atoi(argv[3]) : 15);
+    measure(tasks, argc > 3 ? std::atoi(argv[3]) : 15);
 
     std::printf("insonify, %d x %d pixels, %d threads\n", side, side, pool.threads());
     for (const task& t : tasks) std::printf("  %-28s %8.3f ms\n", t.name.c_str(), t.best);

@@ -1,7 +1,8 @@
-// How long a frame takes: frame [threads] [cells] [pixels] prints the median of nine, in milliseconds, part by part.
+// Times of the parts of a frame: frame [threads] [cells] [pixels] prints the median of nine, in milliseconds, part by
+// part.
 //
 // The scene is the reference workload's: a rippled seabed of cells x cells and a cylinder, seen from 10 m by a camera
-// of 120 degrees, lit at 6 degrees; everything but memory is made anew in every frame.
+// of 120 degrees, lit at 6 degrees; everything but memory is recomputed in every frame.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 

@@ -41,7 +41,7 @@ double median_ms(const workload::scene& scene, int threads, std::vector<std::uin
     return times[times.size() / 2];
 }
 
-/// What the buffers hold that a caller gives.
+/// Size of the caller's buffers.
 double megabytes(const workload::scene& scene) {
     const auto bytes = [](const insonify::mesh& m) {
         return m.positions.size() * sizeof m.positions[0] + m.normals.size() * sizeof m.normals[0] +
@@ -68,7 +68,7 @@ void measure_memory(const job& j) {
     std::printf(" %10.0f %10.0f\n", megabytes_in_use(), given);
 }
 
-/// In a process of its own: the most memory in use is a process's.
+/// Runs in a child process, because peak memory is counted by process.
 template <class Work>
 void apart(const Work& work) {
     std::fflush(stdout);

@@ -1,4 +1,4 @@
-// How long seabeds take: seabeds [threads] prints the least of 25 times, in milliseconds, for 1024 x 1024 samples over
+// Times of seabeds: seabeds [threads] prints the least of 25 times, in milliseconds, for 1024 x 1024 samples over
 // 35 m with and without their normals, and for one of 65 x 65 on one thread, the size of a small scene.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
@@ -25,7 +25,7 @@ double least_ms(const Fn& work) {
     return least;
 }
 
-/// Ripples as a user would write them: a model of one's own around the same rows.
+/// Ripples as a user's model: forwards to the library's.
 struct own_ripples {
     static constexpr sb::type_properties kind{sb::own_type(0), "own ripples", 0.5f, {}};
     sb::any_sampler prepare() const { return sb::ripples{}.prepare(); }

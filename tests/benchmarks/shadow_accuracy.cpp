@@ -1,4 +1,4 @@
-// Counts the wrong pixels of the shadow policies on foreign-looking meshes, by an independent oracle. See --help.
+// Counts the wrong pixels of the shadow policies on imported meshes, by an independent oracle. See --help.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 
@@ -19,7 +19,7 @@ namespace {
 namespace in = insonify;
 namespace judge = shadow_oracle;
 
-/// The policies that can be asked for: the only list of them.
+/// The policies that can be selected.
 template <class Policy>
 struct named_policy {
     const char* name;
@@ -28,7 +28,7 @@ struct named_policy {
 const std::tuple policies{named_policy<in::shadow::exact>{"exact", {}},  //
                           named_policy<in::shadow::map>{"map", {}}};
 
-/// Policies that light from nearby is for.
+/// Policies that support near light.
 template <class Policy>
 constexpr bool takes_near_light = std::is_same_v<Policy, in::shadow::exact>;
 

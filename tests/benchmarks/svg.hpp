@@ -1,4 +1,4 @@
-// A few words of SVG, for the charts in docs/.
+// SVG elements for the charts in docs/.
 #pragma once
 
 #include <cstdio>
@@ -37,7 +37,7 @@ inline std::string circle(double x, double y, double radius, const std::string& 
            "'" + more + "/>\n";
 }
 
-/// A white page of so many pixels.
+/// A white page of the given size in pixels.
 inline std::string page(int width, int height, const std::string& body) {
     const std::string w = std::to_string(width), h = std::to_string(height);
     return "<svg xmlns='http://www.w3.org/2000/svg' width='" + w + "' height='" + h + "' viewBox='0 0 " + w + " " + h +

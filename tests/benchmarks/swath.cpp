@@ -1,6 +1,7 @@
-// How long a swath takes: swath [threads] [pings] [bins] prints the median of nine, in milliseconds, part by part.
+// Times of the parts of a swath: swath [threads] [pings] [bins] prints the median of nine, in milliseconds, part by
+// part.
 //
-// The scene is 40 m x 40 m of ripples with the four targets, heard from 5 m; everything but memory is made anew in
+// The scene is 40 m x 40 m of ripples with the four targets, heard from 5 m; everything but memory is recomputed in
 // every picture.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>

@@ -32,7 +32,7 @@ in::scene ripples_with_a_cylinder() {
     return scene;
 }
 
-/// A picture of a sampled seabed with everything that a data set keeps of it.
+/// A picture of a sampled seabed with all labels that a data set stores.
 piece labelled_frame() {
     return [scene = ripples_with_a_cylinder()] { in::render(scene, in::overhead{.altitude = 5, .size = {256, 256}}); };
 }

@@ -1,4 +1,4 @@
-// A view of an image that ends with the statement would show pixels that are gone.
+// A view of a temporary image would dangle.
 // expect: deleted
 #include <insonify/core/image.hpp>
 

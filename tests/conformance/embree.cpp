@@ -74,7 +74,7 @@ class embree_scene {
     }
 
   private:
-    /// A ray that starts on a triangle doesn't meet it, whatever rounding says.
+    /// A ray that starts on a triangle does not hit it, however origins are rounded.
     struct away_from : RTCIntersectContext {
         unsigned own = RTC_INVALID_GEOMETRY_ID;
 
@@ -106,7 +106,7 @@ class embree_scene {
 
 }  // namespace
 
-TEST_CASE("Exact shadows are Embree's: three seabeds, four targets, an imported mesh, an open sheet") {
+TEST_CASE("Exact shadows equal Embree's: three seabeds, four targets, an imported mesh, an open sheet") {
     scenes::difference total;
     for (int kind = 0; kind < 3; ++kind) {
         const in::scene s = scenes::make(kind, 0.04);

@@ -1,5 +1,5 @@
-// Filters for filters.py to compare with other people's: reads lines of "what source argument result" and does what
-// they say to netpbm files. PGM of 8 and 16 bits, PFM; colour only for gray.
+// Filters for filters.py to compare with other people's: reads lines of "what source argument result" and applies
+// them to netpbm files. PGM of 8 and 16 bits, PFM; colour only for gray.
 #include <insonify/filter/colormap.hpp>
 #include <insonify/filter/gray.hpp>
 #include <insonify/filter/histogram.hpp>

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Filters beside scikit-image's and Octave's: filters.py <conformance_filters> [folder of real pictures]
 
-Exits with 77 where scikit-image is not installed; without Octave, what it is asked for is left out, by name.
+Exits with 77 where scikit-image is not installed; without Octave, its comparisons are skipped with a message.
 """
 
 import pathlib
@@ -56,7 +56,7 @@ def gray_of(path):
 
 
 def made_up():
-    """A picture of any contrast, skew and number of levels, now and then with hardly any."""
+    """A picture of any contrast, skew and number of levels, sometimes with hardly any."""
     height, width = rng.integers(8, 160, 2)
     y, x = np.mgrid[0:height, 0:width]
     relief = np.sin(x / rng.uniform(2, 30)) + np.sin(y / rng.uniform(2, 30)) + rng.normal(0, rng.uniform(0.01, 1), (height, width))
@@ -200,5 +200,5 @@ with tempfile.TemporaryDirectory() as name:
             error = (fourth - theirs.var() ** 2) ** 0.5 / 1000
             check(abs(ours.var() - theirs.var()) < 5 * error * 2 ** 0.5, f"{what}: variance {ours.var()}, Octave {theirs.var()}")
 
-print("\n".join(failures) if failures else "All as theirs")
+print("\n".join(failures) if failures else "All agree")
 sys.exit(1 if failures else 0)

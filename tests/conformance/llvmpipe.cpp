@@ -22,7 +22,7 @@ const llvmpipe& peer() {
     return context;
 }
 
-/// Says so and leaves a test that needs the peer.
+/// Skips a test with a warning where llvmpipe is missing.
 #define REQUIRE_PEER()                                                   \
     if (peer().renderer().empty()) {                                     \
         WARN("skipped: no llvmpipe through EGL's surfaceless platform"); \
@@ -37,11 +37,11 @@ picture drawn_here(const triangles& corners, int width, int height) {
     for (std::uint32_t i = 0; i + 2 < corners.size(); i += 3) m.triangles.emplace_back(i, i + 1, i + 2);
     in::draw(
         m, [&](const in::vertex& v) { return corners[v.index]; }, [](const auto& f) { return f.triangle + 1; },
-        in::framebuffer<std::uint32_t>{result.winner, result.depth}, {.load = in::depth_load::clear});
+        in::framebuffer<std::uint32_t>{result.triangle_id, result.depth}, {.load = in::depth_load::clear});
     return result;
 }
 
-/// What is left of a triangle on the screen, in pixels, and its plane of depth.
+/// The visible part of a triangle, in pixels, and its plane of depth.
 class outline {
   public:
     outline(const glm::vec4* corners, int width, int height) {
@@ -95,7 +95,7 @@ struct comparison {
         const picture ours = drawn_here(corners, width, height), theirs = peer().draw(corners, width, height);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
-                const std::uint32_t a = ours.winner(x, y), b = theirs.winner(x, y);
+                const std::uint32_t a = ours.triangle_id(x, y), b = theirs.triangle_id(x, y);
                 covered += a != 0;
                 coverage_differs += (a != 0) != (b != 0);
                 if (a == b) {
@@ -151,12 +151,12 @@ triangles seen_by(const in::mesh& m, auto&& place) {
     return corners;
 }
 
-/// Half of a pixel's 256th, diagonally, here and there.
+/// Half of 1/256 pixel along the diagonal, in either renderer.
 constexpr double snapping = 2 * 0.71 / 256;
 
 }  // namespace
 
-TEST_CASE("Corners on the sub-pixel grid: the same pixels") {
+TEST_CASE("Corners on the sub-pixel grid give llvmpipe's pixels") {
     REQUIRE_PEER();
     const int size = 256;
     const double step = GENERATE(1.0 / 256, 1.0 / 16, 0.5, 1.0);
@@ -181,7 +181,7 @@ TEST_CASE("Corners on the sub-pixel grid: the same pixels") {
     CHECK(result.different <= (inside ? 0 : result.covered / 2000));
 }
 
-TEST_CASE("Published cases: the same pixels") {
+TEST_CASE("Published cases give llvmpipe's pixels") {
     REQUIRE_PEER();
     // Direct3D's pair, DRTK issue 9, Khronos' turned squares and the fifteen that cover the screen.
     const auto same = [&](const char* name, const std::vector<glm::vec3>& pixels, int size) {
@@ -206,7 +206,7 @@ TEST_CASE("Published cases: the same pixels") {
     }
 }
 
-TEST_CASE("Random triangles: what differs lies within its snapping") {
+TEST_CASE("Random triangles differ from llvmpipe's only within its snapping") {
     REQUIRE_PEER();
     const std::uint64_t seed = GENERATE(1u, 2u, 3u);
     const double reach = GENERATE(1.0, 10000.0);
@@ -229,7 +229,7 @@ TEST_CASE("Random triangles: what differs lies within its snapping") {
     CHECK(result.different < result.covered / 200);
 }
 
-TEST_CASE("A seabed and targets by a camera that looks along it, across the near plane") {
+TEST_CASE("A seabed seen along the ground, across the near plane, differs from llvmpipe's only within its snapping") {
     REQUIRE_PEER();
     in::mesh scene = in::seabed::tessellate(
         in::seabed::sample(in::seabed::ripples{.wavelength = 1.5f, .steepness = 0.13f}, {{-20, -20}, 0.25, 161, 161}));

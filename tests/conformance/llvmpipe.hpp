@@ -16,10 +16,10 @@ namespace conformance {
 
 namespace in = insonify;
 
-/// What was drawn: rows from the top.
+/// A picture; its rows run from the top.
 struct picture {
-    in::image<std::uint32_t> winner;  ///< number of the visible triangle, counted from 1; 0 for none
-    in::image<float> depth;           ///< where there is a winner
+    in::image<std::uint32_t> triangle_id;  ///< number of the visible triangle, counted from 1; 0 for none
+    in::image<float> depth;                ///< where a triangle is visible
 };
 
 /// Draws on llvmpipe; `renderer()` is empty where there is none.
@@ -31,7 +31,7 @@ class llvmpipe {
 
     const std::string& renderer() const { return context_.renderer(); }
 
-    /// Draws triangles, three corners each with 0 <= z <= w visible; the smallest depth wins, the first in a tie.
+    /// Draws triangles, three corners each with 0 <= z <= w visible; the smallest depth is visible, the first in a tie.
     picture draw(const std::vector<glm::vec4>& corners, int width, int height) const {
         struct corner {
             float position[4];
@@ -72,9 +72,9 @@ class llvmpipe {
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
 
         glViewport(0, 0, width, height);
-        const GLuint nobody[4] = {};
+        const GLuint no_id[4] = {};
         const GLfloat nothing[4] = {}, farthest[1] = {1};
-        glClearBufferuiv(GL_COLOR, 0, nobody);
+        glClearBufferuiv(GL_COLOR, 0, no_id);
         glClearBufferfv(GL_COLOR, 1, nothing);
         glDepthMask(GL_TRUE);
         glClearBufferfv(GL_DEPTH, 0, farthest);
@@ -85,7 +85,7 @@ class llvmpipe {
 
         picture result{in::image<std::uint32_t>(width, height), in::image<float>(width, height)};
         glReadBuffer(attachments[0]);
-        glReadPixels(0, 0, width, height, GL_RED_INTEGER, GL_UNSIGNED_INT, result.winner.pixels().data());
+        glReadPixels(0, 0, width, height, GL_RED_INTEGER, GL_UNSIGNED_INT, result.triangle_id.pixels().data());
         glReadBuffer(attachments[1]);
         glReadPixels(0, 0, width, height, GL_RED, GL_FLOAT, result.depth.pixels().data());
         failed_ |= glGetError() != GL_NO_ERROR;
@@ -109,9 +109,9 @@ class llvmpipe {
             void main() { gl_Position = position; triangle = number; })";
         const char* const fragment = R"(#version 300 es
             flat in highp uint triangle;
-            layout(location = 0) out highp uint winner;
+            layout(location = 0) out highp uint triangle_id;
             layout(location = 1) out highp float depth;
-            void main() { winner = triangle; depth = gl_FragCoord.z; })";
+            void main() { triangle_id = triangle; depth = gl_FragCoord.z; })";
         program_ = testing_mesa::program_of(vertex, fragment);
         failed_ |= program_ == 0;
     }

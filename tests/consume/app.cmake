@@ -1,4 +1,4 @@
-# The consumers' program, in their own words about warnings.
+# The consumers' program, with warnings of its own.
 add_executable(app ../app.cpp)
 set_target_properties(app PROPERTIES NO_SYSTEM_FROM_IMPORTED ON)
 if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")

@@ -1,4 +1,4 @@
-// A program that uses the library as a stranger would: one include, one picture.
+// A program outside of the project that uses the library: one include, one picture.
 #include <insonify/insonify.hpp>
 
 namespace in = insonify;

@@ -79,7 +79,7 @@ hash hash_of(const in::scene& scene, const in::overhead& rig, int tile, in::isa 
     return h;
 }
 
-/// One scene by every way there is to draw it.
+/// One scene for all tile sizes, instruction sets and thread counts.
 template <class Shadow>
 void render(const char* name, const in::seabed::any& seabed) {
     const in::overhead rig{.position = {3.7, -1.2}, .altitude = 5, .yaw = 0.4f, .size = {200, 150}, .grazing = 7_deg};
@@ -164,7 +164,7 @@ void triangles() {
     }
 }
 
-/// Both sides of a track, with everything that a sonar does to them.
+/// Both sides of a track, with every part of the sonar equation.
 template <in::across_track Axis>
 void record(const char* name, const in::seabed::any& seabed) {
     const in::scene scene = scene_over(seabed);

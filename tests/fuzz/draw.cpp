@@ -1,4 +1,4 @@
-// Fuzzes the rasterizer: the guarantees of a draw hold for any input, and coverage is that of the 128-bit oracle.
+// Fuzzes the rasterizer: its guarantees hold for any input, and coverage equals the 128-bit oracle's.
 //
 // Half of the drawings are placed in pixels, with w a power of two, so that snapped positions are known exactly and
 // coverage is compared with the oracle. The other half have any clip coordinates; only the guarantees are checked.
@@ -27,7 +27,7 @@ struct drawing {
     glm::vec4 operator()(const in::vertex& v) const { return clip[v.index]; }
 };
 
-// Reading.
+// Reading
 
 /// One axis of a vertex in pixels, at one of several scales.
 float read_pixels(byte_reader& bytes, int extent, int subpixel_bits) {
@@ -96,19 +96,19 @@ drawing read(byte_reader& bytes) {
     return d;
 }
 
-// Judging.
+// Checking
 
-[[noreturn]] void fail(const drawing& d, const char* promise) {
+[[noreturn]] void fail(const drawing& d, const char* invariant) {
     const in::draw_options<>& o = d.options;
     std::fprintf(stderr, "%d x %d pixels, %d sub-pixel bits, tile %d, cull %d, keep %d, load %d, level %d\n", d.width,
                  d.height, o.subpixel_bits, o.tile, static_cast<int>(o.cull), static_cast<int>(o.keep),
                  static_cast<int>(o.load), static_cast<int>(o.level));
     for (const glm::uvec3& t : d.mesh.triangles) std::fprintf(stderr, "triangle %u %u %u\n", t.x, t.y, t.z);
     for (const glm::dvec4 p : d.clip) std::fprintf(stderr, "vertex %.9g %.9g %.9g %.9g\n", p.x, p.y, p.z, p.w);
-    fuzzing::fail(promise);
+    fuzzing::fail(invariant);
 }
-void demand(const drawing& d, bool holds, const char* promise) {
-    if (!holds) fail(d, promise);
+void demand(const drawing& d, bool holds, const char* invariant) {
+    if (!holds) fail(d, invariant);
 }
 
 bool is_finite(const glm::vec4& p) {
@@ -143,7 +143,7 @@ struct picture {
     in::draw_stats stats;
 };
 
-/// Runs everything, last things first.
+/// Makes its calls in reverse order.
 struct backward_executor {
     void bulk(std::size_t count, auto&& fn) const {
         while (count > 0) fn(--count);

@@ -33,13 +33,13 @@ class byte_reader {
     std::span<const std::uint8_t> rest_;
 };
 
-/// Ends the program, which is how a fuzzer learns that it has found something.
-[[noreturn]] inline void fail(const char* promise) {
-    std::fprintf(stderr, "Broken promise: %s\n", promise);
+/// Aborts, which fuzzers report as a finding.
+[[noreturn]] inline void fail(const char* invariant) {
+    std::fprintf(stderr, "Broken invariant: %s\n", invariant);
     std::abort();
 }
-inline void demand(bool holds, const char* promise) {
-    if (!holds) fail(promise);
+inline void demand(bool holds, const char* invariant) {
+    if (!holds) fail(invariant);
 }
 
 /// NaN equals itself here, and zero isn't minus zero.

@@ -34,7 +34,7 @@ std::optional<in::image<Pixel>> check(std::string_view bytes) {
     return image;
 }
 
-/// Samples of 8 bits are the same in 16; as floats they are shares of maxval, hence in their order.
+/// Samples of 8 bits are the same in 16; as floats they are fractions of maxval, hence in the same order.
 template <class Narrow, class Wide, class Float, class Sample>
 void check_kinds(std::string_view bytes, Sample sample) {
     const auto narrow = check<Narrow>(bytes);
@@ -48,7 +48,8 @@ void check_kinds(std::string_view bytes, Sample sample) {
     if (wide)
         for (std::size_t i = 0; i < wide->size(); ++i) {
             const float share = sample(floats->pixels()[i]);
-            demand(share >= 0 && share <= 1 && (share > 0) == (sample(wide->pixels()[i]) > 0), "shares are in [0, 1]");
+            demand(share >= 0 && share <= 1 && (share > 0) == (sample(wide->pixels()[i]) > 0),
+                   "fractions are in [0, 1]");
         }
 }
 

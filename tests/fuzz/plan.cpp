@@ -1,8 +1,7 @@
-// Tables of plans on any text: lines within the promises of the reader, or a refusal that says where.
-#include "../../examples/generate_dataset/plan_table.hpp"
-
+// Tables of plans on any text: lines within the reader's limits, or a refusal that says where.
 #include "../../examples/generate_dataset/csv.hpp"
 #include "../../examples/generate_dataset/plan_options.hpp"
+#include "../../examples/generate_dataset/plan_table.hpp"
 #include "fuzz.hpp"
 
 using fuzzing::demand;
@@ -10,10 +9,11 @@ using generator::plan_row;
 
 namespace {
 
-/// A table that holds what another one does.
+/// The text of a table.
 std::string written(const generator::plan_table& table) {
     std::string text, line;
-    for (const auto& [column, cell] : table.row(0).cells) text += (text.empty() ? "" : ",") + generator::csv_cell(column);
+    for (const auto& [column, cell] : table.row(0).cells)
+        text += (text.empty() ? "" : ",") + generator::csv_cell(column);
     for (std::size_t i = 0; i < table.size(); ++i) {
         line.clear();
         const plan_row row = table.row(i);

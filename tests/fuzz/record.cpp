@@ -1,4 +1,5 @@
-// Records of a data set on any JSON, with a true seal: parsed, or refused by the reader's own error; and pinned files.
+// Records of a data set on any JSON, with a valid checksum: parsed, or refused by the reader's own error; and pinned
+// files.
 #include "../../examples/generate_dataset/record.hpp"
 
 #include "../../examples/generate_dataset/checksum.hpp"

@@ -10,7 +10,7 @@ namespace {
 int replayed = 0;
 
 void replay(const std::filesystem::path& path) {
-    // Said beforehand: if the target ends the program, the last line names the input.
+    // Printed first: if the target aborts, the last line names the input.
     std::printf("%s\n", path.string().c_str());
     std::fflush(stdout);
     const std::string bytes = insonify::read_file(path.string());

@@ -8,7 +8,7 @@ Pages are followed in the order of docs/guide/README.md, in one folder, from top
 - A block of `text` below one that was run is its output: each of its lines, in this order; `...` stands for anything.
 
 `insonify/` in the folder is the project. `insonify/tools/generate` and `insonify/tools/merge` build what they run; the
-programs that the options name run in their place. Blocks are left out, by name, without them or without GoogleTest.
+programs that the options name run in their place. Without them, or without GoogleTest, blocks are skipped and listed.
 """
 
 import argparse

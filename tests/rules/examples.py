@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Checks the programs that show the library's open doors: examples.py <examples folder>.
+"""Checks the programs that show the library's extension points: examples.py <examples folder>.
 
-Each has 40 lines at most and gets by with the public library, without spelling out types that it could not name.
+Each has 40 lines at most and uses neither `detail::` nor `decltype`.
 """
 
 import pathlib

@@ -15,7 +15,7 @@ OBJECT_LIKE = ["near", "far", "small", "interface", "ERROR", "DOMAIN", "OVERFLOW
 
 
 def compiled(command, text, *options):
-    """What the compiler prints for `text`; its complaint and the end of the run where it refuses it."""
+    """The compiler's output for `text`; exits with its message where compilation fails."""
     run = subprocess.run([*command, *options, "-x", "c++", "-"], input=text, capture_output=True, text=True)
     if run.returncode:
         sys.exit(run.stderr)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The README's program is examples/hello_sonar.cpp, letter by letter: readme.py <project folder>"""
+"""The README's program is examples/hello_sonar.cpp, verbatim: readme.py <project folder>"""
 
 import pathlib
 import sys

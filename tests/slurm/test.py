@@ -80,7 +80,7 @@ class Cluster:
         (home / "munge.key").chmod(0o400)
         (home / "slurm.conf").write_text(
             CONFIGURATION.format(host=host, home=home, ports=free_ports(3), user=getpass.getuser()))
-        # Version 1 is asked for nothing here; `disabled` came later.
+        # Nothing uses control groups here; older versions have no `disabled`.
         (home / "cgroup.conf").write_text("CgroupPlugin=cgroup/v1\n")
         self.environment = os.environ | {"SLURM_CONF": str(home / "slurm.conf")}
         self.environment.pop("SLURM_ARRAY_TASK_ID", None)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes the pictures of README.md and the guide from what programs wrote: annotate.py <folder of the programs> <docs/guide>
+"""Makes the pictures of README.md and the guide from the programs' output: annotate.py <folder of the programs> <docs/guide>
 
-Adds a margin with the way the sound travels and a scale bar, and stores few levels, so that each file stays small.
+Adds a margin with the direction of the sound and a scale bar, and stores few levels, so that each file stays small.
 """
 
 import pathlib
@@ -56,7 +56,7 @@ class Swath:
 
 
 class Plain:
-    """A picture that is no sonar's."""
+    """A picture that is not of a sonar."""
 
     def __init__(self, caption, levels=16):
         self.caption, self.levels = caption, levels
@@ -129,7 +129,7 @@ def text(draw, x, y, words, anchor="middle"):
 
 
 def posterized(picture, levels):
-    """A picture of one ramp of colours with so many of them, evenly spaced in brightness from black to white."""
+    """A picture of one colour ramp, reduced to `levels` colours that are evenly spaced in brightness."""
     gray = picture.convert("L")
     darkest, brightest = gray.getextrema()
     step = (brightest - darkest) / (levels - 1) or 1

@@ -147,14 +147,14 @@ def ping():
     p.line([(0, SONAR), (near, height)], HOT, 1.2)
     p.line([(0, SONAR), (at["shadow_end"], 0)], HOT, 1.2, 'stroke-dasharray="5 3"')
     p.line([(0, SONAR), (20.5, 0)], FAINT, 1)
-    for radius in (SONAR, at["top"], at["end"]):  # what is heard at one time
+    for radius in (SONAR, at["top"], at["end"]):  # points of equal range
         arc = [(radius * math.sin(a), SONAR - radius * math.cos(a)) for a in (math.pi / 2 * i / 60 for i in range(61))]
         p.line([q for q in arc if -0.01 <= q[1] <= 7], "#2a7", 1, 'stroke-dasharray="2 3"')
     p.dot(0, SONAR, 6, HOT)
     p.text(0.3, SONAR, "sonar, 6 m above the bottom", "start", HOT, (4, -8))
     p.text((near + far) / 2, height, "target", shift=(0, -6))
     p.text((far + at["shadow_end"]) / 2, 0, "shadow", shift=(4, 18))
-    p.text(10.2, 5.2, "arcs: places that are heard at one time", "start", "#175")
+    p.text(10.2, 5.2, "arcs: points of equal range, heard at the same time", "start", "#175")
     p.ticks(range(0, 23, 2), range(0, 7, 2))
     return p.svg()
 

@@ -1,5 +1,5 @@
 # Gives the target insonify::glm: GLM's header-only target where its package is installed, else a search for its headers.
-# Read by the build and by the installed package; without GLM there is no target, and the reader says so.
+# Read by the build and by the installed package; without GLM there is no target, and the including file reports it.
 if(TARGET insonify::glm)
   return()
 endif()

@@ -16,8 +16,8 @@ namespace peers {
 namespace {
 
 constexpr int lanes = 16, block = 4;   // a packet is a block of 4 x 4 pixels
-constexpr int tile = 32;               // pixels; what one thread takes at a time
-constexpr float shadow_start = 1e-3f;  // metres along the ray that the surface itself doesn't count
+constexpr int tile = 32;               // pixels a side, the work item of a thread
+constexpr float shadow_start = 1e-3f;  // metres along the ray within which hits are ignored
 
 struct triangle_corners {
     glm::uvec3 index;
@@ -147,7 +147,7 @@ class embree_renderer::tracer {
             wanted[i] = -1;
             primary.ray.org_x[i] = primary.ray.org_y[i] = 0;
             primary.ray.org_z[i] = altitude;
-            // Not of length 1: then the distance is what lies between altitude and height.
+            // Not of unit length: the distance is then the altitude less the height.
             primary.ray.dir_x[i] = (static_cast<float>(x0 + i % block) + 0.5f - middle) * step;
             primary.ray.dir_y[i] = (middle - static_cast<float>(y0 + i / block) - 0.5f) * step;
             primary.ray.dir_z[i] = -1;
@@ -191,7 +191,7 @@ class embree_renderer::tracer {
             rtcOccluded16(wanted, scene_, &context, &shadow);
         }
         for (int i = 0; i < lanes; ++i) {
-            const bool is_lit = wanted[i] != 0 && shadow.tfar[i] >= 0;  // minus infinity: something was met
+            const bool is_lit = wanted[i] != 0 && shadow.tfar[i] >= 0;  // minus infinity: a hit
             const float value = workload::task::ambient + (is_lit ? facing[i] : 0.0f);
             const bool is_empty = primary.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID;
             out[static_cast<std::size_t>(y0 + i / block) * static_cast<std::size_t>(task_.pixels) +

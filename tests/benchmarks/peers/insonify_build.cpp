@@ -1,4 +1,5 @@
-// One build of the library, PEERS_BUILD (insonify_builds.hpp). Its types are its own: none goes in or out.
+// One build of the library, PEERS_BUILD (insonify_builds.hpp). Its types differ from other builds', so none is passed
+// in or out.
 #include <algorithm>
 #include <memory>
 #include <string_view>

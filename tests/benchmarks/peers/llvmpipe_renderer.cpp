@@ -194,7 +194,7 @@ class llvmpipe_renderer::pipeline {
         glEnable(GL_CULL_FACE);
     }
 
-    /// The lowest and the highest of everything.
+    /// The lowest and the highest vertex.
     std::pair<double, double> heights() const {
         double lowest = 0, highest = 0;
         for (const workload::surface* s : {&task_.seabed, &task_.target})
@@ -216,7 +216,7 @@ class llvmpipe_renderer::pipeline {
         const glm::dvec3 right(-back.y / level, back.x / level, 0);
         const glm::dvec3 up(back.y * right.z - back.z * right.y, back.z * right.x - back.x * right.z,
                             back.x * right.y - back.y * right.x);
-        // What is shown, and as far from there towards the light as anything can throw a shadow.
+        // The ground in view, extended towards the light as far as anything can cast a shadow.
         const auto [lowest, highest] = heights();
         const double shown = task_.half_width * (task_.altitude - lowest) / task_.altitude,
                      reach = (highest - lowest) / back.z;

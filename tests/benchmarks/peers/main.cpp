@@ -91,7 +91,7 @@ options parse(int argc, char** argv) {
     return o;
 }
 
-/// A renderer in the race.
+/// A renderer that is measured.
 struct runner {
     std::string name;
     std::function<void(std::span<std::uint8_t>)> render;
@@ -118,7 +118,7 @@ std::vector<runner> make_runners(const workload::scene& scene, const options& o)
         return named(name) || (named("embree") && name.starts_with("embree_"));
     };
     std::vector<runner> runners;
-    // `make` gives a renderer, or throws a reason why there is none.
+    // `make` returns a renderer, or throws.
     const auto add = [&](const std::string& name, const auto& make) {
         if (!is_wanted(name)) return;
         try {
@@ -137,7 +137,7 @@ std::vector<runner> make_runners(const workload::scene& scene, const options& o)
     const auto own = [&]<class Shadow>(const Shadow&, order triangles = order::grid) {
         return [&, triangles] {
             workload::scene given = scene;
-            // The same surface in orders that are no grid's: two triangles exchanged, and all of them.
+            // The same surface in orders that are not a grid's: two triangles exchanged, or all shuffled.
             auto& all = given.seabed.triangles;
             in::random_sequence random(1);
             for (std::size_t left = triangles == order::shuffled ? all.size() : 0; left > 1; --left)
@@ -238,7 +238,7 @@ int main(int argc, char** argv) try {
                 measure(workload::scene(size, what), o, rows);
     if (rows.empty()) return 1;
     std::printf("threads %d; frames %d of each renderer, in turn; %s\n", o.threads, o.frames,
-                o.processor_time ? "processor time of all threads" : "time that passes");
+                o.processor_time ? "processor time of all threads" : "elapsed time");
     report::print_table(rows);
     if (!o.json.empty()) in::write_file(o.json, report::to_json(rows));
     if (!o.svg.empty()) in::write_file(o.svg, report::to_svg(rows));

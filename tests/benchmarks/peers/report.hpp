@@ -1,4 +1,4 @@
-// What a run has found, as a table, as JSON, and as a chart.
+// Results of a run as a table, as JSON and as a chart.
 #pragma once
 
 #include <insonify/core/error.hpp>
@@ -13,7 +13,7 @@
 
 namespace report {
 
-/// How far a picture is from the exact one.
+/// Difference of a picture from the exact one.
 struct distance {
     double psnr_db = 0;
     double off_by_8_percent = 0;  ///< pixels that differ by more than 8 of 255
@@ -52,7 +52,7 @@ inline void print_table(const std::vector<row>& rows) {
     }
 }
 
-/// JSON has no word for infinity: the first number beyond what a double holds is read as that.
+/// JSON has no infinity; a number beyond the range of doubles is read as one.
 inline std::string json_number(double value, int digits) {
     return value <= (std::numeric_limits<double>::max)() ? number(value, digits) : "1e999";
 }

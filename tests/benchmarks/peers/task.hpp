@@ -1,4 +1,4 @@
-// What every renderer is given to draw: plain data without the library's types, because peers are compiled with the
+// Input of every renderer: plain data without the library's types, because peers are compiled with the
 // flags that suit them best, and the library's types differ with flags.
 #pragma once
 

@@ -1,6 +1,6 @@
-// What is raced. The reference workload W: a cylinder on a rippled seabed of 40 m x 40 m under a camera 10 m up, lit at
+// The workloads. The reference workload W: a cylinder on a rippled seabed of 40 m x 40 m under a camera 10 m up, lit at
 // 6 degrees; and two of other kinds: a close-up from 1 m, and a mesh of millions of triangles over rock.
-// In the library's own namespace of a build, as its types are: a program may hold several (insonify_builds.hpp).
+// In a namespace for each build, like the library's types: a program may hold several builds (insonify_builds.hpp).
 #pragma once
 
 #include <insonify/core/numeric.hpp>
@@ -20,7 +20,7 @@ namespace workload::inline INSONIFY_FLAGS {
 
 namespace in = insonify;
 
-/// How fine; the scene is the same.
+/// Resolution of a scene.
 struct size {
     char name;
     int cells;   ///< of the seabed, each way
@@ -91,7 +91,7 @@ inline in::mesh thin_cylinder(int) {
     return lying(in::to_mesh(in::cylinder{.radius = 0.1f, .length = 0.8f, .segments = 64}), 0.1);
 }
 
-/// What a scan of something round would be: twice as many triangles as the seabed has, most of them smaller than a
+/// Like a scan of a round object: twice as many triangles as the seabed has, most of them smaller than a
 /// pixel.
 inline in::mesh scanned(int cells) {
     in::mesh m;
@@ -113,7 +113,7 @@ inline in::mesh scanned(int cells) {
     return lying(m, 0.5);
 }
 
-/// What is looked at, and from how high.
+/// A seabed and a target, and the camera's altitude.
 struct setting {
     const char* name;
     double altitude;  ///< metres
@@ -124,7 +124,7 @@ inline constexpr setting reference{"W", 10, rippled, cylinder};
 inline constexpr std::array<setting, 3> settings{
     {reference, {"close", 1, rippled, thin_cylinder}, {"mesh", 10, rocky, scanned}}};
 
-/// One of them in one size: the meshes, in the world's frame, and where the light stands.
+/// A setting in one size: the meshes, in the world's frame, and the direction to the light.
 struct scene {
     workload::size size;
     workload::setting setting;

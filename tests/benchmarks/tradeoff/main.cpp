@@ -13,7 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <malloc.h>
 
-// All memory goes through here, to be counted. Inlined, g++ sees only one half of the pair and takes it for a mistake.
+// Counts all memory. Not inlined, because g++ would warn of a mismatched pair of operators.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     void* const memory = std::malloc(size);
     if (memory == nullptr) throw std::bad_alloc();
@@ -216,7 +216,7 @@ void measure_targets(const options& o, report::contents& into) {
         [&](std::size_t, const in::frame<>& f) { return both(f); });
 }
 
-/// How far up the light the seabed is looked for what casts.
+/// How far towards the light the seabed is searched for casters.
 void measure_reach(const options& o, report::contents& into) {
     in::overhead rig = rig_of(o);
     rig.grazing = 2_deg;
@@ -238,7 +238,7 @@ void measure_reach(const options& o, report::contents& into) {
         });
 }
 
-/// What drawing the seabed as a mesh of cells does to exact shadows: the rows of `exact` once more, as a knob.
+/// Error of exact shadows from drawing the seabed as a mesh of cells: the rows of `exact` once more, as a knob.
 void list_cells(report::contents& into) {
     for (const report::way& w : into.ways)
         if (w.policy == "exact" && w.name.empty())

@@ -1,4 +1,4 @@
-// What a setting costs: processor time, and memory at its peak.
+// Costs of a setting: processor time and peak memory.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 
 namespace cost {
 
-/// Bytes that are allocated, now and at most since `forget_peak`; main.cpp's operators new and delete count them.
+/// Bytes allocated now, and the peak since the start of the last run. main.cpp's operators new and delete count them.
 inline std::size_t allocated = 0, peak = 0;
 
-/// Milliseconds that this process has kept a processor busy. What else runs on the machine doesn't count.
+/// Processor time of this process, milliseconds; independent of other load.
 inline double busy_ms() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -25,7 +25,7 @@ struct figures {
     double ms = 1e30;  ///< the least of all runs
     double mebibytes = 0;
 
-    /// Runs something once more.
+    /// Measures one more run.
     template <class Work>
     void run(const Work& work) {
         const std::size_t before = peak = allocated;
@@ -36,7 +36,7 @@ struct figures {
     }
 };
 
-/// Measures some knob's positions in turn, `runs` times. `error(i, result)` says how far a position's result is off.
+/// Measures the settings of a knob in turn, `runs` times. `error(i, result)` describes the error of setting i.
 template <class Make, class Error>
 void measure_knob(int runs, report::contents& into, report::knob k, const std::vector<std::string>& settings,
                   const Make& make, const Error& error) {
@@ -59,5 +59,5 @@ void measure_knob(int runs, report::contents& into, report::knob k, const std::v
 
 }  // namespace cost
 
-/// Shadows on meshes that the library didn't make, policy by policy, and what rounding their vertices costs.
+/// Shadows on imported meshes by policy, and the effect of rounding their vertices.
 void measure_meshes(int pixels, int runs, report::contents& into);

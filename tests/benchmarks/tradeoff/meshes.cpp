@@ -1,4 +1,4 @@
-// The shadow policies on meshes that the library didn't make.
+// The shadow policies on imported meshes.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 
@@ -16,7 +16,7 @@ namespace in = insonify;
 
 constexpr double elevations[] = {6, 33};
 
-/// A scene under one light, with what the oracle says of each pixel.
+/// A scene under one light, with the oracle's verdict on each pixel.
 struct lit_scene {
     const in::scene* scene;
     in::overhead rig;

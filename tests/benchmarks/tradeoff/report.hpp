@@ -138,7 +138,7 @@ inline std::string trade_chart(const contents& c) {
     return svg::page(static_cast<int>(left + 3 * width + 2 * gap + 30), static_cast<int>(top + height + 64), body);
 }
 
-/// What the fastest way costs that keeps to a tolerance, as bars.
+/// Cost of the fastest way within each tolerance, as bars.
 inline std::string savings_chart(const contents& c) {
     constexpr double left = 130, longest = 210, line = 26, gap = 90;
     std::string body =

@@ -1,4 +1,4 @@
-// What units with flags of their own exchange.
+// Functions of the units with flags of their own.
 #pragma once
 
 #include <insonify/core/image.hpp>

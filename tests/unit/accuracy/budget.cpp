@@ -24,7 +24,7 @@ struct trial {
     in::overhead rig;
 };
 
-/// Any seabed under any light, such that what throws shadows into the picture is at most its length away.
+/// A random seabed and light, such that shadow casters lie within a picture's length.
 trial random_trial(std::uint64_t seed, int pixels) {
     in::random_sequence draw(seed, 77);
     const auto between = [&](double low, double high) {
@@ -134,7 +134,7 @@ TEST_CASE("A target's facets displace its outline and its shadow by less than th
         // Beside the nadir, seen at 45 degrees, a deviation across the ray shows sqrt(2) times as large.
         CHECK(sides.deviation({.position = {6, 0, 0}}, 0) == Approx(low / std::sqrt(2.0)));
     }
-    // The scale of a pose is the shape's.
+    // A pose's scale applies to the shape's deviation.
     const acc::settings<> how{.rig = rig};
     CHECK(how.deviation({.scale = 2}, 0) == Approx(how.deviation({}, 0) / 2));
     CHECK(acc::settings<in::shadow::none>{.rig = rig}.deviation({}, 0) > how.deviation({}, 0));

@@ -1,4 +1,4 @@
-// Memory that runs out under images and thread pools: std::bad_alloc comes out, and a pool goes on.
+// Out of memory in images and thread pools: std::bad_alloc reaches the caller, and the pool stays usable.
 #include <insonify/core/image.hpp>
 #include <insonify/core/thread_pool.hpp>
 
@@ -8,7 +8,8 @@
 
 namespace in = insonify;
 
-TEST_CASE("A pool starts with the threads that memory allows, and passes a failed allocation of its work on") {
+TEST_CASE(
+    "A pool starts with as many threads as memory allows, and a failed allocation in its work reaches the caller") {
     CHECK(failing_new::in_turn([] {
               in::thread_pool pool(4);
               std::vector<std::vector<int>> made(16);
@@ -27,7 +28,7 @@ TEST_CASE("A pool starts with the threads that memory allows, and passes a faile
           }) > 16);
 }
 
-TEST_CASE("An image that cannot be copied leaves the one it was to replace") {
+TEST_CASE("A failed assignment leaves an image unchanged") {
     const in::image<float> large(40, 30, 2.0f);
     CHECK(failing_new::in_turn([&] {
               in::image<float> held(3, 3, 1.0f);

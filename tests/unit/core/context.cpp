@@ -1,4 +1,4 @@
-// context: scratch memory for render after render, owned by the caller.
+// context: scratch memory that the caller owns and successive renders reuse.
 #include <insonify/core/context.hpp>
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/sphere.hpp>
@@ -57,7 +57,7 @@ TEST_CASE("render() with a context gives the same bytes, frame after frame, with
     }
 }
 
-TEST_CASE("The second frame takes the first one's memory: the image, and more for its temporaries") {
+TEST_CASE("A second frame reuses the first one's memory, for its image and for temporaries") {
     in::context context;
     const float* first = picture(context).image.pixels().data();
     const std::size_t kept = context.kept_bytes();
@@ -67,7 +67,7 @@ TEST_CASE("The second frame takes the first one's memory: the image, and more fo
     CHECK(context.kept_bytes() < kept);
 }
 
-TEST_CASE("A type-erased executor carries the memory along") {
+TEST_CASE("A type-erased executor passes on the context's memory") {
     in::context context;
     const in::executor_ref erased(context);
     CHECK(memory_of(erased) == context.memory());
@@ -75,7 +75,7 @@ TEST_CASE("A type-erased executor carries the memory along") {
     CHECK(memory_of(in::serial_executor{}) == nullptr);
 }
 
-TEST_CASE("Images outlive their context, on any thread, and their copies take nothing from it") {
+TEST_CASE("Images may outlive their context and be destroyed on any thread; their copies use the heap") {
     in::image<float> kept, copy;
     {
         in::context context;
@@ -112,7 +112,7 @@ TEST_CASE("release() frees the kept blocks") {
     CHECK(context.kept_bytes() > 0);
 }
 
-TEST_CASE("Small vectors take nothing from a context") {
+TEST_CASE("Small vectors bypass the context's memory") {
     in::context context;
     floats(block_pool::min_bytes / sizeof(float) - 1, context.memory());
     CHECK(context.kept_bytes() == 0);
@@ -120,7 +120,7 @@ TEST_CASE("Small vectors take nothing from a context") {
     CHECK(context.kept_bytes() == block_pool::min_bytes);
 }
 
-TEST_CASE("A pool reuses blocks of one size class, two classes an octave") {
+TEST_CASE("A pool reuses blocks of the same size class; there are two classes per octave") {
     CHECK(block_pool::size_class(4 * megabyte) == 4 * megabyte);
     CHECK(block_pool::size_class(4 * megabyte + 1) == 6 * megabyte);
     CHECK(block_pool::size_class(6 * megabyte + 1) == 8 * megabyte);
@@ -138,7 +138,7 @@ TEST_CASE("A pool reuses blocks of one size class, two classes an octave") {
     pool.deallocate(same, 6 * megabyte - 1);
 }
 
-TEST_CASE("A pool holds at most half as much again as was in use at once, and drops the oldest blocks first") {
+TEST_CASE("A pool keeps at most 1.5 times its peak use, and frees the oldest blocks first") {
     block_pool pool;
     for (const std::size_t size : {1u, 2u, 3u, 4u, 6u})
         pool.deallocate(pool.allocate(size * megabyte), size * megabyte);
@@ -153,7 +153,7 @@ TEST_CASE("A pool holds at most half as much again as was in use at once, and dr
     CHECK(pool.kept_bytes() == 0);
 }
 
-TEST_CASE("Threads that share a context all get memory of their own") {
+TEST_CASE("Threads that share a context never get the same block") {
     in::context context;
     std::vector<std::thread> threads;
     std::vector<int> wrong(4, 0);

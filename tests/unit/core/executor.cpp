@@ -55,7 +55,7 @@ TEST_CASE("Every call of many short bulks has returned before its bulk does") {
     int wrong = 0;
     for (std::size_t round = 0; round < 3000; ++round) {
         const std::size_t count = round % 5;
-        std::atomic<std::size_t> sum{0};  // gone after the round: a late call would write to it
+        std::atomic<std::size_t> sum{0};  // destroyed after the round: a late call would write to it
         pool.bulk(count, [&](std::size_t i) { sum += i + 1; });
         wrong += sum != count * (count + 1) / 2;
     }
@@ -87,7 +87,7 @@ TEST_CASE("An exception reaches the caller after all other calls have returned, 
     CHECK(calls(pool, 50) == std::vector<int>(50, 1));
 }
 
-TEST_CASE("A bulk inside a bulk, of the same pool or through another one, runs to its end") {
+TEST_CASE("Nested bulks complete, within one pool and across two") {
     in::thread_pool outer(3), other(2);
     std::atomic<int> made{0};
     outer.bulk(8, [&](std::size_t) {
@@ -97,7 +97,7 @@ TEST_CASE("A bulk inside a bulk, of the same pool or through another one, runs t
     CHECK(made == 8 * 8 + 8 * 8 * 2);
 }
 
-TEST_CASE("Threads that share a pool all get their work done") {
+TEST_CASE("Several threads may share a pool") {
     in::thread_pool pool(2);
     std::atomic<int> made{0};
     std::vector<std::thread> callers;

@@ -32,7 +32,7 @@ TEST_CASE("Rows lie one after the other from the top, columns from the left") {
     CHECK(table != in::image<int>{{0, 1, 2}, {10, 11, 13}});
 }
 
-TEST_CASE("An image refuses sizes that cannot be right and rows of different lengths, and says why") {
+TEST_CASE("An image refuses sizes out of range and rows of different lengths, and names the value") {
     CHECK_THROWS_AS(in::image<char>(-1, 1), in::invalid_input);
     CHECK_THROWS_AS(in::image<char>(1, (1 << 30) + 1), in::invalid_input);
     CHECK_THROWS_AS(in::image<char>(1 << 30, 1 << 30), in::invalid_input);

@@ -1,4 +1,4 @@
-// The bit-stable mathematics against the C library's, carried out with eleven more bits.
+// Bit-stable mathematics against the C library's long double functions, which have eleven more bits.
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/random.hpp>
 
@@ -18,7 +18,7 @@ constexpr double infinity = limits::infinity();
 const double quiet_nan = limits::quiet_NaN();
 constexpr int draws = 200000;
 
-// The expected values are computed in more digits than the tested ones have.
+// Expected values are computed in long double.
 constexpr long double wide(double x) {
     return static_cast<long double>(x);
 }
@@ -45,7 +45,7 @@ double worst(double low, double high, Error&& error) {
 
 }  // namespace
 
-TEST_CASE("The logarithm is right to 1 ulp over all magnitudes, also next to 1") {
+TEST_CASE("log() is accurate to 1 ulp over all magnitudes, also next to 1") {
     const auto error = [](double x) { return ulps(numeric::log(x), std::log(wide(x))); };
     CHECK(worst(0.5, 2, error) <= 1);
     CHECK(worst(1 - 1e-6, 1 + 1e-6, error) <= 1);
@@ -53,7 +53,7 @@ TEST_CASE("The logarithm is right to 1 ulp over all magnitudes, also next to 1")
     CHECK(worst(-1074, 1023.9, [&](double exponent) { return error(std::exp2(exponent)); }) <= 1);
 }
 
-TEST_CASE("log() of 0, negative numbers, infinity and NaN is the C library's") {
+TEST_CASE("log() of 0, negative numbers, infinity and NaN follows the C library") {
     CHECK(numeric::log(1) == 0);
     CHECK(numeric::log(0) == -infinity);
     CHECK(numeric::log(-0.0) == -infinity);
@@ -64,7 +64,7 @@ TEST_CASE("log() of 0, negative numbers, infinity and NaN is the C library's") {
     CHECK(numeric::log(limits::denorm_min()) == Approx(-744.4400719213812));
 }
 
-TEST_CASE("The exponential is right to 2 ulp and fades into zero through the subnormal numbers") {
+TEST_CASE("exp() is accurate to 2 ulp and underflows gradually") {
     const auto error = [](double x) { return ulps(numeric::exp(x), std::exp(wide(x))); };
     CHECK(worst(-1, 1, error) <= 2);
     CHECK(worst(-745, 709.7, error) <= 2);
@@ -78,7 +78,7 @@ TEST_CASE("The exponential is right to 2 ulp and fades into zero through the sub
     CHECK(std::isnan(numeric::exp(quiet_nan)));
 }
 
-TEST_CASE("Sine and cosine in turns are right to 2e-16, exact at the quarters, and periodic for large arguments") {
+TEST_CASE("sin_cos_turns() is accurate to 2e-16, exact at quarter turns, and periodic for large arguments") {
     const auto error = [](double x) {
         const long double angle = 2 * std::acos(-1.0L) * (wide(x) - wide(std::floor(x)));
         const auto [sine, cosine] = numeric::sin_cos_turns(x);
@@ -110,7 +110,7 @@ TEST_CASE("Sine, cosine and tangent of radians agree with the C library over sev
     CHECK(worst(-1.5, 1.5, [](double x) { return std::fabs(numeric::tan(x) / std::tan(x) - 1); }) < 1e-14);
 }
 
-TEST_CASE("The arc tangent is right to 1e-15 in all quadrants and exact on the axes") {
+TEST_CASE("atan2() is accurate to 1e-15 in all quadrants and exact on the axes") {
     in::random_sequence random(5);
     double largest = 0;
     for (int i = 0; i < draws; ++i) {
@@ -135,7 +135,7 @@ TEST_CASE("The arc tangent is right to 1e-15 in all quadrants and exact on the a
     CHECK(std::isnan(numeric::atan2(quiet_nan, 0)));
 }
 
-TEST_CASE("Powers are right to the error of their logarithm, and to the rules at 0 and 1") {
+TEST_CASE("pow() is accurate to the error of the logarithm, and exact at 0 and 1") {
     in::random_sequence random(6);
     double largest = 0;
     for (int i = 0; i < draws; ++i) {

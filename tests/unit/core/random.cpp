@@ -1,4 +1,4 @@
-// Random numbers: Random123's known answers, and the distributions that are promised.
+// Random numbers: Random123's known answers, and the documented distributions.
 #include <insonify/core/random.hpp>
 
 #include <algorithm>
@@ -83,7 +83,7 @@ TEST_CASE("Uniform draws are uniform, and those of different seeds, streams and 
         samples.push_back((last = x) + 0.5);
     }
     CHECK(kolmogorov_smirnov(samples, [](double x) { return x; }) < unlikely);
-    // A sum of n products of variance 1/144 has the deviation sqrt(n) / 12; five of them are never seen.
+    // A sum of n products of variance 1/144 has the deviation sqrt(n) / 12; five deviations do not occur.
     const double bound = 5 * std::sqrt(static_cast<double>(draws)) / 12;
     CHECK(std::abs(with_seed) < bound);
     CHECK(std::abs(with_stream) < bound);

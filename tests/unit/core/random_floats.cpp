@@ -14,13 +14,13 @@ using namespace insonify::detail;
 
 namespace {
 
-constexpr std::uint32_t first_block = 0xFFFFFFF0u;  // whose counters pass 2^32
+constexpr std::uint32_t first_block = 0xFFFFFFF0u;  // the counters of its blocks pass 2^32
 
-/// What blocks `first_block` and on make, in the order of their words.
+/// Draws of the blocks from `first_block` on, in the order of their words.
 struct draws {
     std::vector<float> normals, symmetric, units, logarithms;
 };
-struct draw_kernel_of_all {
+struct all_draws_kernel {
     [[maybe_unused]] static constexpr int widest = 16;
 
     draws& into;
@@ -48,7 +48,7 @@ struct draw_kernel_of_all {
 draws make(std::size_t count, in::isa level) {
     draws result{std::vector<float>(count), std::vector<float>(count), std::vector<float>(count),
                  std::vector<float>(count)};
-    in::detail::dispatch(draw_kernel_of_all{result}, level);
+    in::detail::dispatch(all_draws_kernel{result}, level);
     return result;
 }
 
@@ -60,7 +60,7 @@ float log_of_word(std::uint32_t word) {
 
 }  // namespace
 
-TEST_CASE("Draws in lanes are those of their words, block after block, to a float's rounding") {
+TEST_CASE("Draws in lanes equal those of their words to a float's rounding, across blocks") {
     constexpr std::size_t count = 1 << 18;
     const draws found = make(count, in::isa::scalar);
     double normal = 0, symmetric = 0, unit = 0, logarithm = 0;
@@ -102,7 +102,7 @@ TEST_CASE("The logarithm of a word is exact at both ends") {
     }
 }
 
-TEST_CASE("The circle is round to 1.2e-7, at the quarters and their halves too") {
+TEST_CASE("cos_sin_turns() in floats is accurate to 1.2e-7, also at multiples of an eighth of a turn") {
     double worst = 0;
     for (std::uint64_t word = 0; word <= 0xFFFFFFFFu; word += 0x3FFFD) {
         float cosine, sine;
@@ -114,7 +114,7 @@ TEST_CASE("The circle is round to 1.2e-7, at the quarters and their halves too")
     CHECK(worst < 1.2e-7);
 }
 
-TEST_CASE("Floors in lanes") {
+TEST_CASE("floor_lanes() equals std::floor()") {
     for (double x = -690; x < 690; x += 0.37) {
         double found;
         floor_lanes<1>(found, x);

@@ -72,7 +72,7 @@ TEST_CASE("Words, logarithms and normal draws are the same in scalar code and in
     }
 }
 
-TEST_CASE("The circle is that of sine and cosine to 4e-16, at the quarters and their halves too") {
+TEST_CASE("cos_sin_turns() in doubles is accurate to 4e-16, also at multiples of an eighth of a turn") {
     for (int i = 1; i < 4096; ++i) {
         const double turns = i / 4096.0;
         double cosine, sine;

@@ -1,4 +1,4 @@
-// A pool where the system starts no more threads.
+// Thread pools where the system refuses to start more threads.
 #include <insonify/core/thread_pool.hpp>
 
 #include <atomic>
@@ -22,7 +22,7 @@ namespace {
 std::atomic<int> threads_left{1 << 20};
 }
 
-// In place of the system's: as under `ulimit -u`, or in a container with a limit on processes.
+// Replaces the system's function: fails as under `ulimit -u` or a container's limit on processes.
 extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*),
                               void* argument) noexcept {
     using function = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);

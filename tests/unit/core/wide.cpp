@@ -37,7 +37,7 @@ struct any_integer {
 
 }  // namespace
 
-TEST_CASE("128-bit integers are the compiler's") {
+TEST_CASE("128-bit integers equal the compiler's __int128") {
     any_integer any;
     for (int n = 0; n < 100000; ++n) {
         const std::int64_t a = any(), b = any(), c = any(), d = any();
@@ -57,7 +57,7 @@ TEST_CASE("128-bit integers are the compiler's") {
     }
 }
 
-TEST_CASE("Double doubles keep a hundred bits") {
+TEST_CASE("Double-doubles keep a hundred bits") {
     any_integer any;
     double worst = 0;
     for (int n = 0; n < 100000; ++n) {
@@ -76,7 +76,7 @@ TEST_CASE("Double doubles keep a hundred bits") {
     CHECK(worst < 0x1p-98);
 }
 
-TEST_CASE("A double double rounds once to float, from both halves") {
+TEST_CASE("A double-double rounds to float once, from both halves") {
     // 1 + 2^-24 is the middle between two floats; a double alone would round to even.
     const double middle = 1 + 0x1p-24;
     CHECK(double_double{middle, 0}.to_float() == 1.0f);

@@ -7,7 +7,7 @@
 
 namespace in = insonify;
 
-TEST_CASE("A camera shows its target in the middle, up upwards, and larger depths nearer") {
+TEST_CASE("A camera shows its target in the middle and `up` at the top; depth grows towards the eye") {
     const in::camera c{.eye = {1e6, -4, 3}, .target = {1e6, 0, 0}, .field_of_view = 1, .aspect = 2};
     const in::camera_view view(c, in::to_world({.position = {1e6, 0, 0}}));
     const glm::vec4 middle = view({0, 0, 0});
@@ -25,7 +25,8 @@ TEST_CASE("A camera shows its target in the middle, up upwards, and larger depth
     CHECK(edge.y / edge.w == Approx(1));
 }
 
-TEST_CASE("Visible depths are between 0 and w: from the near plane to infinity, and all of OpenGL's") {
+TEST_CASE(
+    "Visible depths lie between 0 and w from the near plane to infinity; from_gl_clip() maps OpenGL's range to them") {
     const in::camera_view view({.eye = {0, 0, 10}, .target = {0, 0, 0}, .up = {0, 1, 0}, .z_near = 2});
     const glm::vec4 on_plane = view({0, 0, 8}), nearer = view({0, 0, 8.5f}), away = view({0, 0, -1e6f});
     CHECK(on_plane.z == on_plane.w);
@@ -37,7 +38,7 @@ TEST_CASE("Visible depths are between 0 and w: from the near plane to infinity, 
     }
 }
 
-TEST_CASE("A camera that sees nothing is refused by name") {
+TEST_CASE("A degenerate camera is refused by name") {
     CHECK_THROWS_WITH(in::camera_view({.eye = {1, 2, 3}, .target = {1, 2, 3}}),
                       ContainsSubstring("up x line of sight"));
     CHECK_THROWS_WITH(in::camera_view({.eye = {0, 0, 3}, .target = {0, 0, 0}}),

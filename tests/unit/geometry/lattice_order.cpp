@@ -1,4 +1,4 @@
-// Heightfields over a lattice are recognized in any order of their vertices and triangles, and nothing else is.
+// Heightfields over a lattice are recognized in any order of their vertices and triangles; other meshes are not.
 #include <insonify/core/random.hpp>
 #include <insonify/geometry/shared_mesh.hpp>
 

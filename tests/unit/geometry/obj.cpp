@@ -1,4 +1,4 @@
-// OBJ import: what the format allows, what it must refuse, and how polygons are cut.
+// OBJ import: accepted syntax, refused input, and triangulation of polygons.
 #include <insonify/geometry/obj.hpp>
 #include <insonify/geometry/topology.hpp>
 
@@ -69,16 +69,16 @@ glm::dvec2 on_circle(int i, int count, double radius) {
     return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-/// How many times as long a text of four times the size takes: about 4 if time is linear, 16 if it is quadratic. The
-/// quickest of three, in time of the processor: no sanitizer and no neighbour changes what comes out. Freed memory
-/// stays in the process, since on virtual machines fresh pages cost more than the reading.
+/// Ratio of processor times for texts of four times the size and of the size: about 4 if time is linear, 16 if it is
+/// quadratic. Each is the minimum of three runs, so that other load does not count. Freed memory stays in the process,
+/// since on virtual machines fresh pages cost more than parsing.
 template <class Text>
 double growth_of_time(const Text& text_of_size, int size) {
 #if defined(__GLIBC__)
     ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
     ::mallopt(M_TRIM_THRESHOLD, (std::numeric_limits<int>::max)());
 #endif
-    const auto quickest = [](const std::string& text) {
+    const auto fastest_of_three = [](const std::string& text) {
         std::clock_t ticks = std::numeric_limits<std::clock_t>::max();
         for (int i = 0; i < 3; ++i) {
             const std::clock_t start = std::clock();
@@ -87,7 +87,7 @@ double growth_of_time(const Text& text_of_size, int size) {
         }
         return static_cast<double>(ticks);
     };
-    return quickest(text_of_size(4 * size)) / quickest(text_of_size(size));
+    return fastest_of_three(text_of_size(4 * size)) / fastest_of_three(text_of_size(size));
 }
 
 std::string reference_directory() {
@@ -123,7 +123,7 @@ TEST_CASE("Numbers are read without the locale, at any length; coordinates past 
 }
 
 TEST_CASE("Lines of other kinds are skipped, and unused positions are dropped") {
-    // Facts of assimp PR 1654: a line element before the face.
+    // The case of assimp PR 1654: a line element before the face.
     const in::mesh m = in::read_obj("o 1\nv 0 0 0\nv 9 9 9\nv 1 1 1\nv 2 2 2\nl 1\np 1\ncurv2 1 2\nf 1 3 4");
     CHECK(m.positions.size() == 3);
     CHECK(m.triangles.size() == 1);
@@ -145,7 +145,7 @@ TEST_CASE("Each pair of position and normal is one vertex; missing and zero norm
     CHECK(m.triangles[0].z == m.triangles[1].y);
     CHECK(m.triangles[0].x != m.triangles[1].x);
     CHECK_NOTHROW(in::validate(m));
-    // Normals that take turns at one position are still two vertices.
+    // Alternating normals at one position make two vertices.
     CHECK(in::read_obj(square + normals + "f 1//1 2 3\nf 1//2 2 3\nf 1//1 3 4\nf 1//2 3 4").positions.size() == 5);
 }
 
@@ -239,13 +239,13 @@ TEST_CASE("A concave prism stays closed when its faces are cut") {
     CHECK(absolute_area_of(m) == Approx(2 * 3 + 8));
 }
 
-TEST_CASE("Polygons that cross themselves or have no area give as many triangles as others") {
+TEST_CASE("Self-intersecting and zero-area polygons give as many triangles as others") {
     CHECK(in::read_obj("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4").triangles.size() == 2);
     CHECK(in::read_obj("v 0 0 0\nf 1 1 1 1 1 1").triangles.size() == 4);
     CHECK(in::read_obj("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 3 2 4 1").triangles.size() == 3);
 }
 
-TEST_CASE("Hostile sizes cost linear time") {
+TEST_CASE("Hostile input is parsed in linear time") {
     const double bound = 10;
     SECTION("a polygon with hundreds of thousands of corners, convex or jagged") {
         const bool jagged = GENERATE(false, true);

@@ -94,7 +94,7 @@ in::aeroplane aeroplane_of(float size) {
 
 }  // namespace
 
-TEST_CASE("A truncated cone is solid, of its size, and a frustum without its fittings") {
+TEST_CASE("A truncated cone is solid, has its stated size, and is a frustum without its fittings") {
     for (const float size : {1e-3f, 1.0f, 1e3f})
         for (const int segments : {6, 7, 64})
             for (const float shoulder : {0.0f, 0.05f}) {
@@ -126,7 +126,7 @@ TEST_CASE("A truncated cone is solid, of its size, and a frustum without its fit
     CHECK_THROWS_WITH(to_mesh(in::truncated_cone{.segments = 5}), ContainsSubstring("truncated_cone.segments is 5"));
 }
 
-TEST_CASE("A wedge is solid, of its size, and has the volume of its sections") {
+TEST_CASE("A wedge is solid, with its stated size and the volume of its sections") {
     for (const float size : {1e-3f, 1.0f, 1e4f}) {
         const in::wedge w{.length = 1.02f * size,
                           .width = 0.8f * size,
@@ -162,7 +162,7 @@ TEST_CASE("A wedge is solid, of its size, and has the volume of its sections") {
     CHECK_THROWS_WITH(to_mesh(in::wedge{.side_slope = 5}), ContainsSubstring("wedge.side_slope is 5"));
 }
 
-TEST_CASE("A tyre is solid and of its size, with the volume of Pappus' theorem") {
+TEST_CASE("A tyre is solid, with its stated size and the volume of Pappus' theorem") {
     for (const float size : {1e-2f, 1.0f, 1e3f})
         for (const int segments : {6, 33, 64})
             for (const float fill : {0.0f, 0.001f, 0.5f, 1.0f}) {
@@ -200,7 +200,7 @@ TEST_CASE("A tyre is solid and of its size, with the volume of Pappus' theorem")
     CHECK_THROWS_WITH(to_mesh(in::tyre{.segments = 3}), ContainsSubstring("tyre.segments is 3"));
 }
 
-TEST_CASE("A pipe is solid, of its size, and has the volume of its wall") {
+TEST_CASE("A pipe is solid, with its stated size and the volume of its wall") {
     for (const float length : {0.01f, 12.0f, 1000.0f})
         for (const int segments : {6, 48})
             for (const float flange : {0.0f, 0.2f})
@@ -260,7 +260,7 @@ TEST_CASE("A boulder is solid, fills its box, and depends on its seed alone") {
     CHECK_THROWS_WITH(to_mesh(in::boulder{.segments = 1}), ContainsSubstring("boulder.segments is 1"));
 }
 
-TEST_CASE("A crate is solid and of its size, and loses boards with damage") {
+TEST_CASE("A crate is solid, with its stated size, and loses boards with damage") {
     for (const float size : {1e-2f, 1.0f, 1e3f})
         for (const int boards : {1, 5, 20})
             for (const float damage : {0.0f, 0.3f, 1.0f})
@@ -291,7 +291,7 @@ TEST_CASE("A crate is solid and of its size, and loses boards with damage") {
     CHECK_THROWS_WITH(to_mesh(in::crate{.damage = nan_value}), ContainsSubstring("crate.damage"));
 }
 
-TEST_CASE("A lobster pot is solid and of its size within a bar") {
+TEST_CASE("A lobster pot is solid, with its stated size to within a bar's thickness") {
     for (const float size : {1e-2f, 1.0f, 1e3f})
         for (const int hoops : {2, 3, 4, 16})
             for (const float mesh_size : {0.0f, 0.07f, 0.3f})
@@ -328,7 +328,7 @@ TEST_CASE("A lobster pot is solid and of its size within a bar") {
     CHECK_THROWS_WITH(to_mesh(in::lobster_pot{.segments = 4}), ContainsSubstring("lobster_pot.segments is 4"));
 }
 
-TEST_CASE("A hull is solid and of its length and beam") {
+TEST_CASE("A hull is solid, with its stated length and beam") {
     for (const float size : {1e-2f, 1.0f, 1e3f})
         for (const in::stern_type stern : {in::stern_type::cruiser, in::stern_type::transom})
             for (const int hatches : {0, 1, 3, 8})
@@ -346,7 +346,7 @@ TEST_CASE("A hull is solid and of its length and beam") {
                     CHECK(is.y == Approx(8.2));
                     CHECK(is.z == Approx(9 + 4).epsilon(0.2));  // the foremast, on the sheer
                 }
-    // Everything that may be left out, and the limits of the form.
+    // Optional parts left out, and the limits of the shape.
     for (const float house : {0.0f, 0.1f, 0.5f})
         for (const float position : {-0.35f, 0.0f, 0.3f})
             for (const int tiers : {1, 4})
@@ -428,7 +428,7 @@ TEST_CASE("A hull refuses parameters out of range by name and value") {
     check({.segments = 8}, "hull.segments is 8");
 }
 
-TEST_CASE("An aeroplane is solid and of its length and span") {
+TEST_CASE("An aeroplane is solid, with its stated length and span") {
     for (const float size : {1e-2f, 1.0f, 1e3f})
         for (const int engines : {0, 1, 2, 3, 4})
             for (const int segments : {8, 24})

@@ -1,4 +1,4 @@
-// The tree of boxes around runs of triangles: it misses none that a plane cuts, and visits few that it doesn't.
+// plane_tree, boxes around runs of triangles: it visits every triangle that a plane cuts and few others.
 #include <insonify/core/random.hpp>
 #include <insonify/geometry/detail/plane_tree.hpp>
 #include <insonify/geometry/shared_mesh.hpp>
@@ -57,7 +57,7 @@ TEST_CASE("plane_tree visits every triangle that a plane cuts, in order, and of 
     CHECK(visited < 20 * cut);  // of 50 x 80000
 }
 
-TEST_CASE("plane_tree of no triangles, of one, and of one that is not finite") {
+TEST_CASE("plane_tree accepts meshes of no triangle and of one, and skips triangles that are not finite") {
     int runs = 0;
     const auto count = [&](std::size_t, std::size_t) { ++runs; };
     in::detail::plane_tree().cut({1, 0, 0}, 0, count);

@@ -276,7 +276,7 @@ TEST_CASE("Topology distinguishes open, tangled and closed surfaces") {
         CHECK(in::weld({{nan_value, 0, 0}, {nan_value, 0, 0}, {-0.0f, 1, 2}, {0.0f, 1, 2}}) ==
               std::vector<std::uint32_t>{0, 1, 2, 2});
     }
-    SECTION("a piece that faces inwards is closed, and nothing solid, beside one that does not and inside of it") {
+    SECTION("an inward-facing piece is closed, and makes the mesh not solid, beside or inside an outward-facing one") {
         const auto with = [&](float size, float away, bool is_turned) {
             in::mesh both = m;
             const auto corners = static_cast<std::uint32_t>(m.positions.size());
@@ -297,7 +297,7 @@ TEST_CASE("Topology distinguishes open, tangled and closed surfaces") {
         for (glm::vec3& p : m.positions) p.z = 0;  // flat, it has no inside
         CHECK(in::inspect(m).inward_pieces == 1);
     }
-    SECTION("nothing is not closed") {
+    SECTION("an empty mesh is not closed") {
         CHECK_FALSE(in::inspect(in::mesh{}).closed());
         CHECK_FALSE(in::inspect(in::mesh{}).solid());
     }

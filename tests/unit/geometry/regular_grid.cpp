@@ -1,4 +1,4 @@
-// Which meshes are a heightfield over a regular grid, and how they lie on it.
+// Recognition of heightfields over a regular grid: their size, steps and diagonals.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/regular_grid.hpp>
 
@@ -76,7 +76,7 @@ TEST_CASE("Meshes that are no regular grid are not taken for one") {
         CHECK(refused([&](in::mesh& m) { m.triangles[i].z = 0xFFFFFFFFu; }));
         CHECK(refused([&](in::mesh& m) { std::swap(m.triangles[i].x, m.triangles[i].y); }));
     }
-    // Any vertex beside its place.
+    // Any vertex off its place.
     for (const std::size_t i : {0u, 20u, 21u, 300u, 609u, 629u})
         for (const float by : {0.01f, -0.01f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
             CAPTURE(i, by);
@@ -97,7 +97,7 @@ TEST_CASE("Meshes that are no regular grid are not taken for one") {
     CHECK(refused([](in::mesh& m) {
         for (glm::vec3& p : m.positions) p.y = 0;
     }));
-    // Everywhere the second triangle over half of the first, or the same again.
+    // The second triangle of every cell covers half of the first, or repeats it.
     for (const bool is_same : {false, true})
         CHECK(refused([&](in::mesh& m) {
             const in::mesh other = grid_of(21, 30, is_same);

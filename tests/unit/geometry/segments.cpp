@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// How far a mesh's facets come towards a point, from a distance of `radius`: its deviation from a ball around it.
+/// Largest deviation of a mesh's facets from a ball of the given radius around the origin.
 double deviation_from_ball(const in::mesh& m, double radius, double lowest) {
     double nearest = radius;
     for (const glm::uvec3& t : m.triangles) {

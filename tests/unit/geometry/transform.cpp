@@ -99,7 +99,7 @@ TEST_CASE("Normals stay square to a sheared surface and outside of a mirrored on
     CHECK(transform_normal(map, glm::dvec3(0)) == glm::dvec3(0));
 }
 
-TEST_CASE("A pose that is not finite, or scales by nothing, is refused by name") {
+TEST_CASE("A pose that is not finite, or whose scale is not positive, is refused by name") {
     const float bad = GENERATE(std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity());
     CHECK_THROWS_WITH(to_world({.position = {0, static_cast<double>(bad), 0}}), ContainsSubstring("pose.position.y"));
     CHECK_THROWS_WITH(to_world({.yaw = bad}), ContainsSubstring("pose.yaw"));

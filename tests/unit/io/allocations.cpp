@@ -1,4 +1,4 @@
-// Memory that runs out while files are read and written: the old file or the new one, and no temporary one.
+// Out of memory while files are read and written: the old file or the new one remains, and no temporary one.
 #include <insonify/geometry/obj.hpp>
 #include <insonify/io/file.hpp>
 #include <insonify/io/manifest.hpp>
@@ -13,7 +13,7 @@
 namespace in = insonify;
 namespace fs = std::filesystem;
 
-TEST_CASE("A file that cannot be written for lack of memory is as it was, and none lies beside it") {
+TEST_CASE("write_file() that runs out of memory leaves the old file and no temporary one") {
     const fs::path folder = fs::temp_directory_path() / "insonify_io_allocations_with_a_name_that_is_long";
     fs::remove_all(folder);
     fs::create_directory(folder);
@@ -49,7 +49,7 @@ TEST_CASE("Readers and tables survive any failed allocation") {
               [&] { return in::seabed::parse_xyz("0 0 1\n1 0 2\n0 1 3\n1 1 4\n", 1).heights.size(); }) > 0);
 }
 
-TEST_CASE("A row that cannot be added leaves the table as it was") {
+TEST_CASE("A failed add() leaves the table unchanged") {
     const std::string cell = "a cell that is longer than a string holds in place";
     CHECK(failing_new::in_turn([&] {
               in::csv_table table{"name", "note"};

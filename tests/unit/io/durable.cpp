@@ -1,4 +1,4 @@
-// What a written file brings to disk, in which order.
+// What write_file() flushes to disk, and in which order.
 #include <insonify/io/file.hpp>
 
 #include "../../catch.hpp"
@@ -19,14 +19,14 @@ namespace {
 std::vector<bool> synced_folders;  // of each call of fsync: whether it was for a folder
 }
 
-// In place of the system's.
+// Replaces the system's function.
 extern "C" int fsync(int file) {
     struct stat status {};
     synced_folders.push_back(::fstat(file, &status) == 0 && S_ISDIR(status.st_mode));
     return 0;
 }
 
-TEST_CASE("write_file() brings the file to disk, then its folder") {
+TEST_CASE("write_file() flushes the file to disk, then its folder") {
     const auto path = std::filesystem::temp_directory_path() / "insonify_durable";
     synced_folders.clear();
     insonify::write_file(path.string(), "bytes");
@@ -34,7 +34,7 @@ TEST_CASE("write_file() brings the file to disk, then its folder") {
     CHECK(synced_folders == std::vector<bool>{false, true});
 }
 #else
-TEST_CASE("write_file() brings the file to disk, then its folder") {
+TEST_CASE("write_file() flushes the file to disk, then its folder") {
     SUCCEED("fsync is the system's own here");
 }
 #endif

@@ -1,4 +1,4 @@
-// Files written all or nothing, PNG, and tables.
+// Files that are written whole or not at all, PNG, and tables.
 #include <insonify/io/file.hpp>
 #include <insonify/io/manifest.hpp>
 #include <insonify/io/netpbm.hpp>
@@ -43,7 +43,7 @@ using namespace std::string_literals;
 
 namespace {
 
-/// An empty folder that goes away with the test.
+/// A temporary folder, removed at the end of the test.
 struct scratch_folder {
     fs::path path;
     scratch_folder() {
@@ -110,31 +110,31 @@ TEST_CASE("A full disk loses the new file, not the old one") {
     const std::string path = folder / "image.pgm";
     in::write_file(path, "old");
 
-    // The next best thing to a full disk: files may not grow beyond 4096 bytes.
+    // Stands in for a full disk: files may not grow beyond 4096 bytes.
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     rlimit before{};
     REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
     rlimit limited = before;
     limited.rlim_cur = 4096;
     REQUIRE(setrlimit(RLIMIT_FSIZE, &limited) == 0);
-    std::string complaint;
+    std::string messages;
     for (const std::size_t size : {std::size_t{5000}, std::size_t{5000000}}) {
         try {
             in::write_file(path, std::string(size, 'x'));
         } catch (const in::io_error& error) {
-            complaint += error.what() + std::string(";");
+            messages += error.what() + std::string(";");
         }
     }
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
 
-    CHECK(complaint == path + ": can't write: File too large;" + path + ": can't write: File too large;");
+    CHECK(messages == path + ": can't write: File too large;" + path + ": can't write: File too large;");
     CHECK(in::read_file(path) == "old");
     CHECK(folder.names() == std::set<std::string>{"image.pgm"});
 }
 #endif
 
-TEST_CASE("Writers of one path don't mix their bytes") {
+TEST_CASE("Concurrent writers of one path do not mix their bytes") {
     const scratch_folder folder;
     const std::string path = folder / "shared";
     std::vector<std::thread> writers;

@@ -1,4 +1,4 @@
-// Netpbm files: round trips, the published formats byte by byte, and headers that lie.
+// Netpbm files: round trips, the published formats byte by byte, and hostile headers.
 #include <insonify/core/random.hpp>
 #include <insonify/io/netpbm.hpp>
 
@@ -13,7 +13,7 @@ using namespace std::string_literals;
 namespace {
 
 template <class Pixel>
-std::string complaint(const std::string& bytes) {
+std::string refusal(const std::string& bytes) {
     try {
         in::parse_netpbm<Pixel>(bytes, "hostile.pgm");
     } catch (const in::io_error& error) {
@@ -60,7 +60,7 @@ TEST_CASE("Plain files, comments and all white space are read") {
     CHECK(in::parse_netpbm<std::uint8_t>("P5 1 1 255\n7P5 1 1 255\n8") == in::image<std::uint8_t>{{'7'}});
 }
 
-TEST_CASE("Samples keep their values as integers and become shares of maxval as floats") {
+TEST_CASE("Samples keep their values as integers and become fractions of maxval as floats") {
     CHECK(in::parse_netpbm<std::uint16_t>("P2 3 1 1000 0 500 1000") == in::image<std::uint16_t>{{0, 500, 1000}});
     CHECK(in::parse_netpbm<float>("P2 3 1 1000 0 500 1000") == in::image<float>{{0, 0.5f, 1}});
     CHECK(in::parse_netpbm<float>("P5 1 1 65535\n\xFF\xFF") == in::image<float>{{1}});
@@ -77,45 +77,44 @@ TEST_CASE("Float maps are read in both byte orders, from the bottom up") {
 }
 
 TEST_CASE("Headers with sizes that the file does not have are refused before memory is allocated") {
-    CHECK(complaint<std::uint8_t>("") == "hostile.pgm: not a netpbm file");
-    CHECK(complaint<std::uint8_t>("\x89PNG\r\n") == "hostile.pgm: not a netpbm file");
-    CHECK_THAT(complaint<std::uint8_t>("P4 8 1\n1"), ContainsSubstring("format P4"));
-    CHECK_THAT(complaint<std::uint8_t>("P5"), ContainsSubstring("not a netpbm file"));
-    CHECK_THAT(complaint<std::uint8_t>("P5 # only a comment"), ContainsSubstring("ends before the width"));
-    CHECK_THAT(complaint<std::uint8_t>("P5 2"), ContainsSubstring("ends before the height"));
-    CHECK_THAT(complaint<std::uint8_t>("P5 2 2"), ContainsSubstring("ends before the maxval"));
+    CHECK(refusal<std::uint8_t>("") == "hostile.pgm: not a netpbm file");
+    CHECK(refusal<std::uint8_t>("\x89PNG\r\n") == "hostile.pgm: not a netpbm file");
+    CHECK_THAT(refusal<std::uint8_t>("P4 8 1\n1"), ContainsSubstring("format P4"));
+    CHECK_THAT(refusal<std::uint8_t>("P5"), ContainsSubstring("not a netpbm file"));
+    CHECK_THAT(refusal<std::uint8_t>("P5 # only a comment"), ContainsSubstring("ends before the width"));
+    CHECK_THAT(refusal<std::uint8_t>("P5 2"), ContainsSubstring("ends before the height"));
+    CHECK_THAT(refusal<std::uint8_t>("P5 2 2"), ContainsSubstring("ends before the maxval"));
     for (const char* width :
          {"0", "-1", "+1", "1.5", "1e3", "0x10", "1073741825", "4294967297", "99999999999999999999", "\xFF"}) {
-        CHECK_THAT(complaint<std::uint8_t>("P5 "s + width + " 1 255\n0"),
+        CHECK_THAT(refusal<std::uint8_t>("P5 "s + width + " 1 255\n0"),
                    ContainsSubstring("width is \"" + std::string(width)));
     }
     for (const char* maxval : {"0", "-5", "65536"}) {
-        CHECK_THAT(complaint<std::uint16_t>("P5 1 1 "s + maxval + "\n0"), ContainsSubstring("expected 1 to 65535"));
+        CHECK_THAT(refusal<std::uint16_t>("P5 1 1 "s + maxval + "\n0"), ContainsSubstring("expected 1 to 65535"));
     }
     for (const char* scale : {"0", "-0.0", "nan", "one", "1,0"}) {
-        CHECK_THAT(complaint<float>("Pf 1 1 "s + scale + "\n0000"),
-                   ContainsSubstring("expected a number other than 0"));
+        CHECK_THAT(refusal<float>("Pf 1 1 "s + scale + "\n0000"), ContainsSubstring("expected a number other than 0"));
     }
     for (const std::string format : {"P2", "P3", "P5", "P6"}) {
-        CHECK_THAT(complaint<float>(format + " 1073741824 1073741824 65535\n0")
-                       .append(complaint<in::rgb<float>>(format + " 1073741824 1073741824 255\n0")),
+        CHECK_THAT(refusal<float>(format + " 1073741824 1073741824 65535\n0")
+                       .append(refusal<in::rgb<float>>(format + " 1073741824 1073741824 255\n0")),
                    ContainsSubstring("1073741824 x 1073741824 pixels is longer than the file"));
     }
-    CHECK_THAT(complaint<float>("Pf 1073741824 1073741824 1\n0000"), ContainsSubstring("longer than the file"));
-    CHECK_THAT(complaint<std::uint8_t>("P5 2 2 255\n123"), ContainsSubstring("longer than the file"));
-    CHECK_THAT(complaint<std::uint16_t>("P5 2 2 256\n1234567"), ContainsSubstring("longer than the file"));
-    CHECK_THAT(complaint<std::uint8_t>("P2 2 2 255 1 2 3"), ContainsSubstring("longer than the file"));
-    CHECK_THAT(complaint<std::uint8_t>("P2 2 2 255 1 200 3    "), ContainsSubstring("ends before the sample"));
-    CHECK_THAT(complaint<std::uint8_t>("P5 1 1 255"), ContainsSubstring("no white space after the header"));
-    CHECK_THAT(complaint<std::uint8_t>("P5 1 1 100\n\x65"), ContainsSubstring("sample is 101, expected 0 to 100"));
-    CHECK_THAT(complaint<std::uint8_t>("P2 1 1 100 101"), ContainsSubstring("sample is \"101\", expected 0 to 100"));
+    CHECK_THAT(refusal<float>("Pf 1073741824 1073741824 1\n0000"), ContainsSubstring("longer than the file"));
+    CHECK_THAT(refusal<std::uint8_t>("P5 2 2 255\n123"), ContainsSubstring("longer than the file"));
+    CHECK_THAT(refusal<std::uint16_t>("P5 2 2 256\n1234567"), ContainsSubstring("longer than the file"));
+    CHECK_THAT(refusal<std::uint8_t>("P2 2 2 255 1 2 3"), ContainsSubstring("longer than the file"));
+    CHECK_THAT(refusal<std::uint8_t>("P2 2 2 255 1 200 3    "), ContainsSubstring("ends before the sample"));
+    CHECK_THAT(refusal<std::uint8_t>("P5 1 1 255"), ContainsSubstring("no white space after the header"));
+    CHECK_THAT(refusal<std::uint8_t>("P5 1 1 100\n\x65"), ContainsSubstring("sample is 101, expected 0 to 100"));
+    CHECK_THAT(refusal<std::uint8_t>("P2 1 1 100 101"), ContainsSubstring("sample is \"101\", expected 0 to 100"));
 }
 
 TEST_CASE("A file that doesn't fit the pixel type is refused") {
-    CHECK_THAT(complaint<std::uint8_t>("P6 1 1 255\n123"), ContainsSubstring("a colour image, expected gray"));
-    CHECK_THAT(complaint<in::rgb8>("P5 1 1 255\n1"), ContainsSubstring("a gray image, expected colour"));
-    CHECK_THAT(complaint<std::uint8_t>("P5 1 1 256\n12"), ContainsSubstring("maxval is 256, expected at most 255"));
-    CHECK_THAT(complaint<std::uint8_t>("Pf 1 1 1\n1234"), ContainsSubstring("an image of floats"));
+    CHECK_THAT(refusal<std::uint8_t>("P6 1 1 255\n123"), ContainsSubstring("a colour image, expected gray"));
+    CHECK_THAT(refusal<in::rgb8>("P5 1 1 255\n1"), ContainsSubstring("a gray image, expected colour"));
+    CHECK_THAT(refusal<std::uint8_t>("P5 1 1 256\n12"), ContainsSubstring("maxval is 256, expected at most 255"));
+    CHECK_THAT(refusal<std::uint8_t>("Pf 1 1 1\n1234"), ContainsSubstring("an image of floats"));
     CHECK_THROWS_AS(in::format_netpbm(in::image_view<const float>()), in::invalid_input);
 }
 

@@ -1,4 +1,4 @@
-// Clipping: the visible part is what rays meet, and neighbours share the vertices on a clipped edge.
+// Clipping: the visible part equals what rays hit, and adjacent triangles share the vertices on a clipped edge.
 #include <insonify/core/random.hpp>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ glm::dvec4 any_position(in::random_sequence& random) {
     return p;
 }
 
-/// The new corners that cutting left on the edge from vertex 0 to vertex 1 of a triangle.
+/// The new corners on the edge from vertex 0 to vertex 1 of a clipped triangle.
 std::vector<glm::dvec4> cuts_of_first_edge(const clip_polygon& polygon) {
     std::vector<glm::dvec4> cuts;
     for (int i = 0; i < polygon.count; ++i) {
@@ -44,7 +44,7 @@ TEST_CASE("Triangles that share a clipped edge get the same new vertices, to the
         const glm::dvec4 a = any_position(random), b = any_position(random);
         const auto left = cuts_of_first_edge(to_screen.clip({a, b, any_position(random)}));
         const auto right = cuts_of_first_edge(to_screen.clip({b, a, any_position(random)}));
-        if (left.size() != right.size()) continue;  // a plane has cut the edge away together with one third corner
+        if (left.size() != right.size()) continue;  // a plane cut off the edge together with one of the third corners
         cut_once += left.size() == 1;
         cut_twice += left.size() == 2;
         for (const glm::dvec4& cut : left) {
@@ -84,7 +84,7 @@ TEST_CASE("Clipped triangles keep their varyings, weights and depths") {
     CHECK(worst < 3e-5);
 }
 
-TEST_CASE("Depth 0 and depth 1 are still visible, far corners or not") {
+TEST_CASE("Depths of exactly 0 and 1 are visible, with near corners and with far ones") {
     const float z = GENERATE(0.0f, 1.0f);
     const float reach = GENERATE(1e2f, 1e8f);
     const in::mesh m{{{-reach, -reach, z}, {reach, -reach, z}, {0, reach, z}}, {}, {{0, 1, 2}}};
@@ -109,7 +109,7 @@ in::image<int> covered(const glm::vec3 (&corners)[3], float depth) {
 
 }  // namespace
 
-TEST_CASE("A triangle across the camera's plane covers the same pixels at any depth, the ends included") {
+TEST_CASE("A triangle across the camera's plane covers the same pixels at any depth, including 0 and 1") {
     const glm::vec3 known[] = {{-0x1.66cc54p-5f, 0x1.a1030ap-4f, 0x1.425f8ap-1f},
                                {0x1.a7418p-4f, 0x1.86626ep-1f, 0x1.1a9606p-3f},
                                {-0x1.543be6p+0f, -0x1.98572cp-2f, -0x1.ace2b2p-2f}};
@@ -131,15 +131,15 @@ TEST_CASE("A triangle across the camera's plane covers the same pixels at any de
     CHECK(different == 0);
 }
 
-TEST_CASE("Corners are rounded to nearest up to 2^27 sub-pixels, and beyond but for the roundings of doubles") {
+TEST_CASE("Corners are rounded to nearest up to 2^27 sub-pixels, and beyond to the rounding of doubles") {
     __extension__ using wide = __int128;
     in::random_sequence random(4);
     for (const int width : {64, 2047, 4194303}) {
         const in::detail::projection exact(in::detail::pixel_grid{8, width, 64}, in::keep_depth::smaller);
         int near_ties = 0;
         for (int n = 0; n < 200000; ++n) {
-            // x / w, in sub-pixels, as close beside the middle between two of them as such floats come: of several
-            // candidates the best.
+            // x / w in sub-pixels, as close to a tie between two of them as such floats come: the closest of several
+            // candidates.
             const auto w = static_cast<std::int64_t>(random.below(1u << 23) + (1u << 23));
             const auto from = static_cast<std::int64_t>(random.below(1u << 23));
             const int scale = static_cast<int>(random.below(36));

@@ -1,4 +1,4 @@
-// Coverage against an exact oracle: triangles of every kind, at any distance.
+// Coverage against an exact oracle: triangles of every kind, near and far from the picture.
 #include <insonify/core/random.hpp>
 
 #include <array>
@@ -21,12 +21,12 @@ glm::dvec2 pair_of(const At& at) {
     return {x, at()};
 }
 
-/// The kinds of triangles that have gone wrong somewhere.
+/// Random triangles of the kinds that rasterizers get wrong.
 struct any_triangle {
     in::random_sequence random;
 
     std::array<glm::dvec2, 3> operator()(int kind) {
-        const auto spread = [&](double low, double high) {
+        const auto uniform_in = [&](double low, double high) {
             return std::array{pair_of([&] { return random.uniform(low, high); }),
                               pair_of([&] { return random.uniform(low, high); }),
                               pair_of([&] { return random.uniform(low, high); })};
@@ -38,13 +38,13 @@ struct any_triangle {
             return std::array{pair_of(at), pair_of(at), pair_of(at)};
         };
         switch (kind) {
-            case 0: return spread(-8, size + 8);
-            case 1: return around_a_point(spread(-0.7, 0.7));  // about as large as a pixel
-            case 2: return around_a_point(spread(-8, 8));
+            case 0: return uniform_in(-8, size + 8);
+            case 1: return around_a_point(uniform_in(-0.7, 0.7));  // about as large as a pixel
+            case 2: return around_a_point(uniform_in(-8, 8));
             case 3: return sliver(2 * size);
             case 4: return on_grid(0.5);       // on the centres and corners of pixels
             case 5: return on_grid(1.0 / 16);  // on edges of each other
-            case 6: return spread(-2000, 2000);
+            case 6: return uniform_in(-2000, 2000);
             case 7: return through_centres();
             default: return past_the_picture(kind == 8 ? 1e5 : kind == 9 ? 1e7 : 3e9);
         }
@@ -77,7 +77,7 @@ struct any_triangle {
         return {centre + std::floor(random.uniform(0, away)) * step,
                 centre - std::floor(random.uniform(0, away)) * step, third};
     }
-    /// Corners at most so far away, with an edge or two that pass through the picture.
+    /// Corners up to `distance` away, with an edge or two through the picture.
     std::array<glm::dvec2, 3> past_the_picture(double distance) {
         const glm::dvec2 direction = pair_of([&] { return random.uniform(-distance, distance); });
         const glm::dvec2 inside = pair_of([&] { return random.uniform(0, size); });
@@ -117,7 +117,7 @@ class comparison {
     in::image<std::uint8_t> hit_{size, size};
 };
 
-/// So many triangles of each kind, with all sub-pixel grids, tiles and instruction sets among them.
+/// Checks `count` triangles of each kind, over all sub-pixel grids, tile sizes and instruction sets.
 void compare(std::uint64_t seed, int count) {
     any_triangle triangle{in::random_sequence(seed)};
     in::random_sequence choice(seed, 1);

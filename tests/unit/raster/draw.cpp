@@ -1,4 +1,4 @@
-// draw() beyond coverage: depth, interpolation, clipping, counts, and the same bytes everywhere.
+// draw() beyond coverage: depth, interpolation, clipping, counts, and equal bytes for all settings.
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>
 
@@ -62,7 +62,7 @@ concept accepts_a_fragment = requires(const in::mesh& m, const Target& t) {
 
 }  // namespace
 
-TEST_CASE("The same bytes for any executor, thread count, tile size and instruction set") {
+TEST_CASE("draw() gives the same bytes for any executor, thread count, tile size and instruction set") {
     const in::mesh m = bumps(60);
     const picture expected = draw_bumps(m, {.tile = 64, .level = in::isa::scalar}, in::serial_executor{});
     for (const int threads : {1, 2, 3, 8}) {
@@ -183,7 +183,7 @@ TEST_CASE("Triangles that cross the camera plane show the part in front, without
         }
     const int bits = GENERATE(8, 12);
     const auto count = hits(floor, 64, 64, along, {.keep = in::keep_depth::larger, .subpixel_bits = bits});
-    CHECK(most(count) == 1);
+    CHECK(max_count(count) == 1);
     for (int y = 34; y < 64; ++y)
         for (int x = 0; x < 64; ++x) CHECK(count(x, y) == 1);  // all below the horizon
     for (int y = 0; y < 32; ++y)
@@ -225,7 +225,7 @@ TEST_CASE("Every triangle is counted exactly once in the statistics") {
 
 TEST_CASE("Triangles outside of the picture count as missed; those that touch a pixel centre do not") {
     // On either side of 8 x 8 pixels: one that has no area, one that is culled, one that goes on for 4000 pixels. Each
-    // comes eight times and more, as a mesh's triangles do that lie together.
+    // is repeated, so that lanes are full of such triangles.
     const float beyond = GENERATE(-5000.0f, 7.5f);  // the last centre doesn't belong to what begins there
     const bool along_y = GENERATE(false, true);
     const auto at = [&](float past, float level) {
@@ -240,7 +240,7 @@ TEST_CASE("Triangles outside of the picture count as missed; those that touch a 
         auto stats = in::draw(m, pixel_space{8, 8}, in::depth_target{depth}, options);
         CHECK(stats.missed == m.triangles.size());
         if (beyond < 0) continue;
-        // A quarter of a pixel nearer, the last row or column of centres is theirs.
+        // A quarter of a pixel nearer, they cover the last row or column of centres.
         for (glm::vec3& p : m.positions) p[along_y ? 1 : 0] -= 0.25f;
         stats = in::draw(m, pixel_space{8, 8}, in::depth_target{depth}, options);
         CHECK(stats.degenerate == m.triangles.size() / 3);
@@ -260,14 +260,14 @@ TEST_CASE("Clipped triangles keep their indices") {
         m.positions.insert(m.positions.end(), {{x, y, 0.5f}, {x + 2, y, 0.5f}, {x, y + 2 * (end + 0.5f), end}});
         m.triangles.emplace_back(first, first + 1, first + 2);
     }
-    in::image<std::uint32_t> winner(width, height);
+    in::image<std::uint32_t> triangle_ids(width, height);
     in::image<float> depth(width, height);
     const auto stats = in::draw(m, pixel_space{width, height}, [](const auto& f) { return f.triangle; },
-                                in::framebuffer<std::uint32_t>{winner, depth}, {.load = in::depth_load::clear});
+                                in::framebuffer<std::uint32_t>{triangle_ids, depth}, {.load = in::depth_load::clear});
     CHECK(stats.clipped == 6667);
     std::size_t wrong = 0;
     for (std::uint32_t cell = 0; cell < 20000; ++cell)
-        wrong += winner(static_cast<int>(cell % 200 * 2), static_cast<int>(cell / 200 * 2)) != cell;
+        wrong += triangle_ids(static_cast<int>(cell % 200 * 2), static_cast<int>(cell / 200 * 2)) != cell;
     CHECK(wrong == 0);
 
     // The same picture from slices of the mesh, one after the other.
@@ -280,7 +280,7 @@ TEST_CASE("Clipped triangles keep their indices") {
                  in::framebuffer<std::uint32_t>{sliced, depth},
                  {.load = first == 0 ? in::depth_load::clear : in::depth_load::keep});
     }
-    CHECK(winner == sliced);
+    CHECK(triangle_ids == sliced);
 }
 
 TEST_CASE("The front side follows the winding") {
@@ -289,7 +289,7 @@ TEST_CASE("The front side follows the winding") {
     back.triangles = {{0, 2, 1}};
     const in::isa level = GENERATE(in::isa::scalar, in::isa::baseline, in::isa::avx2);
     const auto drawn = [&](const in::mesh& mesh, in::cull_mode cull) {
-        in::mesh many = mesh;  // enough to go through the lanes
+        in::mesh many = mesh;  // enough to fill the lanes
         many.triangles.assign(11, mesh.triangles[0]);
         return total(hits(many, 8, 8, {.cull = cull, .level = level}));
     };

@@ -15,13 +15,13 @@ namespace {
 
 using limits = std::numeric_limits<float>;
 
-/// A triangle over the whole picture, and one with a vertex that the test spoils.
-struct spoilt {
+/// A triangle over the whole picture, and one whose vertices a test overwrites.
+struct overwritten_triangle {
     glm::vec4 clip[6] = {{-3, -3, 0.5f, 1},  {3, -3, 0.5f, 1},  {0, 5, 0.5f, 1},
                          {-1, -1, 0.25f, 1}, {1, -1, 0.25f, 1}, {0, 1, 0.25f, 1}};
     in::mesh mesh{std::vector<glm::vec3>(6), {}, {{0, 1, 2}, {3, 4, 5}}};
 
-    /// The picture of triangle indices, and what became of the triangles.
+    /// The picture of triangle indices, and the statistics.
     std::pair<in::image<int>, in::draw_stats> draw() const {
         in::image<int> seen(16, 16);
         in::image<float> depth(16, 16);
@@ -39,10 +39,10 @@ struct spoilt {
 
 }  // namespace
 
-TEST_CASE("Special values in any component of any vertex are skipped or drawn right") {
-    const spoilt whole;
+TEST_CASE("Special values in any component of any vertex are skipped or drawn correctly") {
+    const overwritten_triangle whole;
     const in::image<int> background = [&] {
-        spoilt first = whole;
+        overwritten_triangle first = whole;
         first.mesh.triangles.pop_back();
         return first.draw().first;
     }();
@@ -68,7 +68,7 @@ TEST_CASE("Special values in any component of any vertex are skipped or drawn ri
     for (const float value : values)
         for (int component = 0; component < 4; ++component)
             for (int vertices = 1; vertices < 8; ++vertices) {  // any of the three, any two, all
-                spoilt bad;
+                overwritten_triangle bad;
                 for (int i = 0; i < 3; ++i)
                     if (vertices >> i & 1) bad.clip[3 + i][component] = value;
                 INFO("value " << value << " in component " << component << " of vertices " << vertices);
@@ -76,8 +76,8 @@ TEST_CASE("Special values in any component of any vertex are skipped or drawn ri
                 CHECK(stats.drawn + stats.culled + stats.missed + stats.degenerate + stats.not_finite == 2);
                 CHECK(stats.not_finite == (in::numeric::is_finite(value) ? 0u : 1u));
                 for (std::size_t i = 0; i < seen.size(); ++i) {
-                    const bool unharmed = seen.pixels()[i] == background.pixels()[i] || seen.pixels()[i] == 2;
-                    CHECK(unharmed);
+                    const bool is_unchanged = seen.pixels()[i] == background.pixels()[i] || seen.pixels()[i] == 2;
+                    CHECK(is_unchanged);
                 }
                 if (!in::numeric::is_finite(value)) CHECK(seen == background);
             }
@@ -85,22 +85,22 @@ TEST_CASE("Special values in any component of any vertex are skipped or drawn ri
 
 TEST_CASE("Denormal positions are not flushed to zero") {
     // x and y of 1e-42 beside w of 1e-42: an ordinary triangle.
-    spoilt tiny;
-    const spoilt ordinary;
+    overwritten_triangle tiny;
+    const overwritten_triangle ordinary;
     for (int i = 3; i < 6; ++i) tiny.clip[i] = ordinary.clip[i] * 0x1p-20f;
     CHECK(tiny.draw().first == ordinary.draw().first);
     for (int i = 3; i < 6; ++i) tiny.clip[i] = ordinary.clip[i] * 0x1p100f;
     CHECK(tiny.draw().first == ordinary.draw().first);
 }
 
-TEST_CASE("No triangle, one triangle, ten million triangles") {
+TEST_CASE("draw() accepts no triangle, one triangle and ten million triangles") {
     const int size = 64;
     in::image<float> depth(size, size);
     CHECK(in::draw({}, pixel_space{size, size}, in::depth_target{depth}).triangles == 0);
     in::mesh m{{{0, 0, 0.5f}, {64, 0, 0.5f}, {0, 64, 0.5f}}, {}, {{0, 1, 2}}};
     CHECK(in::draw(m, pixel_space{size, size}, in::depth_target{depth}).drawn == 1);
 
-    // The same three corners over and over, each time a little nearer; the last one wins.
+    // The same three corners over and over, each time a little nearer; the last one is visible.
     m = {{}, {}, {}};
     const std::uint32_t count = 10000000;
     for (std::uint32_t i = 0; i < 1000; ++i)
@@ -110,25 +110,25 @@ TEST_CASE("No triangle, one triangle, ten million triangles") {
         const std::uint32_t first = 3 * (i % 1000);
         m.triangles.emplace_back(first, first + 1, first + 2);
     }
-    in::image<std::uint32_t> winner(size, size);
+    in::image<std::uint32_t> triangle_ids(size, size);
     const auto stats = in::draw(m, pixel_space{size, size}, [](const auto& f) { return f.triangle; },
-                                in::framebuffer<std::uint32_t>{winner, depth}, {.load = in::depth_load::clear});
+                                in::framebuffer<std::uint32_t>{triangle_ids, depth}, {.load = in::depth_load::clear});
     CHECK(stats.drawn == count);
-    CHECK(winner(30, 30) == 999);
+    CHECK(triangle_ids(30, 30) == 999);
 }
 
-TEST_CASE("Pictures of one pixel, one row, one column, and odd shapes") {
+TEST_CASE("A quad covers pictures of one pixel, one row, one column and odd shapes") {
     const auto [width, height] =
         GENERATE(std::pair{1, 1}, std::pair{1, 777}, std::pair{777, 1}, std::pair{2047, 3}, std::pair{3, 2047});
     const auto w = static_cast<float>(width), h = static_cast<float>(height);
     const in::mesh m{{{0, 0, 0.5f}, {w, 0, 0.5f}, {0, h, 0.5f}, {w, h, 0.5f}}, {}, {{0, 1, 2}, {1, 3, 2}}};
     const auto count = hits(m, width, height);
     CHECK(total(count) == width * height);
-    CHECK(most(count) == 1);
+    CHECK(max_count(count) == 1);
 }
 
-TEST_CASE("A picture of 16384 x 16384 pixels", "[.slow]") {
-    // 1 GiB of depth; what the draw itself needs is a few tiles and bins.
+TEST_CASE("draw() accepts a picture of 16384 x 16384 pixels", "[.slow]") {
+    // 1 GiB of depth; the draw itself takes a few tiles and bins.
     const int size = 16384;
     in::image<float> depth(size, size);
     const in::mesh m{
@@ -160,8 +160,8 @@ TEST_CASE("Indices out of range are refused at any position, and nothing is draw
     in::image<float> depth(8, 8, 7.0f);
     CHECK_THROWS_AS(in::draw(m, pixel_space{8, 8}, in::depth_target{depth}, {.load = in::depth_load::clear}),
                     in::invalid_input);
-    const in::mesh nothing_to_point_at{{}, {}, {{0, 0, 0}}};
-    CHECK_THROWS_AS(in::draw(nothing_to_point_at, pixel_space{8, 8}, in::depth_target{depth}), in::invalid_input);
+    const in::mesh no_positions{{}, {}, {{0, 0, 0}}};
+    CHECK_THROWS_AS(in::draw(no_positions, pixel_space{8, 8}, in::depth_target{depth}), in::invalid_input);
     for (const float d : depth.pixels()) CHECK(d == 7.0f);
 }
 

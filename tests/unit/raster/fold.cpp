@@ -71,7 +71,7 @@ TEST_CASE("The parts of a polygon cover the pixels of non-zero winding number in
 }
 
 TEST_CASE("A run of a folded polygon is drawn to its ends and no further") {
-    // What a tile does with the runs: a needle cut by two planes, coarse enough to fold, drawn in tiles of any size.
+    // Runs as tiles draw them: a needle cut by two planes, on a grid coarse enough to fold it, in tiles of two sizes.
     in::random_sequence random(7);
     int folded = 0;
     for (int n = 0; n < 3000; ++n) {

@@ -43,7 +43,7 @@ struct pictures {
     in::image<std::int32_t> front{150, 110};
 };
 
-/// Own shader over lanes: stores a function of the varyings and everything else that it is given.
+/// A user's shader over lanes: stores a function of the varyings, and its other inputs.
 struct lane_shader {
     pictures& into;
 
@@ -130,7 +130,7 @@ TEST_CASE("A shader over lanes gives the same bytes for any instruction set, til
 }
 
 namespace {
-/// Own vertex shader that can shade several vertices at a time.
+/// A user's vertex shader with a form over lanes.
 struct both_ways {
     int& lanes;
     auto operator()(const in::vertex& v) const { return pinhole(v); }

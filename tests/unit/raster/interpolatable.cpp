@@ -16,7 +16,7 @@ struct pair {
 struct mixed {
     glm::vec3 normal;
     pair texture;
-    float shares[3];
+    float weights[3];
     glm::mat3 frame;
 };
 struct nothing {};

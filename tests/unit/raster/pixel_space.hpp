@@ -1,4 +1,4 @@
-// Drawing in pixel coordinates, and an independent, slow oracle of coverage: what the raster tests share.
+// Drawing in pixel coordinates, and an independent, slow oracle of coverage: shared by the raster tests.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -46,7 +46,7 @@ inline int total(const in::image<int>& count) {
     for (const int c : count.pixels()) sum += c;
     return sum;
 }
-inline int most(const in::image<int>& count) {
+inline int max_count(const in::image<int>& count) {
     int largest = 0;
     for (const int c : count.pixels()) largest = (std::max)(largest, c);
     return largest;
@@ -87,16 +87,16 @@ class oracle {
     /// z(px, py) of the plane through the corners, to 113 bits.
     wide_float depth(int px, int py, const double (&z)[3]) const {
         wide_float sum = 0;
-        for (int i = 0; i < 3; ++i) sum += share(i, px, py) * static_cast<wide_float>(z[i]);
+        for (int i = 0; i < 3; ++i) sum += opposite_area(i, px, py) * static_cast<wide_float>(z[i]);
         return sum / static_cast<wide_float>(area_);
     }
 
-    /// The same for a value that is linear in space: its mean, weighted by shares over w.
+    /// The same for a value that is linear in space: the mean with perspective-correct weights.
     template <class Values>
     wide_float varying(int px, int py, const Values& value, const wide_float (&inverse_w)[3]) const {
         wide_float sum = 0, weights = 0;
         for (int i = 0; i < 3; ++i) {
-            const wide_float weight = share(i, px, py) * inverse_w[i];
+            const wide_float weight = opposite_area(i, px, py) * inverse_w[i];
             sum += weight * static_cast<wide_float>(value[static_cast<std::size_t>(i)]);
             weights += weight;
         }
@@ -106,8 +106,8 @@ class oracle {
   private:
     __extension__ using wide = __int128;
 
-    /// The part of the area that is opposite to a corner.
-    wide_float share(int corner, int px, int py) const {
+    /// Twice the area of the triangle opposite to a corner, relative to which weights are barycentric.
+    wide_float opposite_area(int corner, int px, int py) const {
         const wide cx = static_cast<wide>(2 * px + 1) << (bits_ - 1), cy = static_cast<wide>(2 * py + 1) << (bits_ - 1);
         const int j = (corner + 1) % 3, k = (corner + 2) % 3;
         return static_cast<wide_float>((x_[k] - x_[j]) * (cy - y_[j]) - (y_[k] - y_[j]) * (cx - x_[j]));

@@ -20,13 +20,13 @@ struct clip_triangle {
     std::array<float, 3> varying;
 };
 
-/// What came out, and how far from the truth.
+/// Errors of depths and varyings against the oracle.
 struct errors {
     std::uint64_t samples = 0;
     std::uint64_t wrong_depths = 0;  ///< not the nearest float
     double varying = 0;              ///< largest error, in units in the last place of the largest corner's value
 
-    /// @param copies  of the triangle, the first of which is seen; several small ones are drawn in another way than one
+    /// @param copies  of the triangle, the first of which is seen; several small ones take another code path than one
     void measure(const clip_triangle& t, int bits, in::keep_depth keep, std::size_t copies) {
         const in::mesh m{std::vector<glm::vec3>(3), {}, std::vector<glm::uvec3>(copies, {0, 1, 2})};
         const auto place = [&](const in::vertex& v) {
@@ -58,7 +58,7 @@ struct errors {
     }
 };
 
-/// Triangles of the classes in which depth goes wrong elsewhere.
+/// Random triangles of the classes in which other rasterizers get depth wrong.
 struct any_triangle {
     in::random_sequence random;
 
@@ -79,7 +79,7 @@ struct any_triangle {
         const auto to_ndc = [](glm::dvec2 p) { return glm::dvec2(p.x / size * 2 - 1, 1 - p.y / size * 2); };
         return {to_ndc(on_line()), to_ndc(on_line()), to_ndc(beside)};
     }
-    /// @param w_ratio  of the largest to the smallest w that may come up
+    /// @param w_ratio  of the largest to the smallest possible w
     clip_triangle operator()(int kind, double w_ratio) {
         const glm::dvec2 base = ndc(1), along = ndc(1);
         const std::array<glm::dvec2, 3> needle = needle_through_centres(kind == 5 ? 12 : 1e5);
@@ -91,7 +91,7 @@ struct any_triangle {
             if (kind == 3) p = base + ndc(40);                                         // much larger than the picture
             if (kind >= 4) p = needle[i];
             const double w = in::numeric::pow(w_ratio, random.uniform(-0.5, 0.5));
-            // Reversed depth of something at distance w; or anything, where w says nothing.
+            // Reversed depth of something at distance w; or any depth, where w is constant.
             const double z = w_ratio > 1 ? 1e-6 : random.uniform();
             t.clip[i] = glm::vec4(p.x * w, p.y * w, z, w);
             t.varying[i] = static_cast<float>(random.uniform(-1, 1));
@@ -166,7 +166,7 @@ TEST_CASE("The nearer of two surfaces is visible wherever their depths differ as
     CHECK(contested > 1000);
 }
 
-TEST_CASE("A ground seen at a tenth of a degree keeps its depths in order") {
+TEST_CASE("Depths of ground seen at a tenth of a degree stay in order") {
     // 1 m above level ground that reaches from 1 m to 10 km, where it is seen at 0.006 degrees; reversed depth.
     const auto along = [](const in::vertex& v) {
         return in::placed_vertex<glm::vec2>{{v.position.x, v.position.z - 1, 0.01f, v.position.y},

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int size = 16;  // pixels a side
 
-/// How often pixels are hit by a mesh, its triangles drawn one by one: separately for those seen from the front.
+/// Counts the hits of each pixel by a mesh's triangles, drawn one by one; front and back faces separately.
 struct hit_counter {
     in::image<int> front{size, size}, back{size, size};
     in::mesh one{};
@@ -134,7 +134,7 @@ struct plane_view {
     }
 };
 
-/// So many meshes of each kind; the seed of the first that fails is in the message.
+/// Draws `count` meshes of each kind; the message of a failure states the seed.
 void check_meshes(std::uint64_t first_seed, std::uint64_t count) {
     hit_counter hits;
     for (std::uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
@@ -163,7 +163,7 @@ void check_meshes(std::uint64_t first_seed, std::uint64_t count) {
             for (int x = 0; x < size; ++x) {
                 const int count_here = hits.front(x, y) + hits.back(x, y);
                 if (count_here > 1) FAIL("a clipped plane has a pixel that is hit " << count_here << " times");
-                // Inside by a little of the mesh, and of what the planes leave.
+                // Well inside the mesh and the clipping planes.
                 const glm::dvec2 hit = view.hit(x, y);
                 const double extent = static_cast<double>(view.mesh.positions.back().x);
                 const bool inside =

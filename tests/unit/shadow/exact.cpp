@@ -1,5 +1,5 @@
-// Exact shadows, point by point: closed forms to a nanometre, no bias in either direction, every kind of mesh, lights
-// at the ends of what there is, and the same answer however it is computed.
+// Exact shadows of single points: closed forms to a nanometre, no bias in either direction, every kind of mesh,
+// extreme lights, and equal results for every executor and batch.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/cube.hpp>
 #include <insonify/geometry/shared_mesh.hpp>
@@ -26,7 +26,7 @@ in::mesh rough(double spacing = 1.0 / 32) {
     return in::seabed::tessellate(in::seabed::sample(in::seabed::rock{}, {{-1, -1}, spacing, side, side}));
 }
 
-/// A grid of 3 m x 3 m around the origin; cells are cut along the other diagonal if they fall.
+/// A grid of 3 m x 3 m around the origin, whose cells are cut along the falling diagonal if `falls`.
 template <class Height>
 in::mesh grid_of(int side, bool falls, const Height& height) {
     in::mesh m;
@@ -49,7 +49,7 @@ in::mesh seabed_of(const in::seabed::any& recipe, int side, bool falls) {
     return grid_of(side, falls, [&](double, double) { return static_cast<double>(field.heights.pixels()[next++]); });
 }
 
-/// The same triangles in another order, every other one turned, with corners of their own.
+/// The same triangles in random order, every other one with reversed winding, without shared vertices.
 in::mesh shuffled(const in::mesh& m, std::uint64_t seed) {
     in::random_sequence random(seed);
     in::mesh soup;
@@ -115,7 +115,7 @@ TEST_CASE("A ridge's shadow on level ground ends at height / tan(elevation), to 
             }
 }
 
-TEST_CASE("No facet that faces the light is in the shadow of its own plane, named as its own or not") {
+TEST_CASE("A facet that faces the light is never shadowed by its own plane, with or without its triangle id") {
     for (const double elevation : elevations)
         for (const double tilt : {-89.0, -30.0, -0.6, 0.0, 5.0, 80.0, 89.9})
             for (const double azimuth : {0.0, 45.0, 23.7, 180.0}) {
@@ -140,7 +140,7 @@ TEST_CASE("No facet that faces the light is in the shadow of its own plane, name
             }
 }
 
-TEST_CASE("Points on rubble are dark where a ray meets a triangle, every one of them") {
+TEST_CASE("Points on rubble are dark exactly where a ray to the light hits a triangle") {
     for (const double elevation : elevations) {
         const lit::mesh lit(rough(1.0 / 16), parallel(25, elevation));
         CAPTURE(elevation);
@@ -150,13 +150,13 @@ TEST_CASE("Points on rubble are dark where a ray meets a triangle, every one of 
     }
 }
 
-TEST_CASE("Seabeds of every kind at every elevation, cut either way, in order and as a soup of turned triangles") {
+TEST_CASE("Seabeds agree with rays at every elevation, cut along either diagonal, as grids and as soups of triangles") {
     double azimuth = 10;
     for (const in::seabed::any& recipe : {in::seabed::any(in::seabed::ripples{.wavelength = 0.6f, .steepness = 0.1f}),
                                           in::seabed::any(in::seabed::mud{}), in::seabed::any(in::seabed::rock{})})
         for (const bool falls : {false, true})
             for (const double elevation : {1.0, 6.0, 20.0, 45.0}) {
-                azimuth += 49;  // all octants come by
+                azimuth += 49;  // covers all octants
                 const lit::mesh bottom(seabed_of(recipe, 65, falls), parallel(azimuth, elevation));
                 const lit::mesh soup(shuffled(*bottom, 3), parallel(azimuth, elevation));
                 const lit::point_list points = bottom.facing(500, 11).detached();
@@ -183,7 +183,7 @@ TEST_CASE("A rotated, scaled and tilted grid casts its shadow from its pose") {
         }
 }
 
-TEST_CASE("A closed mesh with an inverted lobe, an open sheet and one inside of another block alike from either side") {
+TEST_CASE("Inverted lobes, open sheets and nested meshes block light from either side") {
     in::mesh lobes = in::transformed(to_mesh(in::sphere{.radius = 0.5f}), {glm::dmat3(1), {0, 0, 0.5}});
     const auto add = [&](in::mesh m, bool is_turned) {
         const auto first = static_cast<std::uint32_t>(lobes.positions.size());
@@ -210,7 +210,7 @@ TEST_CASE("A closed mesh with an inverted lobe, an open sheet and one inside of 
 }
 
 TEST_CASE("No light leaks between triangles that share an edge or a vertex") {
-    // Points whose rays meet the edges of a sheet, as near as doubles come.
+    // Points whose rays hit the edges of a sheet, to the precision of doubles.
     const in::mesh sheet = grid_of(17, false, [](double x, double y) { return 1 + 0.02 * std::sin(3 * x) * y; });
     for (const double azimuth : {0.0, 45.0, 23.7, 90.0})
         for (const double elevation : {6.0, 45.0, 90.0}) {
@@ -219,8 +219,9 @@ TEST_CASE("No light leaks between triangles that share an edge or a vertex") {
             lit::point_list points;
             for (std::uint32_t t = 0; t < sheet.triangles.size(); ++t)
                 for (int i = 0; i < 3; ++i)
-                    for (const double share : {0.0, 0.3, 0.5, 0.875}) {
-                        const glm::dvec3 a = lit.corner(t, i), b = lit.corner(t, (i + 1) % 3), on = a + share * (b - a);
+                    for (const double fraction : {0.0, 0.3, 0.5, 0.875}) {
+                        const glm::dvec3 a = lit.corner(t, i), b = lit.corner(t, (i + 1) % 3),
+                                         on = a + fraction * (b - a);
                         const double x = std::abs(on.x), y = std::abs(on.y);
                         if (x < 1.49 && y < 1.49) points.add(on - 2.5 * to_light);
                     }
@@ -243,7 +244,7 @@ TEST_CASE("Level ground, and rubble under light from straight above, are lit eve
     CHECK(count_dark(rubble.dark(std::vector<glm::dvec3>(rubble->positions.begin(), rubble->positions.end()))) == 0);
 }
 
-TEST_CASE("A heightfield on a grid is swept, and its own points and others come out as with a list of triangles") {
+TEST_CASE("A heightfield on a grid agrees with rays, for its own points and for others") {
     in::serial_executor serial;
     double azimuth = 10;
     for (const in::seabed::any& recipe : {in::seabed::any(in::seabed::ripples{.wavelength = 0.6f, .steepness = 0.1f}),
@@ -251,7 +252,7 @@ TEST_CASE("A heightfield on a grid is swept, and its own points and others come 
         for (const bool falls : {false, true})
             for (const double elevation : {0.5, 6.0, 30.0})
                 for (int turn = 0; turn < 3; ++turn) {
-                    azimuth += 49;  // all octants come by
+                    azimuth += 49;  // covers all octants
                     const shadow::directional_light light = parallel(azimuth, elevation);
                     const lit::mesh bottom(seabed_of(recipe, 41, falls), light);
                     const auto grid = in::regular_grid_of(*bottom, serial, in::shared_mesh::grid_error);
@@ -274,7 +275,7 @@ TEST_CASE("A heightfield on a grid is swept, and its own points and others come 
                 }
 }
 
-TEST_CASE("Points in front of a grid, behind it, beside it and above it are tested as by rays") {
+TEST_CASE("Points in front of, behind, beside and above a grid agree with rays") {
     const lit::mesh wall(grid_of(31, false, [](double x, double) { return x > 1.25 && x < 1.35 ? 0.2 : 0.0; }),
                          parallel(0, 45));
     const double infinity = std::numeric_limits<double>::infinity(), nan = std::nan("");
@@ -306,7 +307,7 @@ TEST_CASE("A grid ends like a cliff: points behind its last edge are dark below 
         }
 }
 
-TEST_CASE("The answer for a point is the same whatever the bounds around it") {
+TEST_CASE("The result for a point does not depend on the bounds") {
     const lit::mesh lit(rough(), parallel(50, 6));
     const lit::point_list all = lit.facing(4000, 9);
     lit::point_list some;
@@ -353,7 +354,7 @@ TEST_CASE("A distant point light casts the shadows of a parallel light") {
     CHECK(count_dark(one) > 300);
 }
 
-TEST_CASE("Lights just above, on and below the bottom, beside and inside of a target cast the shadows of rays") {
+TEST_CASE("Point lights just above, on and below the bottom, and inside a target, agree with rays") {
     const in::mesh bottom = rough(1.0 / 16);
     const glm::dvec3 on_vertex(bottom.positions[500]);
     const glm::dvec3 on_facet =
@@ -383,7 +384,7 @@ TEST_CASE("Light exactly along a face or an edge: the face casts no more than it
     CHECK(cube.is_dark({1.4999999, 0.4999999, 0}));
     CHECK_FALSE(cube.is_dark({1, 0.5000001, 0}));
     CHECK_FALSE(cube.is_dark({1.5000001, 0, 0}));
-    // Steep enough to run down a tilted face: what lies on it isn't behind it.
+    // Light parallel to a tilted face: points on it are not behind it.
     const in::mesh ramp{{{0, -1, 1}, {1, -1, 0}, {1, 1, 0}, {0, 1, 1}}, {}, {{0, 1, 2}, {0, 2, 3}}};
     const lit::mesh grazed(ramp, parallel(0, 45));
     CHECK_FALSE(grazed.is_dark({0.5, 0, 0.5}));
@@ -391,7 +392,7 @@ TEST_CASE("Light exactly along a face or an edge: the face casts no more than it
     CHECK_FALSE(grazed.is_dark({1.2, 0, -0.1}));
 }
 
-TEST_CASE("A seabed with a vertical step, and a level one, are tested as by rays") {
+TEST_CASE("A seabed with a vertical step and a level one agree with rays") {
     in::seabed::heightfield field{.heights = in::image<float>(65, 65), .origin = {-1, -1}, .spacing = 1.0 / 32};
     const lit::mesh flat(in::seabed::tessellate(field), parallel(30, 0.01));
     CHECK(count_dark(flat.dark(flat.facing(500, 1))) == 0);
@@ -405,7 +406,7 @@ TEST_CASE("A seabed with a vertical step, and a level one, are tested as by rays
     }
 }
 
-TEST_CASE("Exact answers are the same for any executor and however points are batched") {
+TEST_CASE("Exact results are the same for any executor and any batches of points") {
     in::thread_pool pool(3);
     in::serial_executor serial;
     const in::mesh bottom = rough();

@@ -1,5 +1,5 @@
-// Heightfields on a grid as casters: whole triangles that are known to be lit or dark, against rays tried one by one,
-// and how few points need a test in doubles.
+// Heightfields on a grid as casters: triangles known to be lit or dark, against single rays, and the number of points
+// that need a test in doubles.
 #include <insonify/geometry/shared_mesh.hpp>
 #include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
@@ -40,7 +40,7 @@ const in::seabed::any recipes[] = {in::seabed::ripples{.wavelength = 0.6f, .stee
 
 }  // namespace
 
-TEST_CASE("A triangle that is known to be lit or dark is so in all its points, seen from the camera") {
+TEST_CASE("A triangle that is known to be lit or dark is so at all of its points, as seen from the camera") {
     in::serial_executor serial;
     std::size_t known = 0, all = 0;
     double azimuth = 20;
@@ -74,7 +74,7 @@ TEST_CASE("A triangle that is known to be lit or dark is so in all its points, s
     CHECK(known > all / 2);
 }
 
-TEST_CASE("Few points of a seabed need a triangle tested, and their answers are those of rays") {
+TEST_CASE("Few points of a seabed need a triangle test, and all agree with rays") {
     in::serial_executor serial;
     double azimuth = 50;
     for (const in::seabed::any& recipe : recipes)

@@ -1,4 +1,4 @@
-// A mesh under a light, points to test, and the same answers found one by one: every triangle along every ray.
+// A mesh under a light, points to test, and a brute-force oracle: every triangle along every ray.
 #pragma once
 
 #include <insonify/core/random.hpp>
@@ -40,7 +40,7 @@ class point_list {
     glm::dvec3 operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
     std::uint32_t triangle(std::size_t i) const { return triangle_[i]; }
     operator shadow::points() const { return {x_, y_, z_, mesh_, triangle_}; }
-    /// The same places, on no mesh.
+    /// The same points, on no mesh.
     point_list detached() const {
         point_list free;
         for (std::size_t i = 0; i < size(); ++i) free.add((*this)[i]);
@@ -57,7 +57,7 @@ class point_list {
     std::vector<std::uint32_t> mesh_, triangle_;
 };
 
-/// What a policy says of some points.
+/// A policy's results for some points.
 struct answers {
     std::vector<float> lit;
     std::vector<std::uint32_t> caster;
@@ -82,7 +82,7 @@ inline shadow::caster caster_of(const in::mesh& m, const in::affine& place = {})
     return {m, place, in::bounds(m)};
 }
 
-/// A mesh that casts exact shadows, wherever it is asked.
+/// A mesh that casts exact shadows, tested at any points.
 class mesh {
   public:
     mesh(in::mesh m, const shadow::any_light& light, const in::affine& place = {})
@@ -136,7 +136,7 @@ class mesh {
         return points;
     }
 
-    /// How many of some points are not as rays say.
+    /// Number of points whose result differs from the oracle's.
     int wrong(const point_list& points) const { return wrong(points, dark(points)); }
     int wrong(const point_list& points, const std::vector<bool>& dark) const {
         int count = 0;

@@ -1,4 +1,4 @@
-// Shadow maps against closed forms: lengths, contact, no false shadow, and rays marched one by one.
+// Shadow maps against closed forms: lengths, contact, no shadow acne, and marched rays.
 #include <insonify/core/random.hpp>
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/geometry/cube.hpp>
@@ -48,7 +48,7 @@ const double elevations[] = {1, 3, 6, 20, 45, 70, 89};
 
 }  // namespace
 
-TEST_CASE("All points of one ray share u and v, and the sun at the zenith leaves x and y alone") {
+TEST_CASE("All points of one ray share u and v, and light from the zenith leaves x and y unchanged") {
     for (const double elevation : elevations) {
         const shadow::light_frame light({radians(200), radians(elevation)});
         const glm::dvec3 p(3, -2, 0.5), q = p + 4.0 * light.to_light();
@@ -76,7 +76,7 @@ TEST_CASE("A cube's shadow on level ground is as long as its height over the tan
     }
 }
 
-TEST_CASE("A shadow begins where its object stands") {
+TEST_CASE("A shadow begins at the foot of its caster") {
     const double texel = 0.01;
     for (const double elevation : {1.0, 6.0, 20.0, 45.0, 70.0}) {
         const shadow::light_frame light({0, radians(elevation)});
@@ -109,7 +109,7 @@ TEST_CASE("A plane that faces the light casts no shadow on itself, however it is
             }
 }
 
-TEST_CASE("On a rough seabed the map agrees with rays marched one by one") {
+TEST_CASE("On a rough seabed the map agrees with marched rays") {
     const auto field = in::seabed::sample(waves{}, {.origin = {0, 0}, .spacing = 0.03, .width = 200, .height = 200});
     const in::mesh mesh = in::seabed::tessellate(field);
     for (const double elevation : {6.0, 20.0, 60.0}) {
@@ -185,7 +185,7 @@ TEST_CASE("A map is the same for any executor, and an empty one leaves everythin
     CHECK(shadow::height_map(light, {}, 0.1).empty());
 }
 
-TEST_CASE("More texels than allowed become coarser texels") {
+TEST_CASE("A map that would exceed its largest size gets coarser texels") {
     const shadow::light_frame light({0, radians(1)});
     const shadow::height_map map(light, shadow::extent_of(standing_cube(), {}, light), 1e-4, 512);
     CHECK(map.columns() <= 512);

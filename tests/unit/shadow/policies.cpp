@@ -1,4 +1,4 @@
-// What all shadow policies have in common, and what map, pcf and penumbra say of single points.
+// Behaviour common to all shadow policies, and results of map, pcf and penumbra for single points.
 #include <insonify/geometry/cube.hpp>
 #include <insonify/shadow/map.hpp>
 #include <insonify/shadow/penumbra.hpp>
@@ -17,8 +17,8 @@ in::affine at(const glm::dvec3& place) {
 }
 
 template <shadow::casting_policy Policy>
-lit::answers ask(const Policy& policy, std::span<const shadow::caster> casters, const shadow::any_light& light,
-                 const shadow::points& points, const shadow::point_bounds& bounds) {
+lit::answers results_of(const Policy& policy, std::span<const shadow::caster> casters, const shadow::any_light& light,
+                        const shadow::points& points, const shadow::point_bounds& bounds) {
     in::serial_executor ex;
     return lit::test(policy.build(casters, light, bounds, ex), points);
 }
@@ -37,8 +37,8 @@ in::mesh sheet(double rise, bool is_turned = false) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("Every policy names the lowest-numbered caster that blocks a point, of those that matter to it", "",
-                   shadow::map, shadow::pcf, shadow::exact, shadow::penumbra) {
+TEMPLATE_TEST_CASE("Every policy reports the lowest-numbered caster that blocks a point, among those that apply to it",
+                   "", shadow::map, shadow::pcf, shadow::exact, shadow::penumbra) {
     const in::mesh cube = to_mesh(in::cube{});
     // In a row along the light, the second nearest to it.
     const shadow::caster casters[] = {caster_of(cube, at({1.5, 0, 0.5})), caster_of(cube, at({0, 0, 0.5})),
@@ -46,20 +46,20 @@ TEMPLATE_TEST_CASE("Every policy names the lowest-numbered caster that blocks a 
     const lit::point_list list(std::vector<glm::dvec3>{
         {2.2, 0, 0.1}, {0.7, 0, 0.2}, {-0.7, 0, 0}, {0.8, 2, 0.1}, {2.6, 2.9, 0.1}, {2.4, 0, 0.4}});
     const shadow::point_bounds bounds{around, 0.02};
-    const auto found = ask(TestType{}, casters, parallel(0, 30), list, bounds);
+    const auto found = results_of(TestType{}, casters, parallel(0, 30), list, bounds);
     CHECK(found.lit == std::vector<float>{0, 0, 1, 0, 1, 0});
     CHECK(found.caster == std::vector<std::uint32_t>{0, 1, none, 2, none, 0});
 
     shadow::points few = list;
     few.casters = 2;
-    const auto of_two = ask(TestType{}, casters, parallel(0, 30), few, bounds);
+    const auto of_two = results_of(TestType{}, casters, parallel(0, 30), few, bounds);
     CHECK(of_two.caster == std::vector<std::uint32_t>{0, 1, none, none, none, 0});
     few.casters = 0;
-    CHECK(ask(TestType{}, casters, parallel(0, 30), few, bounds).caster == std::vector<std::uint32_t>(6, none));
-    CHECK(ask(TestType{}, {}, parallel(0, 30), list, bounds).lit == std::vector<float>(6, 1.0f));
+    CHECK(results_of(TestType{}, casters, parallel(0, 30), few, bounds).caster == std::vector<std::uint32_t>(6, none));
+    CHECK(results_of(TestType{}, {}, parallel(0, 30), list, bounds).lit == std::vector<float>(6, 1.0f));
 }
 
-TEMPLATE_TEST_CASE("No policy shades a sheet by itself, whichever way its triangles are wound", "", shadow::map,
+TEMPLATE_TEST_CASE("No policy gives a sheet shadow acne, whichever way its triangles are wound", "", shadow::map,
                    shadow::pcf, shadow::exact, shadow::penumbra) {
     for (const bool is_turned : {false, true})
         for (const double elevation : {3.0, 20.0, 70.0})
@@ -73,7 +73,8 @@ TEMPLATE_TEST_CASE("No policy shades a sheet by itself, whichever way its triang
                         points.add(facing[i], 0, facing.triangle(i));
                 const shadow::caster casters[] = {caster_of(m)};
                 CAPTURE(is_turned, elevation, rise);
-                const auto found = ask(TestType{}, casters, parallel(30, elevation), points, {points.box(), 0.02});
+                const auto found =
+                    results_of(TestType{}, casters, parallel(30, elevation), points, {points.box(), 0.02});
                 CHECK(found.lit == std::vector<float>(points.size(), 1.0f));
                 CHECK(found.caster == std::vector<std::uint32_t>(points.size(), none));
             }
@@ -89,13 +90,13 @@ TEST_CASE("Under maps a facet at grazing light is shaded by itself, or by a cast
     own.add(points[0], 0, 0);
     const shadow::caster apart[] = {caster_of(cube, at({-3, 3, 1})), caster_of(m), caster_of(cube, at({-1.7, 0, 1}))};
     const shadow::caster before[] = {apart[2], apart[1], apart[0]};
-    for (const auto& found : {ask(shadow::map{}, apart, parallel(0, 20), points, {around, 0.02}),
-                              ask(shadow::pcf{}, apart, parallel(0, 20), points, {around, 0.02})}) {
+    for (const auto& found : {results_of(shadow::map{}, apart, parallel(0, 20), points, {around, 0.02}),
+                              results_of(shadow::pcf{}, apart, parallel(0, 20), points, {around, 0.02})}) {
         CHECK(found.lit[0] == 0);
         CHECK(found.caster[0] == 1);
     }
-    CHECK(ask(shadow::map{}, before, parallel(0, 20), points, {around, 0.02}).caster[0] == 0);
-    CHECK(ask(shadow::exact{}, {&apart[1], 1}, parallel(0, 20), own, {around, 0.02}).lit[0] == 1);
+    CHECK(results_of(shadow::map{}, before, parallel(0, 20), points, {around, 0.02}).caster[0] == 0);
+    CHECK(results_of(shadow::exact{}, {&apart[1], 1}, parallel(0, 20), own, {around, 0.02}).lit[0] == 1);
 }
 
 TEST_CASE("The edge of a map's shadow is off by half a texel of the points' spacing, or of a 2048th of their extent") {
@@ -104,7 +105,7 @@ TEST_CASE("The edge of a map's shadow is off by half a texel of the points' spac
     for (const double spacing : {0.3, 0.06, 0.0}) {
         lit::point_list points;
         for (int i = 0; i < 2000; ++i) points.add({0.6 + 0.001 * i, 0.0123, 0});
-        const auto found = ask(shadow::map{}, casters, parallel(0, 45), points, {around, spacing});
+        const auto found = results_of(shadow::map{}, casters, parallel(0, 45), points, {around, spacing});
         const auto dark = std::count(found.lit.begin(), found.lit.end(), 0.0f);
         const double texel = spacing > 0 ? spacing / 1.5 : 12.0 / 2048 / 1.5;
         CAPTURE(spacing);
@@ -112,12 +113,12 @@ TEST_CASE("The edge of a map's shadow is off by half a texel of the points' spac
     }
 }
 
-TEST_CASE("pcf names the first caster that takes more than half of the light") {
+TEST_CASE("pcf reports the first caster that blocks more than half of the light") {
     const in::mesh cube = to_mesh(in::cube{});
     const shadow::caster casters[] = {caster_of(cube, at({0, 0, 0.5}))};
     lit::point_list points;
     for (int i = 0; i < 400; ++i) points.add({1.3 + 0.001 * i, 0.0123, 0});
-    const auto found = ask(shadow::pcf{.radius = 3}, casters, parallel(0, 45), points, {around, 0.05});
+    const auto found = results_of(shadow::pcf{.radius = 3}, casters, parallel(0, 45), points, {around, 0.05});
     int soft = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         CHECK((found.caster[i] == 0) == (found.lit[i] < 0.5f));
@@ -126,22 +127,22 @@ TEST_CASE("pcf names the first caster that takes more than half of the light") {
     CHECK(soft > 50);
 }
 
-TEST_CASE("A penumbra's points get the share of the disc that they see, parallel or near") {
+TEST_CASE("A point in a penumbra is lit by the visible fraction of the disc, under parallel and near light") {
     // The far edge of a wide wall cuts the disc through its middle at the edge of the hard shadow.
     const in::mesh wall = in::transformed(to_mesh(in::cube{.size = {1, 30, 1}}), at({0, 0, 0.5}));
     const shadow::caster casters[] = {caster_of(wall)};
     const double diameter = radians(4), radius = std::tan(diameter / 2);
     const shadow::penumbra how{.diameter = static_cast<float>(diameter), .samples = 400};
-    const auto share = [&](double cut) {  // of a disc above a level chord
+    const auto visible_fraction = [&](double cut) {  // of a disc above a level chord
         return cut >= 1 ? 0.0 : cut <= -1 ? 1.0 : (std::acos(cut) - cut * std::sqrt(1 - cut * cut)) / in::numeric::pi;
     };
     for (const double behind : {1.6, 1.65, 1.7, 1.732, 1.75, 1.8, 1.85}) {
         lit::point_list point;
         point.add({0.5 + behind, 0, 0});
         const double cut = std::tan(std::atan(1 / behind) - radians(30)) / radius;
-        const auto found = ask(how, casters, parallel(0, 30), point, {around});
+        const auto found = results_of(how, casters, parallel(0, 30), point, {around});
         CAPTURE(behind, cut);
-        CHECK(static_cast<double>(found.lit[0]) == Approx(share(cut)).margin(0.01));
+        CHECK(static_cast<double>(found.lit[0]) == Approx(visible_fraction(cut)).margin(0.01));
         CHECK((found.caster[0] == 0) == (cut > 0));
     }
     // From nearby: a disc of this radius around (-6, 0, 6), which faces the origin.
@@ -154,8 +155,8 @@ TEST_CASE("A penumbra's points get the share of the disc that they see, parallel
         lit::point_list point;
         point.add(p);
         CAPTURE(x, cut);
-        CHECK(static_cast<double>(ask(how, casters, shadow::point_light{lamp}, point, {around}).lit[0]) ==
-              Approx(share(cut)).margin(0.02));
+        CHECK(static_cast<double>(results_of(how, casters, shadow::point_light{lamp}, point, {around}).lit[0]) ==
+              Approx(visible_fraction(cut)).margin(0.02));
     }
 }
 
@@ -166,9 +167,9 @@ TEST_CASE("Samples of a penumbra behind a facet's plane do not light it") {
     point.add({0.1, 0.05, -0.1 * std::tan(radians(29.5))}, 0, 0);
     const shadow::penumbra how{.diameter = static_cast<float>(radians(4)), .samples = 400};
     const double cut = -std::tan(radians(0.5)) / std::tan(radians(2));
-    const double share = (std::acos(cut) - cut * std::sqrt(1 - cut * cut)) / in::numeric::pi;
-    CHECK(static_cast<double>(ask(how, casters, parallel(0, 30), point, {around}).lit[0]) ==
-          Approx(share).margin(0.01));
+    const double visible_fraction = (std::acos(cut) - cut * std::sqrt(1 - cut * cut)) / in::numeric::pi;
+    CHECK(static_cast<double>(results_of(how, casters, parallel(0, 30), point, {around}).lit[0]) ==
+          Approx(visible_fraction).margin(0.01));
 }
 
 TEST_CASE("A penumbra is the same point by point and for many batches at once") {
@@ -193,7 +194,8 @@ TEST_CASE("A penumbra is the same point by point and for many batches at once") 
     built.test(std::span<const shadow::points>(at), std::span<const shadow::shares>(to), ex);
     CHECK(one.lit == other.lit);
     CHECK(one.caster == other.caster);
-    CHECK(std::count_if(one.lit.begin(), one.lit.end(), [](float share) { return share > 0 && share < 1; }) > 100);
+    CHECK(std::count_if(one.lit.begin(), one.lit.end(),
+                        [](float visible_fraction) { return visible_fraction > 0 && visible_fraction < 1; }) > 100);
 }
 
 TEST_CASE("Parameters out of range are refused by name, and so are point lights by maps") {

@@ -23,8 +23,8 @@ struct displacement {
     double mean = 0, largest = 0;
 };
 
-/// Of the shadow's end that a level plate throws on a plane through the origin, which rises by `slope` along the light;
-/// in metres on the ground along the light, over many places of the plate between the texels.
+/// Displacement of the end of the shadow that a level plate casts on a plane through the origin, which rises by `slope`
+/// along the light: metres on the ground along the light, over many positions of the plate relative to the texels.
 displacement measured(double elevation, double azimuth, double slope, double texel) {
     const shadow::light_frame light({azimuth, elevation});
     const glm::dvec2 travel = light.travel();
@@ -90,8 +90,8 @@ TEST_CASE("The error of an edge does not depend on the light's azimuth") {
 TEST_CASE("On slopes that face the light edges are sharper; on slopes that fall away their error grows without bound") {
     constexpr double texel = 0.02;
     const double elevation = radians(6), tangent = std::tan(elevation);
-    for (const double share : {2.0, 1.0, 0.5, -0.3, -0.6}) {
-        const double slope = share * tangent;
+    for (const double ratio : {2.0, 1.0, 0.5, -0.3, -0.6}) {
+        const double slope = ratio * tangent;
         CAPTURE(slope);
         const double on_ground = texel / (1 + slope / tangent);
         const auto off = measured(elevation, 0, slope, texel);

@@ -1,4 +1,4 @@
-// Memory that runs out at any point of a picture or a recording: std::bad_alloc, and nothing is left allocated.
+// Out of memory at any point of a picture or a recording: std::bad_alloc, without leaks.
 #include <insonify/core/thread_pool.hpp>
 #include <insonify/insonify.hpp>
 
@@ -49,14 +49,14 @@ TEST_CASE("record() survives any failed allocation, with looks and speckle") {
           }) > 50);
 }
 
-TEST_CASE("Drawing on several threads survives any failed allocation, and the pool goes on") {
+TEST_CASE("Drawing on several threads survives any failed allocation, and the pool stays usable") {
     const in::scene s = mixed_scene();
     in::thread_pool pool(3);
     CHECK(failing_new::in_turn([&] { return in::render(s, rig, {.cell = 2.3}, pool).image; }) > 50);
     CHECK(failing_new::in_turn([&] { return in::render(s, sonar, in::record_options<>{}, pool).image; }) > 20);
 }
 
-TEST_CASE("A context survives any failed allocation, and nothing of it is left") {
+TEST_CASE("A context survives any failed allocation without leaks") {
     const in::scene s = mixed_scene();
     constexpr in::overhead larger{
         .altitude = 4, .size = {160, 110}, .grazing = 0.4f};  // planes of 70 KB come from the context
@@ -77,7 +77,7 @@ TEST_CASE("Occlusion survives any failed allocation") {
           }) > 20);
 }
 
-TEST_CASE("A target that cannot be added leaves the scene as it was") {
+TEST_CASE("A failed add() leaves the scene unchanged") {
     in::scene s = mixed_scene();
     s.targets.shrink_to_fit();
     const std::string long_name(100, 'x');

@@ -20,7 +20,7 @@ in::render_stats cost_of(const in::seabed::any& bottom, const in::overhead& rig,
     return in::render(scene, rig, options).stats;
 }
 
-/// A rig over the middle of another's picture that sees so many of its pixels.
+/// A rig over the middle of another's picture that sees `pixels` x `pixels` of it.
 in::overhead chip_of(in::overhead rig, int pixels) {
     const double half = in::overhead_geometry(rig).half_extent(0).x * pixels / rig.size.x;
     rig.field_of_view = static_cast<float>(2 * in::numeric::atan2(half, static_cast<double>(rig.altitude)));
@@ -35,13 +35,12 @@ TEST_CASE("The cost of a chip does not depend on the picture that it is cut from
     for (const in::seabed::any& bottom : {in::seabed::any(in::seabed::ripples{}), in::seabed::any(in::seabed::mud{})}) {
         const auto whole = cost_of<in::shadow::none>(bottom, rig);
         const auto chip = cost_of<in::shadow::none>(bottom, chip_of(rig, 256));
-        // A sixteenth of the picture, the coarse look at the bottom's bounds included, and the sides' worth of
-        // rounding.
+        // A sixteenth of the picture, including the coarse sampling for bounds and rounding at the sides.
         CHECK(chip.seabed_samples * 15 < whole.seabed_samples);
         CHECK(chip.seabed_samples >=
               static_cast<std::uint64_t>(chip.seabed_columns) * static_cast<std::uint64_t>(chip.seabed_rows));
-        // With shadows, what can throw one into the chip: the range that heights keep to x cot(10 degrees) up-light of
-        // it, and no more.
+        // With shadows, also what can cast one into the chip: the range of heights x cot(10 degrees) towards the light,
+        // and no more.
         const auto shadowed = cost_of(bottom, chip_of(rig, 256));
         const double spacing = 2 * in::overhead_geometry(rig).half_extent(0).x / 512;
         const auto range = in::seabed::merge(in::seabed::prepare(bottom).range(), {0, 0});

@@ -1,4 +1,4 @@
-// Rigs at the limits of their ranges: the picture is that of ordinary dimensions, or changes as geometry says.
+// Rigs at the limits of their ranges: the picture equals that of ordinary dimensions, or changes as geometry predicts.
 #include <insonify/insonify.hpp>
 
 #include "../../catch.hpp"
@@ -69,7 +69,7 @@ TEMPLATE_TEST_CASE(
     }
 }
 
-TEST_CASE("Fields of view of a tenth of a degree and of 179 degrees") {
+TEST_CASE("A cube a quarter of the picture wide keeps its size at fields of view from 0.1 to 179 degrees") {
     for (const double degrees : {0.1, 1.0, 90.0, 170.0, 179.0}) {
         const in::overhead rig{
             .altitude = 10, .field_of_view = static_cast<float>(in::numeric::to_radians(degrees)), .size = {128, 96}};
@@ -91,7 +91,7 @@ TEST_CASE("Fields of view of a tenth of a degree and of 179 degrees") {
     CHECK_THROWS_AS(in::render({}, in::overhead{.field_of_view = 0}), in::invalid_input);
 }
 
-TEST_CASE("Light from a tenth of a degree to straight above") {
+TEST_CASE("Shadows are long at grazing angles of up to a degree and vanish towards the zenith") {
     for (const double degrees : {0.1, 1.0, 45.0, 89.9, 90.0}) {
         const in::overhead rig{
             .altitude = 5, .size = {160, 120}, .grazing = static_cast<float>(in::numeric::to_radians(degrees))};
@@ -108,7 +108,7 @@ TEST_CASE("Light from a tenth of a degree to straight above") {
     }
 }
 
-TEST_CASE("Ground of two triangles 20000 km wide looks the same at every instruction set, and beside a cube") {
+TEST_CASE("Ground of two triangles 20000 km wide gives the same picture at every instruction set") {
     in::mesh ground;
     for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
         ground.positions.emplace_back(1e7f * at, 0);
@@ -128,7 +128,7 @@ TEST_CASE("Ground of two triangles 20000 km wide looks the same at every instruc
         CHECK(differences(at_level(level), one_by_one, 0) == 0);
 }
 
-TEST_CASE("Pictures of any shape of any scene are drawn") {
+TEST_CASE("Pictures of any size are drawn, of full and of empty scenes") {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(1, 300), glm::ivec2(300, 1), glm::ivec2(2047, 3)}) {
         const auto frame = in::render(scene_at({0, 0, 0}), in::overhead{.altitude = 5, .size = size});
         CHECK(frame.image.width() == size.x);

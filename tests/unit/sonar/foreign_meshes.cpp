@@ -14,7 +14,7 @@ struct light_from {
     double azimuth, elevation;
 };
 
-/// A policy's pictures of one scene. What the oracle takes for shown is what the picture shows.
+/// A policy's pictures of one scene. The oracle judges the triangles that the picture shows.
 template <class Policy>
 shadow_oracle::tally judged(const in::scene& s, const std::vector<int>& sizes, const std::vector<light_from>& lights) {
     const shadow_oracle::oracle truth(s, foreign::rig(0, 45, 64));

@@ -130,9 +130,9 @@ TEST_CASE("range_gain_error() has the given level and length, and is the same in
             CHECK(picture(x, 0) == picture(x, 1));
         }
         CHECK(of(level).deviation == Approx(2).epsilon(0.06));
-        for (const double share : {0.4, 1.0, 1.6})
-            CHECK(correlation(level, static_cast<std::size_t>(share * static_cast<double>(length))) ==
-                  Approx(lattice_correlation(share)).margin(0.05));
+        for (const double fraction : {0.4, 1.0, 1.6})
+            CHECK(correlation(level, static_cast<std::size_t>(fraction * static_cast<double>(length))) ==
+                  Approx(lattice_correlation(fraction)).margin(0.05));
         CHECK(correlation(level, static_cast<std::size_t>(2 * length)) == Approx(0).margin(0.05));
     }
     const auto tilted = in::image<float>(1000, 1, 1.0f) | in::range_gain_error{.rms = 0, .slope = 10};
@@ -164,7 +164,7 @@ TEST_CASE("ping_banding() scales whole pings by drift and jitter, by ping number
     for (std::size_t i = 0; i < all.size(); ++i) CHECK(down[i] == all[39 - i]);
 }
 
-TEST_CASE("Gains leave NaN and 0 alone, and none of them is the identity") {
+TEST_CASE("Gains leave NaN and 0 unchanged, and are the identity at zero strength") {
     in::image<float> odd(2, 1, not_a_number);
     odd(1, 0) = 0;
     const auto seen = odd | in::range_gain_error{} | in::ping_banding{};
@@ -232,15 +232,15 @@ TEST_CASE("A tone has the given level, lengths and fraction of patches") {
     CHECK(of(line(streaks, {13, 5})).deviation == Approx(2).epsilon(0.05));
     CHECK(correlation(line(streaks, {0, 1}), 1) == Approx(lattice_correlation(0.5)).margin(0.05));
     CHECK(correlation(line(streaks, {1, 0}), 25) == Approx(lattice_correlation(0.5)).margin(0.1));
-    for (const float share : {0.1f, 0.5f, 0.8f}) {
+    for (const float fraction : {0.1f, 0.5f, 0.8f}) {
         double inside = 0;
-        for (const double level : line({.patches = 6, .patch_size = 3, .patch_share = share}, {1.1, 2.3}))
+        for (const double level : line({.patches = 6, .patch_size = 3, .patch_share = fraction}, {1.1, 2.3}))
             inside += level / 6 / 40000;
-        CHECK(inside == Approx(share).margin(0.02));
+        CHECK(inside == Approx(fraction).margin(0.02));
     }
 }
 
-TEST_CASE("A tone is locked to the world: both sides of a track see the same place alike") {
+TEST_CASE("A tone is fixed to the world: both sides of a track give a place the same level") {
     in::scene scene;
     scene.seabed = in::seabed::flat{.surface = {.rms = 0}};
     const in::bottom_tone tone{.drift = 5, .drift_length = 3, .patches = 4, .patch_size = 5};
@@ -269,7 +269,7 @@ TEST_CASE("A tone is locked to the world: both sides of a track see the same pla
         }
 }
 
-TEST_CASE("with_tone() leaves the water column alone, costs nothing when off, and is the same for any executor") {
+TEST_CASE("with_tone() leaves the water column unchanged, does nothing when off, and is the same for any executor") {
     in::scene scene;
     const in::side_scan rig{.altitude = 5, .ping_spacing = 0.2f, .pings = 40, .range = 20, .bins = 80};
     const auto clean = in::render(scene, rig);

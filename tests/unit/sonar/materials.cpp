@@ -1,4 +1,4 @@
-// What a scene is made of is checked wherever it is drawn, and refused by name.
+// Materials and poses are checked by every way to draw a scene, and refused by name.
 #include <insonify/insonify.hpp>
 
 #include <limits>
@@ -47,7 +47,7 @@ TEST_CASE("A reflectivity that is NaN, infinite or negative is refused by name: 
     }
 }
 
-TEST_CASE("Reflectivities of 0, of more than 1 and of the largest float draw") {
+TEST_CASE("Reflectivities of 0, above 1 and of the largest float are drawn") {
     for (const float value : {0.0f, -0.0f, 3.0f, (std::numeric_limits<float>::max)()}) {
         in::scene s = cubes();
         s.targets[0].surface.reflectivity = value;

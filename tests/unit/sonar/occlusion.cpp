@@ -73,7 +73,7 @@ TEST_CASE("A wall of seabed outside of the bounds shades points within height / 
         CAPTURE(tip);
         CHECK(found.shadow[0] == (tip < 0 ? in::labels::by_seabed : in::labels::is_lit));
     }
-    // With no reach beyond the bounds the wall is not there.
+    // Without a reach beyond the bounds the wall casts no shadow.
     const auto blind =
         in::occlusion_of(s, in::shadow::directional_light{0, elevation}, {{{-1, -1, -0.2}, {1, 1, 0.5}}, 0.1, 0});
     CHECK(blind.test(std::vector<glm::dvec3>{{-0.5, 0.3, 1e-3}}).lit[0] == 1);

@@ -154,7 +154,7 @@ TEST_CASE("Inward normals, all or some, do not change the energy") {
     inward = to_mesh(in::sphere{});
     for (glm::vec3& n : inward.normals) n *= -1.0f;
     CHECK(total(inward) == Approx(whole).epsilon(1e-3));
-    // Of each triangle's normals some point to its back: it is not wound anew.
+    // Of each triangle's normals some point to its back: it is not rewound.
     in::mesh wall = plate(0, -1, 1);
     wall.normals.assign(4, {-1, 0, 0});
     const double expected = total(wall);

@@ -44,16 +44,16 @@ std::vector<segment> outline_of(const in::scene& s) {
     return all;
 }
 
-struct heard {
+struct ping_truth {
     std::vector<double> energy, dark;              ///< by bin; of the bottom's length the part in shadow
     std::vector<std::vector<double>> of_instance;  ///< energy
 };
 
 /// Level bottom at 0 of reflectivity one, targets of reflectivity one, Lambert's law, a metre of track.
-heard listen(const in::scene& s, double altitude, double range, int bins) {
+ping_truth trace_ping(const in::scene& s, double altitude, double range, int bins) {
     constexpr int rays = 60000;
     const auto outline = outline_of(s);
-    heard h{
+    ping_truth h{
         std::vector<double>(static_cast<std::size_t>(bins)), std::vector<double>(static_cast<std::size_t>(bins)),
         std::vector<std::vector<double>>(s.targets.size() + 1, std::vector<double>(static_cast<std::size_t>(bins)))};
     const double step = std::numbers::pi / rays;
@@ -88,7 +88,7 @@ heard listen(const in::scene& s, double altitude, double range, int bins) {
 
 TEST_CASE("Energies, instances and shadows of range modes equal those of an oracle of rays, thin parts included") {
     double worst_total = 0;
-    int bins_named = 0, wrong_names = 0, shadow_bins = 0, wrong_shadows = 0;
+    int clear_bins = 0, wrong_instances = 0, shadow_bins = 0, wrong_shadows = 0;
     for (int turn = 0; turn < 12; ++turn) {
         in::random_sequence random(5, 0, static_cast<std::uint64_t>(turn));
         in::scene s;
@@ -108,7 +108,7 @@ TEST_CASE("Energies, instances and shadows of range modes equal those of an orac
         add(in::cube{.size = {0.02f, 2.0f, 1.5f}}, "board");
         constexpr int bins = 500;
         constexpr double range = 20, altitude = 4;
-        const auto truth = listen(s, altitude, range, bins);
+        const auto truth = trace_ping(s, altitude, range, bins);
         const in::side_scan rig{.altitude = 4, .ping_spacing = 1, .pings = 1, .range = 20, .bins = bins};
         const auto found = in::render(s, rig, in::record_options<>{}.with(in::sonar_equation<>{}));
         double total = 0, expected = 0, shifted = 0;
@@ -120,18 +120,19 @@ TEST_CASE("Energies, instances and shadows of range modes equal those of an orac
             for (std::size_t i = 1; i < truth.of_instance.size(); ++i) targets += truth.of_instance[i][k];
             const bool is_clear = std::abs(targets - truth.of_instance[0][k]) > 0.2 * truth.energy[k];
             if (is_clear && truth.energy[k] > 0) {
-                ++bins_named;
-                const std::uint16_t name = found.labels.instance(b, 0);
-                wrong_names += (name != 0) != (targets > truth.of_instance[0][k]) ||
-                               truth.of_instance[name][k] < 0.2 * truth.energy[k];
+                ++clear_bins;
+                const std::uint16_t labelled = found.labels.instance(b, 0);
+                wrong_instances += (labelled != 0) != (targets > truth.of_instance[0][k]) ||
+                                   truth.of_instance[labelled][k] < 0.2 * truth.energy[k];
             }
             const double length =
                 range / bins * (b + 0.5) /
                 std::sqrt((std::max)(0.01, std::pow(range / bins * (b + 0.5), 2) - altitude * altitude)) * range / bins;
-            const double share = truth.dark[k] / length;
-            if ((share > 0.9 || share < 0.1) && range / bins * b > altitude + 0.2 && found.labels.instance(b, 0) == 0) {
+            const double shadow_fraction = truth.dark[k] / length;
+            if ((shadow_fraction > 0.9 || shadow_fraction < 0.1) && range / bins * b > altitude + 0.2 &&
+                found.labels.instance(b, 0) == 0) {
                 ++shadow_bins;
-                wrong_shadows += (found.labels.shadow(b, 0) != 0) != (share > 0.5);
+                wrong_shadows += (found.labels.shadow(b, 0) != 0) != (shadow_fraction > 0.5);
             }
         }
         CAPTURE(turn, total, expected, shifted);
@@ -139,7 +140,7 @@ TEST_CASE("Energies, instances and shadows of range modes equal those of an orac
         CHECK(shifted < 0.005 * expected);
         worst_total = (std::max)(worst_total, std::abs(total / expected - 1));
     }
-    CAPTURE(worst_total, bins_named, wrong_names, shadow_bins, wrong_shadows);
-    CHECK(wrong_names <= bins_named / 200);
+    CAPTURE(worst_total, clear_bins, wrong_instances, shadow_bins, wrong_shadows);
+    CHECK(wrong_instances <= clear_bins / 200);
     CHECK(wrong_shadows <= shadow_bins / 200);
 }

@@ -1,4 +1,5 @@
-// Numbers that cannot be right, in every field of scenes, rigs, pings, equations, lights, looks and options.
+// Each field of scenes, rigs, pings, equations, lights, looks and options is refused by name where its value is out of
+// range.
 #include "../../refusals.hpp"
 
 #include <insonify/insonify.hpp>
@@ -25,7 +26,7 @@ const in::side_scan small_side_scan{.altitude = 4, .ping_spacing = 0.5f, .pings 
 TEST_CASE("render() refuses each field of an overhead rig by name") {
     static_assert(members<in::overhead>() == 11);
     const auto use = [](const in::overhead& rig) { (void)in::render(small_scene(), rig); };
-    walk<in::overhead>(
+    check_fields<in::overhead>(
         "overhead.", small_rig, use,
         {FIELD(position.x, not_finite), FIELD(position.y, not_finite), FIELD(altitude, not_above_0),
          FIELD(yaw, not_finite), FIELD(field_of_view, outside(0, 3.1399)), FIELD(size.x, outside_whole(1, 32768)),
@@ -46,16 +47,16 @@ TEST_CASE("render() and record() refuse each field of a side-scan rig by name") 
         FIELD(yaw, not_finite),        FIELD(ping_spacing, not_above_0), FIELD(pings, outside_whole(1, 1 << 20)),
         FIELD(first_range, below_0),   FIELD(range, outside(0, 1e5)),    FIELD(bins, outside_whole(1, 1 << 20)),
         FIELD(side, {2, 255})};
-    walk("side_scan.", small_side_scan, rendered, fields);
-    walk("side_scan.", small_side_scan, recorded, fields);
+    check_fields("side_scan.", small_side_scan, rendered, fields);
+    check_fields("side_scan.", small_side_scan, recorded, fields);
 }
 
 TEST_CASE("record() refuses each field of a ping by name") {
     static_assert(members<in::ping>() == 4);
     const auto use = [](const in::ping& p) { (void)in::record(small_scene(), std::span(&p, 1), small_side_scan); };
-    walk<in::ping>("ping.", {}, use,
-                   {FIELD(position.x, not_finite), FIELD(position.y, not_finite), FIELD(position.z, not_finite),
-                    FIELD(yaw, not_finite), FIELD(pitch, outside(-1.397, 1.397)), FIELD(roll, not_finite)});
+    check_fields<in::ping>("ping.", {}, use,
+                           {FIELD(position.x, not_finite), FIELD(position.y, not_finite), FIELD(position.z, not_finite),
+                            FIELD(yaw, not_finite), FIELD(pitch, outside(-1.397, 1.397)), FIELD(roll, not_finite)});
 }
 
 TEST_CASE("Every view of a scene refuses each field of a pose and a material by name") {
@@ -71,30 +72,30 @@ TEST_CASE("Every view of a scene refuses each field of a pose and a material by 
         if (view == 2) (void)in::occlusion_of(s, in::light_of(small_rig), {.box = {{-1, -1, 0}, {1, 1, 1}}});
     };
     in::scene s = small_scene();
-    walk<in::pose>(
+    check_fields<in::pose>(
         "pose.", {},
         [&](const in::pose& p) {
             s.targets[0].placement = p;
             seen(s);
         },
         pose);
-    walk<in::pose>(
+    check_fields<in::pose>(
         "pose.", {}, [&](const in::pose& p) { (void)in::rest_on(s.seabed, to_mesh(in::cube{}), p); }, pose);
     if (view == 2) return;  // occlusion has no materials
     s = small_scene();
-    walk<in::material>("scene.targets[0].surface.", {},
-                       [&](const in::material& m) {
-                           s.targets[0].surface = m;
-                           seen(s);
-                       },
-                       {FIELD(reflectivity, below_0)});
+    check_fields<in::material>("scene.targets[0].surface.", {},
+                               [&](const in::material& m) {
+                                   s.targets[0].surface = m;
+                                   seen(s);
+                               },
+                               {FIELD(reflectivity, below_0)});
     s = small_scene();
-    walk<in::material>("scene.bottom[3].", {},
-                       [&](const in::material& m) {
-                           s.bottom[3] = m;
-                           seen(s);
-                       },
-                       {FIELD(reflectivity, {nan_value, infinity, -infinity, -2})});
+    check_fields<in::material>("scene.bottom[3].", {},
+                               [&](const in::material& m) {
+                                   s.bottom[3] = m;
+                                   seen(s);
+                               },
+                               {FIELD(reflectivity, {nan_value, infinity, -infinity, -2})});
 }
 
 TEST_CASE("Each field of a seabed's own properties is refused by name") {
@@ -110,12 +111,12 @@ TEST_CASE("Each field of a seabed's own properties is refused by name") {
         sampler prepare() const { return {}; }
     };
     in::scene s = small_scene();
-    walk<in::seabed::type_properties>("type_properties.", {in::seabed::own_type(0), "shelf"},
-                                      [&](const in::seabed::type_properties& kind) {
-                                          s.seabed = shelf{kind};
-                                          (void)in::render(s, small_rig);
-                                      },
-                                      {FIELD(reflectivity, below_0)});
+    check_fields<in::seabed::type_properties>("type_properties.", {in::seabed::own_type(0), "shelf"},
+                                              [&](const in::seabed::type_properties& kind) {
+                                                  s.seabed = shelf{kind};
+                                                  (void)in::render(s, small_rig);
+                                              },
+                                              {FIELD(reflectivity, below_0)});
 }
 
 TEST_CASE("record() refuses each field of a sonar equation by name") {
@@ -126,30 +127,30 @@ TEST_CASE("record() refuses each field of a sonar equation by name") {
     const auto use = [](const auto& part) {
         (void)in::render(small_scene(), small_side_scan, in::record_options<>{}.with(in::sonar_equation{part}));
     };
-    walk<in::source_level>("source_level.", {}, use, {FIELD(decibels, outside(-300, 300))});
-    walk<in::absorption>("absorption.", {}, use, {FIELD(decibels_per_km, outside(0, 3000))});
-    walk<in::vertical_beam>("vertical_beam.", {}, use,
-                            {FIELD(width, not_above_0), FIELD(tilt, not_finite), FIELD(side_lobes, below_0)});
-    walk<in::horizontal_beam>("horizontal_beam.", {}, use, {FIELD(width, not_above_0)});
-    walk<in::pulse>("pulse.", {}, use, {FIELD(length, below_0)});
-    walk<in::noise_floor>("noise_floor.", {}, use, {FIELD(intensity, below_0)});
-    walk<in::time_varied_gain>("time_varied_gain.", {}, use,
-                               {FIELD(spreading, outside(0, 60)), FIELD(absorption_per_km, outside(0, 3000)),
-                                FIELD(decibels, outside(-300, 300))});
-    walk<in::level_gain>("level_gain.", {}, use, {FIELD(steepest, outside(0, 1.5708))});
+    check_fields<in::source_level>("source_level.", {}, use, {FIELD(decibels, outside(-300, 300))});
+    check_fields<in::absorption>("absorption.", {}, use, {FIELD(decibels_per_km, outside(0, 3000))});
+    check_fields<in::vertical_beam>("vertical_beam.", {}, use,
+                                    {FIELD(width, not_above_0), FIELD(tilt, not_finite), FIELD(side_lobes, below_0)});
+    check_fields<in::horizontal_beam>("horizontal_beam.", {}, use, {FIELD(width, not_above_0)});
+    check_fields<in::pulse>("pulse.", {}, use, {FIELD(length, below_0)});
+    check_fields<in::noise_floor>("noise_floor.", {}, use, {FIELD(intensity, below_0)});
+    check_fields<in::time_varied_gain>("time_varied_gain.", {}, use,
+                                       {FIELD(spreading, outside(0, 60)), FIELD(absorption_per_km, outside(0, 3000)),
+                                        FIELD(decibels, outside(-300, 300))});
+    check_fields<in::level_gain>("level_gain.", {}, use, {FIELD(steepest, outside(0, 1.5708))});
 }
 
 TEST_CASE("Both sonars refuse each field of a backscatter law by name") {
     static_assert(members<in::facet_backscatter>() == 3);
     const std::initializer_list<field<in::facet_backscatter>> fields{FIELD(facets, below_0), FIELD(slope, not_above_0),
                                                                      FIELD(volume, below_0)};
-    walk<in::facet_backscatter>(
+    check_fields<in::facet_backscatter>(
         "facet_backscatter.", {},
         [](const in::facet_backscatter& law) {
             (void)in::render(small_scene(), small_rig, in::render_options<>{}.with(law));
         },
         fields);
-    walk<in::facet_backscatter>(
+    check_fields<in::facet_backscatter>(
         "facet_backscatter.", {},
         [](const in::facet_backscatter& law) {
             (void)in::render(small_scene(), small_side_scan, in::record_options<>{}.with(law));
@@ -160,16 +161,17 @@ TEST_CASE("Both sonars refuse each field of a backscatter law by name") {
 TEST_CASE("Options of pictures and recordings are refused by name") {
     static_assert(members<in::render_options<>>() == 7 && members<in::record_options<>>() == 3);
     for (const bool has_bottom : {true, false})
-        walk<in::render_options<>>("", {},
-                                   [&](const in::render_options<>& o) {
-                                       in::scene s = small_scene();
-                                       if (!has_bottom) s.seabed = in::seabed::none{};
-                                       (void)in::render(s, small_rig, o);
-                                       (void)in::visible_triangles(s, small_rig, o);
-                                   },
-                                   {FIELD(cell, below_0), FIELD(reach, below_0),
-                                    FIELD(subpixel_bits, outside_whole(4, 16)), FIELD(tile, {0, -1, 4, 24, 512})});
-    walk<in::record_options<>>(
+        check_fields<in::render_options<>>(
+            "", {},
+            [&](const in::render_options<>& o) {
+                in::scene s = small_scene();
+                if (!has_bottom) s.seabed = in::seabed::none{};
+                (void)in::render(s, small_rig, o);
+                (void)in::visible_triangles(s, small_rig, o);
+            },
+            {FIELD(cell, below_0), FIELD(reach, below_0), FIELD(subpixel_bits, outside_whole(4, 16)),
+             FIELD(tile, {0, -1, 4, 24, 512})});
+    check_fields<in::record_options<>>(
         "", {}, [&](const in::record_options<>& o) { (void)in::render(small_scene(), small_side_scan, o); },
         {FIELD(cell, below_0)});
 }
@@ -180,11 +182,13 @@ TEST_CASE("Shadow policies refuse each field by name") {
     const auto use = [](const auto& policy) {
         (void)in::render(small_scene(), small_rig, in::render_options<>{}.with(policy));
     };
-    walk<in::shadow::map>("", {}, use, {FIELD(texels_per_pixel, not_above_0), FIELD(largest, outside_whole(1, 32768))});
-    walk<in::shadow::pcf>("", {}, use,
-                          {FIELD(texels_per_pixel, not_above_0), FIELD(largest, outside_whole(1, 32768)),
-                           FIELD(radius, outside_whole(0, 8))});
-    walk<in::shadow::penumbra>("", {}, use, {FIELD(diameter, outside(0, 1)), FIELD(samples, outside_whole(1, 1024))});
+    check_fields<in::shadow::map>("", {}, use,
+                                  {FIELD(texels_per_pixel, not_above_0), FIELD(largest, outside_whole(1, 32768))});
+    check_fields<in::shadow::pcf>("", {}, use,
+                                  {FIELD(texels_per_pixel, not_above_0), FIELD(largest, outside_whole(1, 32768)),
+                                   FIELD(radius, outside_whole(0, 8))});
+    check_fields<in::shadow::penumbra>("", {}, use,
+                                       {FIELD(diameter, outside(0, 1)), FIELD(samples, outside_whole(1, 1024))});
 }
 
 TEST_CASE("Lights and the bounds of occlusion are refused by name") {
@@ -192,13 +196,13 @@ TEST_CASE("Lights and the bounds of occlusion are refused by name") {
     static_assert(members<in::occlusion_bounds>() == 3);
     const in::occlusion_bounds around{.box = {{-1, -1, 0}, {1, 1, 1}}};
     const auto under = [&](const auto& light) { (void)in::occlusion_of(small_scene(), light, around); };
-    walk<in::shadow::directional_light>("", {}, under,
-                                        {FIELD(azimuth, not_finite), FIELD(elevation, outside(0, 1.571))});
-    walk<in::shadow::point_light>("point_light.", {{3, 2, 4}}, under,
-                                  {{"position", [](auto& o, double v) { o.position.x = v; }, not_finite},
-                                   {"position", [](auto& o, double v) { o.position.y = v; }, not_finite},
-                                   {"position", [](auto& o, double v) { o.position.z = v; }, not_finite}});
-    walk<in::occlusion_bounds>(
+    check_fields<in::shadow::directional_light>("", {}, under,
+                                                {FIELD(azimuth, not_finite), FIELD(elevation, outside(0, 1.571))});
+    check_fields<in::shadow::point_light>("point_light.", {{3, 2, 4}}, under,
+                                          {{"position", [](auto& o, double v) { o.position.x = v; }, not_finite},
+                                           {"position", [](auto& o, double v) { o.position.y = v; }, not_finite},
+                                           {"position", [](auto& o, double v) { o.position.z = v; }, not_finite}});
+    check_fields<in::occlusion_bounds>(
         "occlusion_bounds.", around,
         [](const in::occlusion_bounds& b) { (void)in::occlusion_of(small_scene(), in::light_of(small_rig), b); },
         {{"box", [](auto& o, double v) { o.box.lower.x = v; }, not_finite},
@@ -211,14 +215,14 @@ TEST_CASE("with_speckle() refuses each field of a speckle by name") {
     static_assert(members<in::seabed_speckle>() == 6);
     const auto heard = in::render(small_scene(), small_side_scan);
     const auto use = [&](const in::seabed_speckle& s) { (void)in::with_speckle(heard, s); };
-    walk<in::seabed_speckle>("seabed_speckle.", {}, use,
-                             {FIELD(along_track, outside(0, 16)), FIELD(across_track, outside(0, 16)),
-                              FIELD(texture_length, outside(1, 1024))});
+    check_fields<in::seabed_speckle>("seabed_speckle.", {}, use,
+                                     {FIELD(along_track, outside(0, 16)), FIELD(across_track, outside(0, 16)),
+                                      FIELD(texture_length, outside(1, 1024))});
     const std::initializer_list<field<in::speckle_law>> law{
         FIELD(looks, outside_whole(1, 64)), FIELD(texture, {nan_value, infinity, -1, 0.001}), FIELD(steady, below_0)};
-    walk<in::speckle_law>(
+    check_fields<in::speckle_law>(
         "speckle_law.", {}, [&](const in::speckle_law& l) { use({.elsewhere = l}); }, law);
-    walk<in::speckle_law>(
+    check_fields<in::speckle_law>(
         "speckle_law.", {},
         [&](const in::speckle_law& l) {
             in::seabed_speckle s;
@@ -240,14 +244,14 @@ TEST_CASE("Filters of recordings refuse each field by name") {
     const in::image<float> heard(6, 4, 0.5f);
     const auto use = [&](const auto& filter) { (void)(heard | filter); };
     static_assert(members<in::range_gain_error>() == 4 && members<in::ping_banding>() == 6);
-    walk<in::range_gain_error>(
+    check_fields<in::range_gain_error>(
         "range_gain_error.", {}, use,
         {FIELD(rms, outside(0, 60)), FIELD(length, outside(1, 1e9)), FIELD(slope, outside(-60, 60))});
-    walk<in::ping_banding>("ping_banding.", {}, use,
-                           {FIELD(drift, outside(0, 60)), FIELD(length, outside(1, 1e9)), FIELD(jitter, outside(0, 60)),
-                            FIELD(step, {0, 2, -2})});
+    check_fields<in::ping_banding>("ping_banding.", {}, use,
+                                   {FIELD(drift, outside(0, 60)), FIELD(length, outside(1, 1e9)),
+                                    FIELD(jitter, outside(0, 60)), FIELD(step, {0, 2, -2})});
     static_assert(members<in::water_column>() == 13);
-    walk<in::water_column>(
+    check_fields<in::water_column>(
         "water_column.", {}, use,
         {FIELD(first_range, below_0), FIELD(bin, not_above_0), FIELD(noise, below_0), FIELD(noise_range, not_above_0),
          FIELD(spreading, outside(0, 60)), FIELD(absorption_per_km, outside(0, 3000)), FIELD(volume, below_0),
@@ -255,9 +259,10 @@ TEST_CASE("Filters of recordings refuse each field by name") {
          FIELD(waves, below_0), FIELD(wave_length, outside(1, 1e9))});
     static_assert(members<in::display>() == 2 && members<in::decibel_display>() == 2);
     static_assert(members<in::automatic_display>() == 3);
-    walk<in::display>("display.", {}, use, {FIELD(white, not_above_0), FIELD(exponent, outside(0, 4))});
-    walk<in::decibel_display>("decibel_display.", {}, use, {FIELD(white, not_above_0), FIELD(range, outside(0, 400))});
-    walk<in::automatic_display>(
+    check_fields<in::display>("display.", {}, use, {FIELD(white, not_above_0), FIELD(exponent, outside(0, 4))});
+    check_fields<in::decibel_display>("decibel_display.", {}, use,
+                                      {FIELD(white, not_above_0), FIELD(range, outside(0, 400))});
+    check_fields<in::automatic_display>(
         "automatic_display.", {}, use,
         {FIELD(scale, {3, 99}), FIELD(black, outside(0, 0.49)), FIELD(white, outside(0, 0.49))});
 }
@@ -265,16 +270,16 @@ TEST_CASE("Filters of recordings refuse each field by name") {
 TEST_CASE("with_tone() refuses each field of a tone by name") {
     static_assert(members<in::bottom_tone>() == 11);
     const auto heard = in::render(small_scene(), small_side_scan);
-    walk<in::bottom_tone>(
+    check_fields<in::bottom_tone>(
         "bottom_tone.", {.drift = 1, .streaks = 1, .patches = 1},
         [&](const in::bottom_tone& t) { (void)in::with_tone(heard, small_side_scan, t); },
         {FIELD(drift, outside(0, 30)), FIELD(drift_length, outside(0, 1e9)), FIELD(octaves, outside_whole(1, 8)),
          FIELD(streaks, outside(0, 30)), FIELD(streak_width, outside(0, 1e9)), FIELD(streak_length, outside(0, 1e9)),
          FIELD(direction, not_finite), FIELD(patches, outside(-30, 30)), FIELD(patch_size, outside(0, 1e9)),
          FIELD(patch_share, outside(0.01, 0.99))});
-    walk<in::side_scan>("side_scan.", small_side_scan,
-                        [&](const in::side_scan& rig) { (void)in::with_tone(heard, rig, {.drift = 1}); },
-                        {FIELD(altitude, not_finite), FIELD(ping_spacing, not_above_0), FIELD(range, outside(0, 1e5))});
+    check_fields<in::side_scan>(
+        "side_scan.", small_side_scan, [&](const in::side_scan& rig) { (void)in::with_tone(heard, rig, {.drift = 1}); },
+        {FIELD(altitude, not_finite), FIELD(ping_spacing, not_above_0), FIELD(range, outside(0, 1e5))});
     CHECK_THAT(refusal([&] { (void)in::level_of({}, {nan_value, 0}); }), ContainsSubstring("position.x"));
     CHECK_THAT(refusal([&] { (void)in::level_of({}, {0, infinity}); }), ContainsSubstring("position.y"));
 }
@@ -284,7 +289,7 @@ TEST_CASE("to_ground_range() refuses rigs and altitudes by name") {
     const in::ground_range to{.altitude = 4, .pings = 2, .range = 8, .bins = 8};
     const std::initializer_list<field<in::side_scan>> fields{FIELD(altitude, not_finite), FIELD(first_range, below_0),
                                                              FIELD(range, outside(0, 1e5))};
-    walk(
+    check_fields(
         "side_scan.", small_side_scan, [&](const in::side_scan& from) { (void)in::to_ground_range(heard, from, to); },
         fields);
     for (const double value : not_finite) {
@@ -300,10 +305,10 @@ TEST_CASE("settings_for() refuses budgets and probes by name") {
     const auto use = [&](const in::accuracy::budget& b, const in::accuracy::probe& how) {
         (void)in::accuracy::settings_for(b, bottom, small_rig, how);
     };
-    walk<in::accuracy::budget>("budget.", {}, [&](const auto& b) { use(b, {.chips = 1, .pixels = 8}); },
-                               {FIELD(shadow_edge, {nan_value, -1, 0}), FIELD(silhouette, {nan_value, -1, 0}),
-                                FIELD(height, {nan_value, -1, 0}), FIELD(intensity, {nan_value, -1, 0})});
-    walk<in::accuracy::probe>("probe.", {.chips = 1, .pixels = 8}, [&](const auto& p) { use({}, p); },
-                              {FIELD(chips, outside_whole(1, 1024)), FIELD(pixels, outside_whole(1, 2048)),
-                               FIELD(finest, outside(1, 8)), FIELD(spare, outside(0, 1))});
+    check_fields<in::accuracy::budget>("budget.", {}, [&](const auto& b) { use(b, {.chips = 1, .pixels = 8}); },
+                                       {FIELD(shadow_edge, {nan_value, -1, 0}), FIELD(silhouette, {nan_value, -1, 0}),
+                                        FIELD(height, {nan_value, -1, 0}), FIELD(intensity, {nan_value, -1, 0})});
+    check_fields<in::accuracy::probe>("probe.", {.chips = 1, .pixels = 8}, [&](const auto& p) { use({}, p); },
+                                      {FIELD(chips, outside_whole(1, 1024)), FIELD(pixels, outside_whole(1, 2048)),
+                                       FIELD(finest, outside(1, 8)), FIELD(spare, outside(0, 1))});
 }

@@ -29,7 +29,7 @@ in::scene cube_on_plane(double edge) {
     return s;
 }
 
-/// A row of the picture, by the target's instance and its shadow.
+/// The first and the last column of a row for which a condition holds.
 struct extent {
     int first = -1, last = -1;
 };
@@ -88,7 +88,7 @@ TEST_CASE("Level ground has one brightness: reflectivity x (intensity x sin(graz
     }
 }
 
-TEST_CASE("A pixel of a large facet shows the normal of the point that its ray meets") {
+TEST_CASE("A pixel of a large facet shows the normal at the point that its ray hits") {
     // From 0.5 to 4 m before the camera: halfway across the picture is not halfway across the facet.
     const glm::dvec3 corner[3] = {{-3, -3, 0}, {3, -2.5, 0}, {0, 0.4, 3.5}};
     const glm::dvec3 normal[3] = {{0, 0, 1}, {0.6, 0, 0.8}, {0, 0.6, 0.8}};
@@ -110,22 +110,22 @@ TEST_CASE("A pixel of a large facet shows the normal of the point that its ray m
                            .ambient = 0};
     const in::overhead_geometry view(rig);
     const auto picture = in::render(s, rig, in::render_options<in::shadow::none>{});
-    const glm::dmat3 to_shares =
+    const glm::dmat3 to_weights =
         glm::inverse(glm::dmat3(corner[0] - view.eye(), corner[1] - view.eye(), corner[2] - view.eye()));
     int shown = 0;
     for (int y = 0; y < 200; ++y)
         for (int x = 0; x < 200; ++x) {
             if (picture.labels.instance(x, y) == in::labels::no_instance) continue;
-            glm::dvec3 share = to_shares * view.ray(x, y);
-            share /= share.x + share.y + share.z;
-            const glm::dvec3 there = share.x * normal[0] + share.y * normal[1] + share.z * normal[2];
+            glm::dvec3 weights = to_weights * view.ray(x, y);
+            weights /= weights.x + weights.y + weights.z;
+            const glm::dvec3 there = weights.x * normal[0] + weights.y * normal[1] + weights.z * normal[2];
             CHECK(picture.image(x, y) == Approx(there.z / glm::length(there)).margin(1e-5));
             ++shown;
         }
     CHECK(shown > 2000);
 }
 
-/// Lambert's law, and the largest sine that it was asked for.
+/// Lambert's law; records the largest sine that it is evaluated for.
 struct watched_law {
     float* largest;
     float operator()(float s) const {
@@ -281,7 +281,7 @@ TEST_CASE("Camera, light and scene turned together give the same picture") {
     CHECK(different < 300);  // pixels on edges, of 40000
 }
 
-TEST_CASE("The same bytes for any number of threads, tile size and instruction set") {
+TEST_CASE("render() gives the same bytes for any number of threads, tile size and instruction set") {
     in::scene s;
     s.seabed = in::seabed::rock{.relief = 0.2f};
     s.add(in::cylinder{.segments = 24}, {.position = {0, 0, 0.6}, .yaw = 40_deg}, "cylinder");
@@ -341,7 +341,7 @@ TEST_CASE("Objects beside the picture cast shadows into it") {
     CHECK(std::abs(dark.last + 1 - tip) <= 3);  // the wall's top edge is a cell wide
 }
 
-TEST_CASE("Resting on the seabed touches it, and burial goes on from there") {
+TEST_CASE("rest_on() puts a target in contact with the seabed; burial is added to that") {
     const in::seabed::any seabed = in::seabed::ripples{};
     const in::mesh shape = to_mesh(in::sphere{.radius = 0.3f, .segments = 24});
     in::pose p = in::rest_on(seabed, shape, {.position = {3, 4, 77}, .burial = 0.1f});
@@ -405,7 +405,7 @@ TEST_CASE(
     REQUIRE(shadow_at(-1, 0) == 1);
     REQUIRE(labels.instance(pixel(0, 0.2).x, pixel(0, 0.2).y) == 2);
     CHECK(shadow_at(0, 0.2) == 1);       // the second one's top
-    CHECK(shadow_at(0.4, 0) == 1);       // both keep this dark
+    CHECK(shadow_at(0.4, 0) == 1);       // in the shadow of both
     CHECK(shadow_at(0.101, 0.05) == 1);  // its far side, which would be dark without the first
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 using exact_options = in::render_options<in::shadow::exact>;
 
-/// The truth about a scene, and what its pictures show.
+/// A scene's picture, and the oracle's verdicts on its pixels.
 struct case_at {
     in::overhead rig;
     in::visibility shown;
@@ -49,14 +49,14 @@ struct case_at {
     }
 };
 
-/// Compares what a closed form says of the pixels that show the first target, level ground at the datum.
-/// @param says  of a point: whether it is dark, or undecided next to an edge
-template <class Says>
-void check_ground(const case_at& c, const Says& says) {
+/// Compares the oracle with a closed form on the pixels that show the first target, level ground at the datum.
+/// @param closed_form  of a point: whether it is dark, or undecided next to an edge
+template <class ClosedForm>
+void check_ground(const case_at& c, const ClosedForm& closed_form) {
     long dark = 0, lit = 0, wrong = 0;
     for (std::size_t i = 0; i < c.pixels(); ++i) {
         if (c.shown.instance.pixels()[i] != 1) continue;
-        const verdict expected = says(c.point(i, 0));
+        const verdict expected = closed_form(c.point(i, 0));
         if (expected == verdict::undecided) continue;
         wrong += c.answer(i) != expected;
         ++(expected == verdict::dark ? dark : lit);
@@ -107,7 +107,7 @@ TEST_CASE("Oracle: a box darkens the ground where the light's ray enters it, and
                     first = std::max(first, std::min(a, b));
                     last = std::min(last, std::max(a, b));
                 }
-                // Half sizes are rounded to float: what is that close to an edge isn't asked.
+                // Half sizes are rounded to float: points that close to an edge are not judged.
                 return std::abs(last - first) < 1e-6 ? verdict::undecided : dark_if(first < last);
             });
             const glm::dvec3 normals[] = {{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
@@ -162,8 +162,10 @@ TEST_CASE("Oracle: under a light nearby, the shadow of a square is a larger squa
         if (c.shown.instance.pixels()[i] == 2) REQUIRE(c.answer(i) == verdict::lit);
 }
 
-TEST_CASE("Oracle: open sheets are dark on the side that faces away, and lit on the other, whichever way they run") {
-    // Tilted by 30 degrees, low side to the right: from 45 degrees either side's light falls on it; from 20, on one.
+TEST_CASE(
+    "Oracle: open sheets are dark on the side that faces away, and lit on the other, whichever way they are wound") {
+    // Tilted by 30 degrees, low side to the right: at 45 degrees light from either side falls on it, at 20 degrees
+    // from one side only.
     for (const bool turned : {false, true}) {
         const in::mesh quad = shapes::tilted_quad();
         const in::scene s = foreign::bare(turned ? shapes::turned_around(quad) : quad, {});
@@ -179,7 +181,7 @@ TEST_CASE("Oracle: open sheets are dark on the side that faces away, and lit on 
     }
 }
 
-TEST_CASE("Oracle: its tree leaves nothing out: as triangles tried one by one") {
+TEST_CASE("Oracle: its tree gives the results of testing every triangle") {
     for (const auto& s : {foreign::on_ground(shapes::crossed_tori()), foreign::bare(shapes::soup(shapes::relief(24)))})
         for (const double elevation : {1.0, 6.0}) {
             const case_at c(s, foreign::rig(251.3, elevation, 32));
@@ -297,15 +299,15 @@ TEST_CASE("Oracle: a picture's wrong pixels are counted, by kind") {
     const case_at c(s, foreign::rig(23.7, 33, 64));
     const auto frame = in::render(s, c.rig, exact_options{});
     REQUIRE(shadow_oracle::compare(c.truth, frame.labels).wrong() == 0);
-    in::labels spoilt = frame.labels;
+    in::labels altered = frame.labels;
     long flipped[2] = {0, 0};
     for (std::size_t i = 0; i < c.pixels(); i += 97) {
         if (c.truth.pixels()[i].beside) continue;
-        std::uint16_t& shadow = spoilt.shadow.pixels()[i];
+        std::uint16_t& shadow = altered.shadow.pixels()[i];
         ++flipped[shadow == in::labels::is_lit];
         shadow = shadow == in::labels::is_lit ? 1 : in::labels::is_lit;
     }
-    const auto t = shadow_oracle::compare(c.truth, spoilt);
+    const auto t = shadow_oracle::compare(c.truth, altered);
     CHECK(t.false_dark == flipped[1]);
     CHECK(t.false_lit == flipped[0]);
     CHECK(t.shown == 64 * 64);

@@ -23,15 +23,15 @@ exact_options finely_drawn() {
     return options;
 }
 
-constexpr double nowhere = std::numeric_limits<double>::infinity();
+constexpr double no_hit = std::numeric_limits<double>::infinity();
 
 /// Distance along a ray to a triangle, in lengths of its direction.
 double distance(const scenes::triangle& t, const glm::dvec3& from, const glm::dvec3& along) {
     const glm::dvec3 ab = t.b - t.a, ac = t.c - t.a, p = glm::cross(along, ac), s = from - t.a, q = glm::cross(s, ab);
     const double determinant = glm::dot(ab, p);
-    if (determinant == 0) return nowhere;
+    if (determinant == 0) return no_hit;
     const double u = glm::dot(s, p) / determinant, v = glm::dot(along, q) / determinant;
-    return u >= 0 && v >= 0 && u + v <= 1 ? glm::dot(ac, q) / determinant : nowhere;
+    return u >= 0 && v >= 0 && u + v <= 1 ? glm::dot(ac, q) / determinant : no_hit;
 }
 
 class oracle {
@@ -44,11 +44,11 @@ class oracle {
             t.b -= offset;
             t.c -= offset;
         }
-        depth_.assign(static_cast<std::size_t>(pixels * pixels), nowhere);
+        depth_.assign(static_cast<std::size_t>(pixels * pixels), no_hit);
         shown_.assign(depth_.size(), -1);
         for (std::size_t i = 0; i < triangles_.size(); ++i) {
             const scenes::triangle& t = triangles_[i];
-            double low[2] = {nowhere, nowhere}, high[2] = {-nowhere, -nowhere};
+            double low[2] = {no_hit, no_hit}, high[2] = {-no_hit, -no_hit};
             for (const glm::dvec3& p : {t.a, t.b, t.c})
                 for (int axis = 0; axis < 2; ++axis) {
                     const double at = (axis == 0 ? p.x : -p.y) / (altitude - p.z) * 0.5 * pixels + 0.5 * pixels;
@@ -101,11 +101,11 @@ class oracle {
                 const glm::dvec3 along = is_near ? light - p : light;
                 const glm::dvec3 n = glm::cross(t.b - t.a, t.c - t.a);
                 bool lit = glm::dot(n, along) * -glm::dot(n, ray(x, y)) > 0;
-                const auto& asked = is_near ? all : within[static_cast<std::size_t>(slab_of(p))];
-                for (std::size_t i = 0; lit && i < asked.size(); ++i) {
-                    if (asked[i] == own) continue;
-                    const double hit = distance(triangles_[asked[i]], p, along);
-                    lit = !(hit > (is_near ? 1e-12 : 1e-9 * altitude_) && hit < (is_near ? 1 - 1e-9 : nowhere));
+                const auto& candidates = is_near ? all : within[static_cast<std::size_t>(slab_of(p))];
+                for (std::size_t i = 0; lit && i < candidates.size(); ++i) {
+                    if (candidates[i] == own) continue;
+                    const double hit = distance(triangles_[candidates[i]], p, along);
+                    lit = !(hit > (is_near ? 1e-12 : 1e-9 * altitude_) && hit < (is_near ? 1 - 1e-9 : no_hit));
                 }
                 d.add(labels.shadow(x, y) == in::labels::is_lit, lit);
             }
@@ -122,7 +122,7 @@ class oracle {
     std::vector<long> shown_;
 };
 
-/// All seabeds and directions; prints what it finds for each seabed and elevation if asked to.
+/// All seabeds and directions; with `print`, prints the result for each seabed and elevation.
 scenes::difference compare_all(double spacing, int pixels, bool print) {
     scenes::difference total;
     for (int kind = 0; kind < 3; ++kind) {
@@ -156,7 +156,7 @@ TEST_CASE("Exact shadows equal those of rays: three seabeds, four targets, an im
     CHECK(d.share() <= 1e-5);
 }
 
-TEST_CASE("The same in finer pictures of finer seabeds", "[.slow]") {
+TEST_CASE("Exact shadows equal those of rays in finer pictures of finer seabeds", "[.slow]") {
     const scenes::difference d = compare_all(0.06, 400, true);
     WARN(d.wrong << " of " << d.pixels << " wrong");
     CHECK(d.share() <= 1e-5);
@@ -164,7 +164,7 @@ TEST_CASE("The same in finer pictures of finer seabeds", "[.slow]") {
 
 namespace {
 
-/// Everything in a scene, larger or smaller, and elsewhere.
+/// The scene, scaled and translated.
 in::scene moved(in::scene s, double scale, const glm::dvec3& offset) {
     for (in::target& t : s.targets) {
         t.placement.position = scale * t.placement.position + offset;
@@ -182,7 +182,7 @@ void add_ground(in::scene& s, float half) {
     s.add(ground, {.position = {0.0123, 0.0457, 0}}, "ground", {.reflectivity = 1});
 }
 
-bool all_sound(const in::image<float>& image) {
+bool all_in_range(const in::image<float>& image) {
     return std::all_of(image.pixels().begin(), image.pixels().end(), [](float v) { return v >= 0 && v <= 1; });
 }
 
@@ -211,12 +211,12 @@ TEST_CASE("Extreme rigs and scenes have correct shadows, pixel by pixel") {
             const oracle truth(s, pixels, static_cast<double>(rig.altitude), offset);
             const scenes::difference d = truth.compare(frame.labels, in::overhead_geometry(rig).light().to_light());
             INFO(e.name << " over " << scenes::seabed_names[kind] << ": " << d.wrong << " of " << d.pixels);
-            CHECK(all_sound(frame.image));
+            CHECK(all_in_range(frame.image));
             CHECK(d.wrong <= 1);
         }
 }
 
-TEST_CASE("Light along the faces of a cube, along its edges, and down a slope") {
+TEST_CASE("Light along the faces and edges of a cube and down a slope gives the oracle's shadows") {
     for (const double azimuth : {0.0, 45.0, 90.0, 180.0, 270.0})
         for (const double elevation : {6.0, 45.0}) {
             in::scene s;
@@ -227,13 +227,13 @@ TEST_CASE("Light along the faces of a cube, along its edges, and down a slope") 
             const auto frame = in::render(s, rig, finely_drawn());
             const auto d = oracle(s, 150).compare(frame.labels, in::overhead_geometry(rig).light().to_light());
             CAPTURE(azimuth, elevation, d.wrong, d.pixels);
-            // What is parallel to the light but for rounding is dark here; the oracle says what rounding says.
+            // Faces parallel to the light up to rounding are dark in the picture; in the oracle rounding decides.
             long grazed = 0;
             for (std::size_t i = 0; i < frame.image.size(); ++i)
                 grazed += frame.labels.instance.pixels()[i] >= 2 &&
                           frame.labels.shadow.pixels()[i] == frame.labels.instance.pixels()[i];
             CHECK(d.wrong <= grazed);
-            CHECK(all_sound(frame.image));
+            CHECK(all_in_range(frame.image));
         }
 }
 
@@ -254,7 +254,7 @@ TEST_CASE("Near lights have correct shadows: above the seabed, on it, inside of 
             const auto d = truth.compare(frame.labels, in::overhead_geometry(rig).light_position(), true);
             CAPTURE(scenes::seabed_names[kind], l.azimuth, l.elevation, l.distance, d.wrong, d.pixels);
             CHECK(d.wrong == 0);
-            CHECK(all_sound(frame.image));
+            CHECK(all_in_range(frame.image));
         }
     }
     in::overhead rig = scenes::rig(0, 6, 16);
@@ -362,7 +362,7 @@ TEST_CASE("Seabed that cannot cast a shadow into the picture changes no pixel") 
         in::scene s = wide_rubble();
         exact_options options{.cell = in::overhead_geometry(rig).half_extent(0).x / 64};
         const auto as_it_is = in::render(s, rig, options);
-        // One stone far away, which the light comes to last, could be high enough to matter: more has to be there.
+        // One high stone at the far end widens the range of heights, so that more seabed has to be sampled.
         in::seabed::heightfield field = *s.seabed.get_if<in::seabed::heightfield>();
         field.heights(azimuth == 200 ? 2 : 638, 320) = 3;
         s.seabed = field;
@@ -375,7 +375,7 @@ TEST_CASE("Seabed that cannot cast a shadow into the picture changes no pixel") 
                          more.image.pixels()[i] != as_it_is.image.pixels()[i];
         CAPTURE(azimuth);
         CHECK(different == 0);
-        // What can, does: without it some pixels are lit.
+        // Seabed that can cast a shadow does: without it some pixels are lit.
         options.reach = 0;
         const auto less = in::render(s, rig, options);
         long lit = 0;

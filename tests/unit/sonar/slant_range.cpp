@@ -28,7 +28,7 @@ in::scene level_bottom() {
     return s;
 }
 
-/// A single ping through the middle of things at y = 0.
+/// A single ping through the middle of the targets at y = 0.
 in::side_scan one_ping(double altitude, double range, int bins) {
     return {.altitude = static_cast<float>(altitude),
             .ping_spacing = 0.02f,
@@ -101,7 +101,7 @@ std::vector<std::pair<outline, double>> targets_of(const row& t) {
 
 }  // namespace
 
-TEST_CASE("Closed forms of side-scan geometry: the table") {
+TEST_CASE("Closed forms of side-scan geometry give the values of the table") {
     for (const row& t : table) {
         CHECK(degrees(rg::grazing_angle(t.ground, t.altitude)) == Approx(t.grazing).margin(0.006));
         CHECK(rg::shadow_length(t.ground, t.altitude, t.height) == Approx(t.shadow).margin(6e-5));
@@ -147,7 +147,7 @@ TEST_CASE("Echoes and shadows of the four targets arrive where the table's close
             CHECK(target.first == Approx(bin_of(expected.first_echo)).margin(1.01));
             CHECK(shadow.last + 1 == Approx(bin_of(expected.shadow_end)).margin(1.01));
             CHECK(shadow.last - shadow.first + 1 == shadow.count);  // in one piece
-            // The height, measured from the picture as people do (of the cube, whose top edge is a bin's work to find).
+            // The height, measured from the picture as operators do.
             if (expected.name == "cone") {
                 const double tip = (shadow.last + 1) * rig.bin();
                 CHECK(rg::height_from_slant(rg::slant_range(t.ground, t.altitude, t.height), tip, t.altitude) ==
@@ -359,7 +359,7 @@ TEST_CASE("Bins of a centimetre are resolved over ten kilometres", "[.slow]") {
     CHECK(target.first == Approx((rg::slant_range(9990, 100, 1) - 9980) / rig.bin()).margin(1.5));
 }
 
-TEST_CASE("The same bytes for any number of threads, and a ping at a time") {
+TEST_CASE("render() gives the same bytes for any number of threads, and one ping at a time") {
     in::scene s;
     s.seabed = in::seabed::blend{.first = in::seabed::ripples{}, .second = in::seabed::rock{}};
     s.add(in::sphere{.radius = 0.4f}, {.position = {6, 1, 0.4}}, "sphere");
@@ -403,7 +403,8 @@ TEST_CASE("A window of ranges equals that part of the whole picture") {
     CHECK(different <= 40);  // of 3840: at the ends
 }
 
-/// The rows of a window, with the bottom sampled from nadir on if `all`: something lies there, beside the first row.
+/// A recording of a window of ranges; with `all`, a pebble beside the first row near nadir forces the bottom to be
+/// sampled from nadir on.
 template <in::across_track Axis>
 in::frame<in::labels> window_of(const in::seabed::any& bottom, const in::side_scan_rig<Axis>& rig, bool all) {
     in::scene s;
@@ -432,7 +433,7 @@ TEST_CASE("A window samples only seabed that can return into it or occlude it, w
                 REQUIRE(part.labels.seabed(x, y) == whole.labels.seabed(x, y));
             }
     };
-    // Wherever tiles of the bottom begin.
+    // For any alignment of the bottom's tiles.
     for (int turn = 0; turn < 60; ++turn) {
         const float angle = 0.1f * static_cast<float>(turn);
         INFO("yaw " << angle);
@@ -491,7 +492,7 @@ TEST_CASE("Coarse and fine pictures have the same total energy") {
     CHECK(power(few, 0, 40) == Approx(power(many, 0, 2000)).epsilon(0.03));
 }
 
-TEST_CASE("Both sides in one picture, with the water column between them") {
+TEST_CASE("render_swath() shows both sides with the water column between them") {
     in::scene s = level_bottom();
     s.add(in::cube{.size = glm::vec3(0.5f)}, {.position = {-6, 0.5, 0.25}}, "port cube");
     s.add(in::cube{.size = glm::vec3(0.5f)}, {.position = {8, 0.5, 0.25}}, "starboard cube");

@@ -38,7 +38,7 @@ double range_of(int bin, const in::side_scan& r = rig) {
 double cosine_of(double range) {
     return std::sqrt(range * range - 25) / range;
 }
-/// Mean, and the largest deviation from it as a share of it.
+/// Mean, and the largest deviation relative to it.
 template <class Fn>
 std::pair<double, double> level(int first, int last, Fn&& value) {
     double sum = 0, lowest = 1e30, highest = -1e30;
@@ -164,7 +164,7 @@ TEST_CASE("A horizontal beam blurs over its width at each range and preserves en
 }
 
 TEST_CASE("Speckle of neighbouring pings correlates like a coherent sum over the beam") {
-    // Points on a line along the track, of independent phases, as two pings hear them that are `apart`.
+    // Scatterers of independent phases on a line along the track, received by two pings `apart` metres apart.
     for (const double degrees : {0.2, 0.5, 2.0})
         for (const double range : {3.0, 20.0, 90.0})
             for (const double wavelength : {0.0017, 0.0033, 0.015}) {

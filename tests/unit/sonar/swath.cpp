@@ -9,7 +9,7 @@
 namespace in = insonify;
 using namespace in::literals;
 
-TEST_CASE("Pictures are mirrored, turned and put beside each other") {
+TEST_CASE("mirrored(), turned() and beside() arrange pictures") {
     const in::image<int> a{{1, 2, 3}, {4, 5, 6}};
     CHECK(in::mirrored(a) == in::image<int>{{3, 2, 1}, {6, 5, 4}});
     CHECK(in::turned(a) == in::image<int>{{6, 5, 4}, {3, 2, 1}});
@@ -54,7 +54,7 @@ TEST_CASE("The paper's stitched picture: two of its cameras back to back, shadow
 TEST_CASE("Slant-range correction restores positions on the seabed, with one altitude or one per row") {
     in::scene s;
     s.seabed = in::seabed::flat{.surface = {.rms = 0}};
-    s.add(in::cube{.size = {0.2f, 5, 0.01f}}, {.position = {9, 0, 0.005}}, "plate");  // too flat to lie over
+    s.add(in::cube{.size = {0.2f, 5, 0.01f}}, {.position = {9, 0, 0.005}}, "plate");  // too flat for layover
     const in::side_scan rig{.altitude = 6, .pings = 3, .range = 20, .bins = 2000};
     const in::ground_range map{.altitude = 6, .pings = 3, .range = 15, .bins = 1500};
     const auto heard = in::render(s, rig, {.cell = 0.01});
@@ -69,13 +69,13 @@ TEST_CASE("Slant-range correction restores positions on the seabed, with one alt
     const std::vector<double> heights{6, 6, 6}, two{6, 6};
     CHECK(in::to_ground_range(heard, rig, map, heights).image == on_ground.image);
     CHECK_THROWS_AS(in::to_ground_range(heard, rig, map, two), in::invalid_input);
-    // Beyond what was recorded there is nothing.
+    // Beyond the recorded ranges the picture is empty.
     const auto wide = in::to_ground_range(heard, rig, {.altitude = 6, .pings = 3, .range = 40, .bins = 400});
     CHECK(wide.image(399, 0) == 0);
     CHECK(wide.labels.seabed(399, 0) == in::labels::no_seabed);
 }
 
-TEST_CASE("The same scene in three geometries: the same labels, shadows to the right") {
+TEST_CASE("The same scene has the same labels in three geometries, with shadows to the right") {
     in::scene s;
     s.seabed = in::seabed::flat{.surface = {.rms = 0}};
     s.add(in::cube{.size = glm::vec3(0.4f)}, {.position = {6, 2, 0.2}}, "cube");

@@ -1,4 +1,4 @@
-// Pictures in unit tests: comparisons, golden files, and what a failure leaves behind.
+// Pictures in unit tests: comparisons, golden files, and the files that a failure writes.
 #include <insonify/testing.hpp>
 #include <insonify/testing/catch2.hpp>
 
@@ -41,7 +41,7 @@ TEST_CASE("Equal pictures agree, of any pixel type") {
     CHECK(in::compare_pictures(colours, colours));
 }
 
-TEST_CASE("A difference is reported with its place, its values and how many pixels are wrong") {
+TEST_CASE("A difference is reported with its place, its values and the number of wrong pixels") {
     in::image<float> found = slope(5, 3);
     found(3, 1) += 0.25f;
     found(0, 0) += 0.125f;
@@ -55,7 +55,7 @@ TEST_CASE("A difference is reported with its place, its values and how many pixe
           "2 of 15 pixels differ by more than 0.1 (0 of them may); the most at x = 3, y = 1: 0.75, expected 0.5");
 }
 
-TEST_CASE("A tolerance holds at its very value, for pixels and for their share") {
+TEST_CASE("A tolerance includes its own value, for pixels and for the fraction of them") {
     in::image<float> found = slope(4, 5);
     found(1, 1) += 0.5f;
     CHECK(in::compare_pictures(found, slope(4, 5), {.value = 0.5}));
@@ -83,7 +83,7 @@ TEST_CASE("NaN equals NaN alone, and infinities equal themselves") {
     CHECK_FALSE(in::compare_pictures(endless, zero, {.value = 1e30}));
 }
 
-TEST_CASE("Sizes must agree, and tolerances make sense") {
+TEST_CASE("Sizes must agree, and tolerances be in range") {
     const auto result = in::compare_pictures(slope(5, 3), slope(3, 5), {.share = 1});
     CHECK_FALSE(result);
     CHECK(result.message == "the picture has 5 x 3 pixels, expected 3 x 5 pixels");
@@ -131,7 +131,7 @@ TEST_CASE("Golden pictures are written on demand, then compared; a failure leave
     remove_all("golden_slope");
 }
 
-TEST_CASE("Matchers say what they expected and why it is not so") {
+TEST_CASE("Matchers describe the expectation and the mismatch") {
     const auto expected = slope(4, 4);
     CHECK_THAT(expected, in::matches(in::is_picture(expected)));
     in::image<float> other = expected;
