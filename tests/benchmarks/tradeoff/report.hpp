@@ -84,8 +84,9 @@ inline std::string trade_chart(const contents& c) {
     for (const way& w : c.ways) least = std::min(least, w.ms), most = std::max(most, w.ms);
     const double low_ms = std::log10(least) - 0.05, high_ms = std::log10(most) + 0.05;
     constexpr double low_edge = -1.5, high_edge = 1.2;  // powers of ten of pixels
-    std::string body = svg::text(left, 24, "Time against the error of shadow edges: down is faster, left is closer",
-                                 " font-size='16' font-weight='bold'");
+    std::string body = svg::text(
+        left, 24, "Processor time of a frame against the error of shadow edges: down is faster, left is closer",
+        " font-size='16' font-weight='bold'");
     double x0 = left;
     for (const std::string& seabed : c.seabeds) {
         const auto x = [&](double edge) {
@@ -138,6 +139,12 @@ inline std::string trade_chart(const contents& c) {
     return svg::page(static_cast<int>(left + 3 * width + 2 * gap + 30), static_cast<int>(top + height + 64), body);
 }
 
+/// Distance between marks of an axis up to `end`: 1, 2 or 5 times a power of ten, at most half of it.
+inline double axis_step(double end) {
+    const double ten = std::pow(10.0, std::floor(std::log10(end / 2))), lead = end / 2 / ten;
+    return ten * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
+}
+
 /// Cost of the fastest way within each tolerance, as bars.
 inline std::string savings_chart(const contents& c) {
     constexpr double left = 130, longest = 210, line = 26, gap = 90;
@@ -171,10 +178,18 @@ inline std::string savings_chart(const contents& c) {
             }
             y += line;
         }
-        bottom = y;
+        bottom = y + 4;
+        body += svg::line(x0, bottom, x0 + longest, bottom, "#7a7a7a");
+        for (double ms = 0; ms <= slowest; ms += axis_step(slowest)) {
+            const double x = x0 + longest * ms / slowest;
+            body += svg::line(x, bottom, x, bottom + 5, "#7a7a7a") +
+                    svg::text(x, bottom + 19, svg::number(ms, ms > 0 && ms < 1 ? 1 : 0), " text-anchor='middle'");
+        }
+        body += svg::text(x0 + longest / 2, bottom + 37, "processor time of a frame, ms", " text-anchor='middle'");
         x0 += longest + gap + 40;
     }
-    return svg::page(static_cast<int>(x0), static_cast<int>(bottom + 16), body);
+    body += svg::text(left - 10, 58, "edges off by", " text-anchor='end'");
+    return svg::page(static_cast<int>(x0), static_cast<int>(bottom + 46), body);
 }
 
 inline std::string per_pixel(double value) {
