@@ -36,7 +36,7 @@ TEST_CASE("The serial executor calls in order, on the calling thread") {
     CHECK(order == std::vector<std::size_t>{0, 1, 2, 3, 4});
 }
 
-TEST_CASE("A pool makes every call exactly once, with fewer or more threads than calls") {
+TEST_CASE("A pool makes every call exactly once, with fewer or more threads than calls", "[threads]") {
     const int threads = GENERATE(1, 2, 3, 8);
     const std::size_t count = GENERATE(0u, 1u, 2u, 3u, 7u, 1000u);
     in::thread_pool pool(threads);
@@ -44,13 +44,13 @@ TEST_CASE("A pool makes every call exactly once, with fewer or more threads than
     CHECK(calls(pool, count) == std::vector<int>(count, 1));
 }
 
-TEST_CASE("A pool has one thread per hardware thread by default and refuses sizes out of range") {
+TEST_CASE("A pool has one thread per hardware thread by default and refuses sizes out of range", "[threads]") {
     CHECK(in::thread_pool().threads() >= 1);
     CHECK_THROWS_WITH(in::thread_pool(-1), ContainsSubstring("threads is -1"));
     CHECK_THROWS_AS(in::thread_pool(4097), in::invalid_input);
 }
 
-TEST_CASE("Every call of many short bulks has returned before its bulk does") {
+TEST_CASE("Every call of many short bulks has returned before its bulk does", "[threads]") {
     in::thread_pool pool(3);
     int wrong = 0;
     for (std::size_t round = 0; round < 3000; ++round) {
@@ -62,7 +62,7 @@ TEST_CASE("Every call of many short bulks has returned before its bulk does") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("A pool uses more than one thread") {
+TEST_CASE("A pool uses more than one thread", "[threads]") {
     in::thread_pool pool(2);
     // Two calls that wait for each other end only if they run at the same time.
     std::atomic<int> arrived{0};
@@ -73,7 +73,8 @@ TEST_CASE("A pool uses more than one thread") {
     CHECK(arrived == 2);
 }
 
-TEST_CASE("An exception reaches the caller after all other calls have returned, and the pool stays usable") {
+TEST_CASE("An exception reaches the caller after all other calls have returned, and the pool stays usable",
+          "[threads]") {
     in::thread_pool pool(GENERATE(1, 4));
     const bool parallel = pool.threads() > 1;
     std::atomic<int> made{0};
@@ -87,7 +88,7 @@ TEST_CASE("An exception reaches the caller after all other calls have returned, 
     CHECK(calls(pool, 50) == std::vector<int>(50, 1));
 }
 
-TEST_CASE("Nested bulks complete, within one pool and across two") {
+TEST_CASE("Nested bulks complete, within one pool and across two", "[threads]") {
     in::thread_pool outer(3), other(2);
     std::atomic<int> made{0};
     outer.bulk(8, [&](std::size_t) {
@@ -97,7 +98,7 @@ TEST_CASE("Nested bulks complete, within one pool and across two") {
     CHECK(made == 8 * 8 + 8 * 8 * 2);
 }
 
-TEST_CASE("Several threads may share a pool") {
+TEST_CASE("Several threads may share a pool", "[threads]") {
     in::thread_pool pool(2);
     std::atomic<int> made{0};
     std::vector<std::thread> callers;
@@ -109,7 +110,7 @@ TEST_CASE("Several threads may share a pool") {
     CHECK(made == 4 * 100 * 7);
 }
 
-TEST_CASE("bulk_ranges() splits at multiples of the grain for any executor") {
+TEST_CASE("bulk_ranges() splits at multiples of the grain for any executor", "[threads]") {
     in::thread_pool pool(2);
     std::vector<std::size_t> ends(4, 0);
     in::bulk_ranges(pool, 10, 3, [&](std::size_t first, std::size_t last) { ends[first / 3] = last; });

@@ -113,7 +113,7 @@ TEST_CASE("A filtered part of a larger image is packed, and the source is unchan
     CHECK(source == before);
 }
 
-TEST_CASE("Results don't depend on the executor") {
+TEST_CASE("Results don't depend on the executor", "[threads]") {
     in::thread_pool pool(3);
     const in::image<float> source = ramp(1031, 517);
     const auto look = in::match_histogram(ramp(50, 50)) | in::speckle{.seed = 3} | in::gaussian{.seed = 3} |

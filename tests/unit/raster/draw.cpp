@@ -62,7 +62,7 @@ concept accepts_a_fragment = requires(const in::mesh& m, const Target& t) {
 
 }  // namespace
 
-TEST_CASE("draw() gives the same bytes for any executor, thread count, tile size and instruction set") {
+TEST_CASE("draw() gives the same bytes for any executor, thread count, tile size and instruction set", "[threads]") {
     const in::mesh m = bumps(60);
     const picture expected = draw_bumps(m, {.tile = 64, .level = in::isa::scalar}, in::serial_executor{});
     for (const int threads : {1, 2, 3, 8}) {

@@ -89,7 +89,7 @@ static_assert(sb::model<sb::blend> && sb::model<sb::heightfield> && sb::model<sb
 
 }  // namespace
 
-TEST_CASE("Heights and types depend on the position alone, for any patch, cut, order and thread") {
+TEST_CASE("Heights and types depend on the position alone, for any patch, cut, order and thread", "[threads]") {
     const double far_away = GENERATE(0.0, -10000000.0);
     for (const sb::any& kind : kinds()) {
         const double spacing = 1.0 / 32;

@@ -406,7 +406,7 @@ TEST_CASE("A seabed with a vertical step and a level one agree with rays") {
     }
 }
 
-TEST_CASE("Exact results are the same for any executor and any batches of points") {
+TEST_CASE("Exact results are the same for any executor and any batches of points", "[threads]") {
     in::thread_pool pool(3);
     in::serial_executor serial;
     const in::mesh bottom = rough();

@@ -281,7 +281,7 @@ TEST_CASE("Camera, light and scene turned together give the same picture") {
     CHECK(different < 300);  // pixels on edges, of 40000
 }
 
-TEST_CASE("render() gives the same bytes for any number of threads, tile size and instruction set") {
+TEST_CASE("render() gives the same bytes for any number of threads, tile size and instruction set", "[threads]") {
     in::scene s;
     s.seabed = in::seabed::rock{.relief = 0.2f};
     s.add(in::cylinder{.segments = 24}, {.position = {0, 0, 0.6}, .yaw = 40_deg}, "cylinder");
