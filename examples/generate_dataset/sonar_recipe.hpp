@@ -145,20 +145,21 @@ inline void sample_bottom(sampler& s, sonar_plan& p, double pixel, const view_of
     p.steepness = s.logarithmic("steepness", 0.02, 0.12);
     p.direction = s.uniform("ripple_direction_rad", 0, 2 * in::numeric::pi);
     p.disorder = s.uniform("disorder", 0.06, 0.3);
-    p.roughness = s.logarithmic("roughness", 2e-4, 0.035);
+    p.roughness = s.logarithmic("roughness", 4e-4, 0.1);
     p.cover = s.uniform("cover", 0.15, 0.75);
-    p.swell = s.uniform_or_0("swell", 0.65, 0.01, 0.06);
-    p.trawls = s.uniform_or_0("trawls", 0.75, 0.3, 2);
+    p.swell = s.uniform_or_0("swell", 0.45, 0.01, 0.08);
+    p.trawls = s.uniform_or_0("trawls", 0.65, 0.3, 2);
 
-    p.tone.drift = static_cast<float>(s.logarithmic("tone_drift_db", 0.05, p.targets.empty() ? 1.2 : 2.5));
+    p.tone.drift = static_cast<float>(
+        s.logarithmic("tone_drift_db", p.targets.empty() ? 0.1 : 0.05, p.targets.empty() ? 1.4 : 2.5));
     p.tone.drift_length =
         static_cast<float>(s.derived("tone_drift_length_m", pixel * s.logarithmic("drift_px", 15, 120)));
-    p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.8, 0.2, 1.1));
+    p.tone.streaks = static_cast<float>(s.uniform_or_0("tone_streaks_db", 0.7, 0.2, 1.1));
     p.tone.streak_width = static_cast<float>(s.derived("streak_width_m", pixel * s.uniform("streak_px", 1.2, 5)));
     p.tone.streak_length = static_cast<float>(
         s.derived("streak_length_m", static_cast<double>(p.tone.streak_width) * s.uniform("streak_ratio", 8, 60)));
     p.tone.direction = static_cast<float>(s.uniform("streak_direction_rad", 0, in::numeric::pi));
-    p.tone.patches = static_cast<float>(s.uniform_or_0("tone_patches_db", 0.86, -4, 4));
+    p.tone.patches = static_cast<float>(s.uniform_or_0("tone_patches_db", 0.78, -4, 4));
     p.tone.patch_size = static_cast<float>(s.derived("patch_size_m", pixel * s.logarithmic("patch_px", 15, 70)));
     p.tone.patch_share = static_cast<float>(s.uniform("patch_share", 0.1, 0.6));
     p.tone.seed = s.word("tone_seed");
@@ -191,7 +192,7 @@ inline void sample_look(sampler& s, sonar_plan& p, double pixel, double slant) {
     p.gain.seed = s.word("gain_seed");
     p.banding.drift = static_cast<float>(s.uniform_or_0("banding_drift_db", 0.5, 0.1, 0.9));
     p.banding.length = static_cast<float>(s.uniform("banding_px", 3, 30));
-    p.banding.jitter = static_cast<float>(s.uniform_or_0("banding_jitter_db", 0.5, 0.05, 0.7));
+    p.banding.jitter = static_cast<float>(s.uniform_or_0("banding_jitter_db", 0.6, 0.05, 0.5));
     p.banding.seed = s.word("banding_seed");
 
     p.water.noise = static_cast<float>(s.logarithmic("noise_floor", 3e-4, 0.04));
