@@ -121,7 +121,7 @@ visibility see(const scene& s, const overhead& rig, built_in<shadow::none, label
 
 #define INSONIFY_RECORDING(Labels, Law)                                                               \
     frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window, \
-                               const recorded_by<Labels, Law>& options, executor_ref ex) {            \
+                               const erased_options<Labels, Law>& options, executor_ref ex) {         \
         return detail::record_pings<>(s, track, window, options, ex);                                 \
     }
 INSONIFY_RECORDINGS(INSONIFY_RECORDING)

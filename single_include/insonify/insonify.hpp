@@ -22998,9 +22998,9 @@ struct range_bins {
     }
 };
 
-/// What a recording takes of its options; the parts of the equation are no longer in the type.
+/// Options of a recording without the parts of the equation in their type.
 template <class Labels, class Law>
-struct recorded_by {
+struct erased_options {
     const Law& law;
     const equation_interface& equation;
     double cell;
@@ -23022,7 +23022,7 @@ inline int beam_reach(const equation_interface& equation, const range_bins& wind
 
 template <class Labels, class Law>
 frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window,
-                           const recorded_by<Labels, Law>& options, executor_ref ex);
+                           const erased_options<Labels, Law>& options, executor_ref ex);
 
 }  // namespace detail::inline INSONIFY_FLAGS
 
@@ -23034,7 +23034,7 @@ namespace detail::inline INSONIFY_ONCE {
         each(no_labels, facet_backscatter)
 #define INSONIFY_RECORDING(Labels, Law)                                                               \
     frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window, \
-                               const recorded_by<Labels, Law>& options, executor_ref ex);
+                               const erased_options<Labels, Law>& options, executor_ref ex);
 INSONIFY_RECORDINGS(INSONIFY_RECORDING)
 #undef INSONIFY_RECORDING
 
@@ -23057,8 +23057,8 @@ frame<Labels> record(const scene& s, std::span<const ping> track, const side_sca
                      const record_options<Labels, Law, Equation>& options = {}, E&& ex = {}) {
     validate(rig);
     const detail::equation_of<Equation, Law> equation(options.equation, options.law);
-    const detail::recorded_by<Labels, Law> recorded{options.law, equation, options.cell, 0};
-    return detail::record_pings(s, track, detail::range_bins(rig), recorded, executor_ref(ex));
+    const detail::erased_options<Labels, Law> erased{options.law, equation, options.cell, 0};
+    return detail::record_pings(s, track, detail::range_bins(rig), erased, executor_ref(ex));
 }
 
 /// Records pings into the caller's memory, without labels: row i of `into` becomes ping i.
@@ -23092,8 +23092,8 @@ frame<Labels> render(const scene& s, const side_scan_rig<Axis>& rig,
     const int more = detail::beam_reach(equation, window);
     std::vector<ping> track;
     for (int i = -more; i < rig.pings + more; ++i) track.push_back(ping_of(rig, i));
-    const detail::recorded_by<Labels, Law> recorded{options.law, equation, options.cell, more};
-    return detail::record_pings(s, track, window, recorded, executor_ref(ex));
+    const detail::erased_options<Labels, Law> erased{options.law, equation, options.cell, more};
+    return detail::record_pings(s, track, window, erased, executor_ref(ex));
 }
 
 }  // namespace INSONIFY_FLAGS
@@ -24359,7 +24359,7 @@ class recorder {
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
 
     recorder(const scene& s, std::span<const ping> track, const range_bins& window,
-             const recorded_by<Labels, Law>& options, executor_ref ex)
+             const erased_options<Labels, Law>& options, executor_ref ex)
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
         for (const ping& p : track) validate(p);
@@ -24524,7 +24524,7 @@ class recorder {
     const scene& scene_;
     std::span<const ping> track_;
     range_bins window_;
-    const recorded_by<Labels, Law>& options_;
+    const erased_options<Labels, Law>& options_;
     const equation_interface& equation_;
     bottom_materials materials_;
     std::vector<sliced_target> targets_;
@@ -24549,7 +24549,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 template <class Labels, class Law>
 frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window,
-                           const recorded_by<Labels, Law>& options, executor_ref ex) {
+                           const erased_options<Labels, Law>& options, executor_ref ex) {
     return recorder<Labels, Law>(s, track, window, options, ex).record(ex);
 }
 
@@ -25981,7 +25981,7 @@ visibility see(const scene& s, const overhead& rig, built_in<shadow::none, label
 
 #define INSONIFY_RECORDING(Labels, Law)                                                               \
     frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window, \
-                               const recorded_by<Labels, Law>& options, executor_ref ex) {            \
+                               const erased_options<Labels, Law>& options, executor_ref ex) {         \
         return detail::record_pings<>(s, track, window, options, ex);                                 \
     }
 INSONIFY_RECORDINGS(INSONIFY_RECORDING)

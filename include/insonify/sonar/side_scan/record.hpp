@@ -13,7 +13,7 @@ namespace detail::inline INSONIFY_FLAGS {
 
 template <class Labels, class Law>
 frame<Labels> record_pings(const scene& s, std::span<const ping> track, const range_bins& window,
-                           const recorded_by<Labels, Law>& options, executor_ref ex) {
+                           const erased_options<Labels, Law>& options, executor_ref ex) {
     return recorder<Labels, Law>(s, track, window, options, ex).record(ex);
 }
 

@@ -28,7 +28,7 @@ class recorder {
     static constexpr bool labelled = std::is_same_v<Labels, labels>;
 
     recorder(const scene& s, std::span<const ping> track, const range_bins& window,
-             const recorded_by<Labels, Law>& options, executor_ref ex)
+             const erased_options<Labels, Law>& options, executor_ref ex)
         : scene_(s), track_(track), window_(window), options_(options), equation_(options.equation) {
         materials_ = checked_materials(s, options);
         for (const ping& p : track) validate(p);
@@ -193,7 +193,7 @@ class recorder {
     const scene& scene_;
     std::span<const ping> track_;
     range_bins window_;
-    const recorded_by<Labels, Law>& options_;
+    const erased_options<Labels, Law>& options_;
     const equation_interface& equation_;
     bottom_materials materials_;
     std::vector<sliced_target> targets_;
