@@ -11124,25 +11124,22 @@ class tile_bins {
     /// @param chunks  the runs of all chunks, in submission order
     template <executor E>
     tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
-        // Counts, then their prefix sums: by tile first, by chunk within a tile.
+        // How many runs each chunk has in each tile; then, where it puts the next one.
         const std::size_t tiles = grid.count();
         std::vector<std::uint32_t> positions(chunks.size() * tiles, 0);
         const auto of_chunk = [&](std::size_t chunk) { return std::span(positions).subspan(chunk * tiles, tiles); };
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
         });
-        std::uint32_t sum = 0;
-        for (std::size_t tile = 0; tile < tiles; ++tile) {
-            first_[tile] = sum;
-            for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
-                const std::uint32_t count = of_chunk(chunk)[tile];
-                of_chunk(chunk)[tile] = sum;
-                sum += count;
-            }
-        }
-        first_[tiles] = sum;
+        for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
+            for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] += of_chunk(chunk)[tile];
+        for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] += first_[tile];
+        std::vector<std::uint32_t> next = first_;
+        for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
+            for (std::size_t tile = 0; tile < tiles; ++tile)
+                next[tile] += std::exchange(of_chunk(chunk)[tile], next[tile]);
 
-        runs_ = uninitialized_vector<triangle_run>(sum, memory_of(ex));
+        runs_ = uninitialized_vector<triangle_run>(first_.back(), memory_of(ex));
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(
                 grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });
@@ -14375,7 +14372,8 @@ struct lit_grid {
     double drop = 0;            ///< columns that the light passes while it sinks by 1 m
     std::ptrdiff_t first = 0, along = 1, across = 1;  ///< number of vertex (0, 0) in the mesh, and steps to the next
     std::ptrdiff_t pitch = 1;                         ///< vertices from one row of the mesh to the next
-    glm::dvec2 x_of, y_of;                            ///< X = dot(x_of, p - origin), Y alike, in the mesh's frame
+    std::ptrdiff_t first_cell = 0, cell_along = 1, cell_across = 1;  ///< the same of cells, numbered like vertices
+    glm::dvec2 x_of, y_of;  ///< X = dot(x_of, p - origin), Y alike, in the mesh's frame
     glm::dvec2 origin{0};
 
     lit_grid() = default;
@@ -14412,6 +14410,11 @@ struct lit_grid {
         drop = travel_x / -travel.z;
         x_of = glm::dvec2(y.y, -y.x) / cross(x, y);
         y_of = glm::dvec2(-x.y, x.x) / cross(x, y);
+        // A row has one cell less than vertices.
+        const auto cell_steps = [&](std::ptrdiff_t vertices) { return vertices - vertices / pitch; };
+        first_cell = cell_steps(corner(0, 0));
+        cell_along = cell_steps(along);
+        cell_across = cell_steps(across);
     }
     /// (X, Y) of a place in the mesh's frame.
     INSONIFY_INLINE glm::dvec2 steps(const glm::dvec2& p) const {
@@ -14424,8 +14427,7 @@ struct lit_grid {
     }
     /// The first triangle of a cell; the other follows.
     INSONIFY_INLINE std::size_t first_triangle(int x, int y) const {
-        const std::ptrdiff_t vertex = corner(x, y);
-        return static_cast<std::size_t>(2 * (vertex - vertex / pitch));
+        return static_cast<std::size_t>(2 * (first_cell + x * cell_along + y * cell_across));
     }
 };
 
@@ -14850,10 +14852,7 @@ class horizon_triangles {
     void write(const answers& found, int left, int bottom, int right, int top, known* into) const {
         for (int y = bottom; y < top; ++y) {
             const auto& row = found.of[y - bottom];
-            if (grid_.along == 1)
-                std::memcpy(into + grid_.first_triangle(left, y), row, static_cast<std::size_t>(2 * (right - left)));
-            else
-                for (int x = left; x < right; ++x) std::memcpy(into + grid_.first_triangle(x, y), row[x - left], 2);
+            for (int x = left; x < right; ++x) std::memcpy(into + grid_.first_triangle(x, y), row[x - left], 2);
         }
     }
 
@@ -16362,14 +16361,6 @@ class pixel_marks {
         byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
     }
     void set(int x, int y) { set(x, y, 1, 1); }
-    /// Marked pixels of a rectangle as of `clear`.
-    std::size_t count(const rect& pixels) const {
-        std::size_t marked = 0;
-        for (int y = pixels.y0; y < pixels.y1; ++y)
-            for (int x = pixels.x0; x < pixels.x1; x += 8)
-                marked += static_cast<std::size_t>(std::popcount(bytes_(x / 8, y)));
-        return marked;
-    }
     /// Calls visit(x) for each marked pixel of a row, from x0 to x1, which are multiples of 8 or the row's end.
     template <class Visit>
     void for_each(int x0, int x1, int y, const Visit& visit) const {
@@ -17026,6 +17017,7 @@ class shadow_pass {
     template <class Occlusion, executor E>
     void cast(const Occlusion& occlusion, E& ex) {
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
+        std::vector<std::size_t> unknown(is_collective ? tiles_.count() : 0);  // points of each tile
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             scratch room(surfaces_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
@@ -17040,10 +17032,10 @@ class shadow_pass {
                         occlusion.test(p, s);
                 });
                 finish(points, shares);
-                if constexpr (is_collective) mark_unknown(box, points, shares);
+                if constexpr (is_collective) unknown[i] = mark_unknown(box, points, shares);
             }
         });
-        if constexpr (is_collective) test_together(occlusion, ex);
+        if constexpr (is_collective) test_together(occlusion, unknown, ex);
     }
 
   private:
@@ -17084,25 +17076,30 @@ class shadow_pass {
     }
 
     /// Leaves marks on the pixels of a tile that screening does not decide.
-    void mark_unknown(const rect& box, const point_list& points, const shadow::shares& light) {
+    /// @returns their number
+    std::size_t mark_unknown(const rect& box, const point_list& points, const shadow::shares& light) {
         const auto width = static_cast<std::size_t>(images_.picture.width());
         pixel_marks& marks = images_.undecided.marks;
         marks.clear(box);
+        std::size_t count = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (light.lit[i] != shadow::unknown) continue;
             const std::size_t pixel = points.pixel(i);
             marks.set(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
+            ++count;
         }
+        return count;
     }
 
     /// Tests the points of all pixels that are still marked. They are found anew: few are left, and keeping them would
     /// take room for all.
+    /// @param unknown  how many of each tile
     template <class Occlusion, executor E>
-    void test_together(const Occlusion& occlusion, E& ex) {
+    void test_together(const Occlusion& occlusion, const std::vector<std::size_t>& unknown, E& ex) {
         std::vector<std::size_t> starts{0};  // of the points of each run of tiles
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
             if (i % run_ == 0) starts.push_back(starts.back());
-            starts.back() += images_.undecided.marks.count(box_of(i));
+            starts.back() += unknown[i];
         }
         point_batch all(starts.back(), memory_of(ex));
         light_arrays light(starts.back(), memory_of(ex));

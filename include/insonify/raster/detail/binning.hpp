@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -162,25 +163,22 @@ class tile_bins {
     /// @param chunks  the runs of all chunks, in submission order
     template <executor E>
     tile_bins(std::span<const tile_runs> chunks, const tile_grid& grid, E& ex) : first_(grid.count() + 1, 0) {
-        // Counts, then their prefix sums: by tile first, by chunk within a tile.
+        // How many runs each chunk has in each tile; then, where it puts the next one.
         const std::size_t tiles = grid.count();
         std::vector<std::uint32_t> positions(chunks.size() * tiles, 0);
         const auto of_chunk = [&](std::size_t chunk) { return std::span(positions).subspan(chunk * tiles, tiles); };
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(grid, [&](std::size_t tile, const triangle_run&) { ++of_chunk(chunk)[tile]; });
         });
-        std::uint32_t sum = 0;
-        for (std::size_t tile = 0; tile < tiles; ++tile) {
-            first_[tile] = sum;
-            for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
-                const std::uint32_t count = of_chunk(chunk)[tile];
-                of_chunk(chunk)[tile] = sum;
-                sum += count;
-            }
-        }
-        first_[tiles] = sum;
+        for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
+            for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] += of_chunk(chunk)[tile];
+        for (std::size_t tile = 0; tile < tiles; ++tile) first_[tile + 1] += first_[tile];
+        std::vector<std::uint32_t> next = first_;
+        for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
+            for (std::size_t tile = 0; tile < tiles; ++tile)
+                next[tile] += std::exchange(of_chunk(chunk)[tile], next[tile]);
 
-        runs_ = uninitialized_vector<triangle_run>(sum, memory_of(ex));
+        runs_ = uninitialized_vector<triangle_run>(first_.back(), memory_of(ex));
         ex.bulk(chunks.size(), [&](std::size_t chunk) {
             chunks[chunk].for_each(
                 grid, [&](std::size_t tile, const triangle_run& run) { runs_[of_chunk(chunk)[tile]++] = run; });

@@ -37,7 +37,8 @@ struct lit_grid {
     double drop = 0;            ///< columns that the light passes while it sinks by 1 m
     std::ptrdiff_t first = 0, along = 1, across = 1;  ///< number of vertex (0, 0) in the mesh, and steps to the next
     std::ptrdiff_t pitch = 1;                         ///< vertices from one row of the mesh to the next
-    glm::dvec2 x_of, y_of;                            ///< X = dot(x_of, p - origin), Y alike, in the mesh's frame
+    std::ptrdiff_t first_cell = 0, cell_along = 1, cell_across = 1;  ///< the same of cells, numbered like vertices
+    glm::dvec2 x_of, y_of;  ///< X = dot(x_of, p - origin), Y alike, in the mesh's frame
     glm::dvec2 origin{0};
 
     lit_grid() = default;
@@ -74,6 +75,11 @@ struct lit_grid {
         drop = travel_x / -travel.z;
         x_of = glm::dvec2(y.y, -y.x) / cross(x, y);
         y_of = glm::dvec2(-x.y, x.x) / cross(x, y);
+        // A row has one cell less than vertices.
+        const auto cell_steps = [&](std::ptrdiff_t vertices) { return vertices - vertices / pitch; };
+        first_cell = cell_steps(corner(0, 0));
+        cell_along = cell_steps(along);
+        cell_across = cell_steps(across);
     }
     /// (X, Y) of a place in the mesh's frame.
     INSONIFY_INLINE glm::dvec2 steps(const glm::dvec2& p) const {
@@ -86,8 +92,7 @@ struct lit_grid {
     }
     /// The first triangle of a cell; the other follows.
     INSONIFY_INLINE std::size_t first_triangle(int x, int y) const {
-        const std::ptrdiff_t vertex = corner(x, y);
-        return static_cast<std::size_t>(2 * (vertex - vertex / pitch));
+        return static_cast<std::size_t>(2 * (first_cell + x * cell_along + y * cell_across));
     }
 };
 

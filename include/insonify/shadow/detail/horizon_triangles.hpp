@@ -122,10 +122,7 @@ class horizon_triangles {
     void write(const answers& found, int left, int bottom, int right, int top, known* into) const {
         for (int y = bottom; y < top; ++y) {
             const auto& row = found.of[y - bottom];
-            if (grid_.along == 1)
-                std::memcpy(into + grid_.first_triangle(left, y), row, static_cast<std::size_t>(2 * (right - left)));
-            else
-                for (int x = left; x < right; ++x) std::memcpy(into + grid_.first_triangle(x, y), row[x - left], 2);
+            for (int x = left; x < right; ++x) std::memcpy(into + grid_.first_triangle(x, y), row[x - left], 2);
         }
     }
 

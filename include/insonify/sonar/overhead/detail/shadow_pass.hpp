@@ -53,6 +53,7 @@ class shadow_pass {
     template <class Occlusion, executor E>
     void cast(const Occlusion& occlusion, E& ex) {
         constexpr bool is_collective = shadow::collective_occlusion<Occlusion>;
+        std::vector<std::size_t> unknown(is_collective ? tiles_.count() : 0);  // points of each tile
         bulk_ranges(ex, tiles_.count(), run_, [&](std::size_t first, std::size_t last) {
             scratch room(surfaces_.size(), tile_pixels_);
             for (std::size_t i = first; i < last; ++i) {
@@ -67,10 +68,10 @@ class shadow_pass {
                         occlusion.test(p, s);
                 });
                 finish(points, shares);
-                if constexpr (is_collective) mark_unknown(box, points, shares);
+                if constexpr (is_collective) unknown[i] = mark_unknown(box, points, shares);
             }
         });
-        if constexpr (is_collective) test_together(occlusion, ex);
+        if constexpr (is_collective) test_together(occlusion, unknown, ex);
     }
 
   private:
@@ -111,25 +112,30 @@ class shadow_pass {
     }
 
     /// Leaves marks on the pixels of a tile that screening does not decide.
-    void mark_unknown(const rect& box, const point_list& points, const shadow::shares& light) {
+    /// @returns their number
+    std::size_t mark_unknown(const rect& box, const point_list& points, const shadow::shares& light) {
         const auto width = static_cast<std::size_t>(images_.picture.width());
         pixel_marks& marks = images_.undecided.marks;
         marks.clear(box);
+        std::size_t count = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (light.lit[i] != shadow::unknown) continue;
             const std::size_t pixel = points.pixel(i);
             marks.set(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
+            ++count;
         }
+        return count;
     }
 
     /// Tests the points of all pixels that are still marked. They are found anew: few are left, and keeping them would
     /// take room for all.
+    /// @param unknown  how many of each tile
     template <class Occlusion, executor E>
-    void test_together(const Occlusion& occlusion, E& ex) {
+    void test_together(const Occlusion& occlusion, const std::vector<std::size_t>& unknown, E& ex) {
         std::vector<std::size_t> starts{0};  // of the points of each run of tiles
         for (std::size_t i = 0; i < tiles_.count(); ++i) {
             if (i % run_ == 0) starts.push_back(starts.back());
-            starts.back() += images_.undecided.marks.count(box_of(i));
+            starts.back() += unknown[i];
         }
         point_batch all(starts.back(), memory_of(ex));
         light_arrays light(starts.back(), memory_of(ex));

@@ -32,14 +32,6 @@ class pixel_marks {
         byte = static_cast<std::uint8_t>((byte & ~(which << x % 8)) | (marks & which) << x % 8);
     }
     void set(int x, int y) { set(x, y, 1, 1); }
-    /// Marked pixels of a rectangle as of `clear`.
-    std::size_t count(const rect& pixels) const {
-        std::size_t marked = 0;
-        for (int y = pixels.y0; y < pixels.y1; ++y)
-            for (int x = pixels.x0; x < pixels.x1; x += 8)
-                marked += static_cast<std::size_t>(std::popcount(bytes_(x / 8, y)));
-        return marked;
-    }
     /// Calls visit(x) for each marked pixel of a row, from x0 to x1, which are multiples of 8 or the row's end.
     template <class Visit>
     void for_each(int x0, int x1, int y, const Visit& visit) const {
