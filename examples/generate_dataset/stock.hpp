@@ -28,7 +28,6 @@ class stock {
             const std::size_t equals = mesh.find('=');
             const std::string name = mesh.substr(0, equals), path = mesh.substr(equals + 1);
             in::mesh shape = in::read_obj(reader.read("--mesh " + name, path), "--mesh " + name + " " + path);
-            if (shape.triangles.empty()) throw in::io_error("--mesh " + name + " " + path + ": holds no polygon");
             if (!has_area(shape)) throw in::io_error("--mesh " + name + " " + path + ": its polygons have no area");
             meshes_[name] = upright(std::move(shape), o.mesh_up == "y");
         }

@@ -280,7 +280,7 @@ class Generator(unittest.TestCase):
 
     def test_a_mesh_that_shows_nothing_is_no_class(self):
         mesh = self.folder / "m.obj"
-        for text, reason in (("# nothing\n", "holds no polygon"), ("v 1 1 1\nv 1 1 1\nv 2 2 2\nf 1 2 3\n", "have no area")):
+        for text, reason in (("# nothing\n", "has no face"), ("v 1 1 1\nv 1 1 1\nv 2 2 2\nf 1 2 3\n", "have no area")):
             mesh.write_text(text)
             self.assertIn(reason, refusal("--out", self.folder / "a", "--mesh", f"wreck={mesh}"))
         self.assertFalse((self.folder / "a").exists())

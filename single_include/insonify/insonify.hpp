@@ -18165,6 +18165,7 @@ class obj_reader {
             }
             finish_line();
         }
+        if (corners_.empty()) refuse_without_face();
         return assemble();
     }
 
@@ -18222,6 +18223,20 @@ class obj_reader {
 
     [[noreturn]] void fail(const std::string& reason) const {
         raise(io_error(std::string(name_) + ":" + to_text(line_) + ": " + reason));
+    }
+    /// Most often the text is a path, or a file of another format.
+    [[noreturn]] void refuse_without_face() const {
+        const std::string prefix = std::string(name_) + ": ";
+        if (is_file_name(text_)) raise(io_error(prefix + quoted(text_) + " is a file name: load_obj reads files"));
+        raise(io_error(prefix + "the text has no face, expected at least one line such as 'f 1 2 3'"));
+    }
+    /// One line that ends in .obj.
+    static bool is_file_name(std::string_view text) {
+        const std::size_t end = text.find_last_not_of(" \t\r\n");
+        text = text.substr(0, end == text.npos ? 0 : end + 1);
+        if (text.size() < 5 || text.find_first_of("\r\n#") != text.npos) return false;
+        const std::string_view ending = text.substr(text.size() - 4);
+        return ending == ".obj" || ending == ".OBJ";
     }
     static std::string quoted(std::string_view word) {
         std::string text(1, '\'');
@@ -18357,8 +18372,8 @@ inline namespace INSONIFY_FLAGS {
 ///
 /// @param name  what error messages call the text
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
-///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; more than
-///         2 GiB of text
+///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; a text
+///         without a face, such as the path of a file, which `load_obj` takes; more than 2 GiB of text
 inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text") {
     return detail::obj_reader(text, name).read();
 }
@@ -20974,7 +20989,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
         else if (is("nodata_value"))
             no_data = in.number("nodata_value");
         else
-            in.fail("'" + std::string(key.substr(0, 40)) + "' is not a keyword of a grid's header");
+            in.fail("'" + std::string(key.substr(0, 40)) +
+                    "' is not a keyword of an Esri grid's header, such as ncols");
     }
     const auto whole = [](double n) {
         return n >= 2 && n <= (1 << 24) && n == static_cast<double>(static_cast<int>(n));
@@ -21007,8 +21023,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
-/// @throws io_error for a text without soundings, with a line of fewer than three numbers, or whose soundings are so
-/// far apart that they make less than one in 1024 vertices, or that there are more than 2^26
+/// @throws io_error for a text without soundings, an Esri grid, a line of fewer than three numbers, or soundings so far
+/// apart that there are more than 1024 vertices for each, or more than 2^26
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
     detail::require(spacing > 0 && spacing < 1e6, "spacing", spacing, "metres above 0");
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
@@ -21022,7 +21038,11 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     for (std::string_view first; !(first = in.word()).empty(); in.skip_line()) {
         const bool is_number =
             (first[0] >= '0' && first[0] <= '9') || first[0] == '-' || first[0] == '+' || first[0] == '.';
-        if (!is_number) continue;
+        if (!is_number) {
+            // Its rows of heights would be taken for positions.
+            if (detail::same_word(first, "ncols")) in.fail("this is an Esri ASCII grid: parse_esri_grid reads it");
+            continue;
+        }
         const double x = in.number(first, "an x"), y = in.number(in.word_of_line(), "a y"),
                      z = in.number(in.word_of_line(), "a z");
         detail::require_position(in, x, y);

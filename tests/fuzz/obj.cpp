@@ -20,6 +20,7 @@ bool is_unit(const glm::vec3& v) {
 }
 
 void check(const in::mesh& m, std::size_t characters) {
+    demand(!m.triangles.empty(), "a text without a face is refused");
     // "f 1 1 1" takes two characters for a corner, and a corner makes at most one triangle.
     demand(m.triangles.size() <= characters / 2, "a mesh is not larger than its text");
     demand(m.positions.size() <= 3 * m.triangles.size(), "every position is used");

@@ -50,6 +50,7 @@ class obj_reader {
             }
             finish_line();
         }
+        if (corners_.empty()) refuse_without_face();
         return assemble();
     }
 
@@ -107,6 +108,20 @@ class obj_reader {
 
     [[noreturn]] void fail(const std::string& reason) const {
         raise(io_error(std::string(name_) + ":" + to_text(line_) + ": " + reason));
+    }
+    /// Most often the text is a path, or a file of another format.
+    [[noreturn]] void refuse_without_face() const {
+        const std::string prefix = std::string(name_) + ": ";
+        if (is_file_name(text_)) raise(io_error(prefix + quoted(text_) + " is a file name: load_obj reads files"));
+        raise(io_error(prefix + "the text has no face, expected at least one line such as 'f 1 2 3'"));
+    }
+    /// One line that ends in .obj.
+    static bool is_file_name(std::string_view text) {
+        const std::size_t end = text.find_last_not_of(" \t\r\n");
+        text = text.substr(0, end == text.npos ? 0 : end + 1);
+        if (text.size() < 5 || text.find_first_of("\r\n#") != text.npos) return false;
+        const std::string_view ending = text.substr(text.size() - 4);
+        return ending == ".obj" || ending == ".OBJ";
     }
     static std::string quoted(std::string_view word) {
         std::string text(1, '\'');
@@ -242,8 +257,8 @@ inline namespace INSONIFY_FLAGS {
 ///
 /// @param name  what error messages call the text
 /// @throws io_error with the name and line number for: a coordinate that is missing, no number, or out of range; an
-///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; more than
-///         2 GiB of text
+///         index that is 0, no integer, or refers to a line not yet given; a face with fewer than 3 corners; a text
+///         without a face, such as the path of a file, which `load_obj` takes; more than 2 GiB of text
 inline mesh read_obj(std::string_view text, std::string_view name = "OBJ text") {
     return detail::obj_reader(text, name).read();
 }

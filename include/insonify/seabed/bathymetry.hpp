@@ -142,7 +142,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
         else if (is("nodata_value"))
             no_data = in.number("nodata_value");
         else
-            in.fail("'" + std::string(key.substr(0, 40)) + "' is not a keyword of a grid's header");
+            in.fail("'" + std::string(key.substr(0, 40)) +
+                    "' is not a keyword of an Esri grid's header, such as ncols");
     }
     const auto whole = [](double n) {
         return n >= 2 && n <= (1 << 24) && n == static_cast<double>(static_cast<int>(n));
@@ -175,8 +176,8 @@ inline heightfield parse_esri_grid(std::string_view text, float scale = 1, std::
 /// @param spacing  metres between vertices, > 0; vertices are multiples of it
 /// @param scale    metres up per unit of z; -1 for depths in metres
 /// @param name     of the text, for errors
-/// @throws io_error for a text without soundings, with a line of fewer than three numbers, or whose soundings are so
-/// far apart that they make less than one in 1024 vertices, or that there are more than 2^26
+/// @throws io_error for a text without soundings, an Esri grid, a line of fewer than three numbers, or soundings so far
+/// apart that there are more than 1024 vertices for each, or more than 2^26
 inline heightfield parse_xyz(std::string_view text, double spacing, float scale = 1, std::string_view name = "xyz") {
     detail::require(spacing > 0 && spacing < 1e6, "spacing", spacing, "metres above 0");
     detail::require(numeric::is_finite(scale), "scale", scale, "a finite factor");
@@ -190,7 +191,11 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     for (std::string_view first; !(first = in.word()).empty(); in.skip_line()) {
         const bool is_number =
             (first[0] >= '0' && first[0] <= '9') || first[0] == '-' || first[0] == '+' || first[0] == '.';
-        if (!is_number) continue;
+        if (!is_number) {
+            // Its rows of heights would be taken for positions.
+            if (detail::same_word(first, "ncols")) in.fail("this is an Esri ASCII grid: parse_esri_grid reads it");
+            continue;
+        }
         const double x = in.number(first, "an x"), y = in.number(in.word_of_line(), "a y"),
                      z = in.number(in.word_of_line(), "a z");
         detail::require_position(in, x, y);

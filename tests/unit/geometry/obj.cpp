@@ -127,11 +127,18 @@ TEST_CASE("Lines of other kinds are skipped, and unused positions are dropped") 
     const in::mesh m = in::read_obj("o 1\nv 0 0 0\nv 9 9 9\nv 1 1 1\nv 2 2 2\nl 1\np 1\ncurv2 1 2\nf 1 3 4");
     CHECK(m.positions.size() == 3);
     CHECK(m.triangles.size() == 1);
-    CHECK(in::read_obj("").triangles.empty());
-    CHECK(in::read_obj("# nothing").triangles.empty());
-    CHECK(in::read_obj("v 1 2 3").positions.empty());
-    CHECK(in::read_obj("\\").triangles.empty());
-    CHECK(in::read_obj("\\\n\\\r\n\\\r").triangles.empty());
+}
+
+TEST_CASE("A text without a face is refused, and a file name among them points at load_obj") {
+    const std::string text = GENERATE("", "# nothing", "v 1 2 3", "\\", "\\\n\\\r\n\\\r", "l 1 2\n", "P5 1 1 255\n0");
+    CAPTURE(text);
+    CHECK(refusal(text) == "a.obj: the text has no face, expected at least one line such as 'f 1 2 3'");
+    const std::string path = GENERATE("spot.obj", "meshes/My Ship.OBJ", "C:\\meshes\\spot.obj ");
+    CAPTURE(path);
+    CHECK_THROWS_WITH(in::read_obj(path), ContainsSubstring("OBJ text: ") && ContainsSubstring("is a file name") &&
+                                              ContainsSubstring("load_obj"));
+    // Several lines are a text, whatever the last one ends in.
+    CHECK_THROWS_WITH(in::read_obj("# from\n# ship.obj"), ContainsSubstring("has no face"));
 }
 
 TEST_CASE("Each pair of position and normal is one vertex; missing and zero normals are computed") {
@@ -276,10 +283,11 @@ TEST_CASE("Hostile input is parsed in linear time") {
         CHECK(growth_of_time(triangles, 25000) < bound);
     }
     SECTION("a megabyte of backslashes, continuations, or one word") {
-        CHECK(growth_of_time([](int size) { return std::string(static_cast<std::size_t>(size), '\\'); }, 250000) <
-              bound);
-        const auto continued = [](int lines) {
-            std::string text;
+        const std::string face = square + "f 1 2 3\n";
+        const auto backslashes = [&](int size) { return face + std::string(static_cast<std::size_t>(size), '\\'); };
+        CHECK(growth_of_time(backslashes, 250000) < bound);
+        const auto continued = [&](int lines) {
+            std::string text = face;
             for (int i = 0; i < lines; ++i) text += "\\\n";
             return text;
         };
