@@ -2,6 +2,7 @@
 """Finds dead links: links.py <folder of HTML or Markdown>...
 
 Every relative link has to lead to a file, and its #fragment to an id of that file. Links to other sites are not tried.
+SVG files that are linked have to be well-formed: browsers show an error in place of one that is not.
 """
 
 import html.parser
@@ -9,6 +10,7 @@ import pathlib
 import re
 import sys
 import urllib.parse
+import xml.etree.ElementTree
 
 
 class Page(html.parser.HTMLParser):
@@ -33,6 +35,14 @@ class Markdown:
         self.ids = {re.sub(r"[^\w\- ]", "", t).lower().replace(" ", "-") for t in titles}
 
 
+def malformed(path):
+    """What is wrong with an XML file, None if nothing is."""
+    try:
+        xml.etree.ElementTree.parse(path)
+    except xml.etree.ElementTree.ParseError as error:
+        return error
+
+
 def main():
     read = {}
 
@@ -53,6 +63,8 @@ def main():
             to = (path.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else path.resolve()
             if not to.exists():
                 dead.append(f"{path}: {link}")
+            elif to.suffix == ".svg" and (fault := malformed(to)):
+                dead.append(f"{path}: {link} ({fault})")
             elif parts.fragment == "nested-classes":
                 pass  # Doxygen links the list of private nested classes, and leaves it out
             elif parts.fragment and to.suffix in (".html", ".md"):

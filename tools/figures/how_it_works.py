@@ -65,10 +65,20 @@ class Plot:
             self.add(f'<text x="{px - 8:.1f}" y="{py + 4:.1f}" text-anchor="end">{y:g}</text>')
 
     def svg(self):
-        w, h = self.size
-        return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{w}" height="{h}" viewBox="0 0 {w} {h}" '
-                f'font-family="sans-serif" font-size="12">\n<rect width="100%" height="100%" fill="white"/>\n'
-                + "\n".join(self.body) + "\n</svg>\n")
+        return page(*self.size, self.body)
+
+
+def page(w, h, body):
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{w}" height="{h}" viewBox="0 0 {w} {h}" '
+            f'font-family="sans-serif" font-size="12">\n<rect width="100%" height="100%" fill="white"/>\n'
+            + "\n".join(body) + "\n</svg>\n")
+
+
+def stacked(upper, lower):
+    """Two plots of one page, the second below the first."""
+    down = upper.size[1] - 24  # where the first one's label would be
+    return page(upper.size[0], down + lower.size[1],
+                upper.body + [f'<g transform="translate(0 {down})">'] + lower.body + ["</g>"])
 
 
 def triangle():
@@ -98,29 +108,53 @@ def triangle():
 
 
 def shadow():
-    """Light, a caster, its shadow, and the plane on which casters and points meet."""
-    grazing, height, left, right = math.radians(20), 1.2, 3.0, 3.6
-    end = right + height / math.tan(grazing)
-    p = Plot(700, 0, (0, 9), (-0.3, 2.9), "across track, m", "height, m", equal=True)
-    p.area([(0, -0.3), (9, -0.3), (9, 0), (0, 0)], "#d8c9a8")
-    p.area([(right, 0), (end, 0), (right, height)], DARK, 'opacity="0.35"')
-    p.area([(left, 0), (left, height), (right, height), (right, 0)], LIT, f'stroke="{INK}"')
-    for start in (0.6, 1.5, 2.4):  # rays that travel down to the right
-        reach = start / math.tan(grazing)
-        p.line([(0, start), (min(reach, left if reach > left else reach), max(start - left * math.tan(grazing), 0))],
-               HOT, 1.2)
-    p.line([(0, height + right * math.tan(grazing)), (end, 0)], HOT, 1.2, 'stroke-dasharray="5 3"')
-    for x in (0.8, 1.9, 4.4, 5.6, 6.6, 7.6, 8.5):
-        p.dot(x, 0, 4, DARK if right < x < end else "white", f'stroke="{INK}"')
-    across = (math.sin(grazing), math.cos(grazing))  # of the plane that the rays stand upright on
-    base = (7.3, 0.55)
-    p.line([base, (base[0] + 1.9 * across[0], base[1] + 1.9 * across[1])], "#2a7", 2.5)
-    p.text(base[0] + 1.9 * across[0], base[1] + 1.9 * across[1], "plane across the rays", "end", "#175", (-6, 8))
-    p.text(0.2, 2.5, "sound, 20 degrees above the bottom", "start", HOT, (0, 0))
-    p.text((right + end) / 2, 0, f"shadow: {height} m / tan 20 degrees = {height / math.tan(grazing):.1f} m", shift=(0, 20))
-    p.text((left + right) / 2, height, "caster", shift=(0, 24))
-    p.ticks(range(0, 10), (0, 1, 2))
-    return p.svg()
+    """A bottom under parallel light; below it u, where each point's ray meets z = 0, and the largest of those before."""
+    grazing, across = math.radians(17), 9.0
+    cot = 1 / math.tan(grazing)
+
+    def height(x):  # ripples, the third of them raised
+        return 0.22 * math.cos(2 * math.pi * (x - 0.6) / 2.1) + 0.35 * math.exp(-((x - 4.8) / 0.7) ** 2)
+
+    xs = [i * across / 1800 for i in range(1801)]
+    feet = [x + height(x) * cot for x in xs]
+    met = [feet[0]]
+    for foot in feet[1:]:
+        met.append(max(met[-1], foot))
+    dark = [foot < most - 1e-9 for foot, most in zip(feet, met)]
+    runs, start = [], None
+    for i, is_dark in enumerate(dark + [False]):
+        if is_dark and start is None:
+            start = i
+        elif not is_dark and start is not None:
+            runs.append((start, i - 1))
+            start = None
+
+    p = Plot(700, 0, (0, across), (-0.45, 1.45), "", "height, m", equal=True)
+    p.area([(0, -0.45)] + [(x, height(x)) for x in xs] + [(across, -0.45)], "#d8c9a8")
+    for first, last in runs:  # between a crest, the ray over it, and the bottom behind it
+        if last < len(xs) - 1:
+            p.area([(x, height(x)) for x in xs[first:last + 1]], DARK, 'opacity="0.35"')
+        p.line([(x, height(x)) for x in xs[first:last + 1]], DARK, 3)
+        x, z = xs[first], height(xs[first])
+        ends = xs[last] if last < len(xs) - 1 else across
+        p.line([(x - (1.4 - z) * cot, 1.4) if x > (1.4 - z) * cot else (0, z + x / cot), (ends, z - (ends - x) / cot)],
+               HOT, 1.2, 'stroke-dasharray="5 3"')
+    p.line([(0, 0), (across, 0)], FAINT, 1, 'stroke-dasharray="2 3"')
+    p.text(across - 0.1, 1.2, "sound over the crests, 17 degrees above the bottom", "end", HOT)
+    p.ticks(range(0, 10), (0, 1))
+
+    q = Plot(700, 190, (0, across), (-1, 10), "across track, m", "u, m")
+    for first, last in runs:
+        q.area([(xs[first], met[first])] + [(x, u) for x, u in zip(xs[first:last + 1], feet[first:last + 1])] +
+               [(xs[last], met[last])], DARK, 'opacity="0.35"')
+    q.line(list(zip(xs, met)), HOT, 1.2, 'stroke-dasharray="5 3"')
+    q.line(list(zip(xs, feet)), INK, 1.5)
+    for first, last in runs:
+        q.line(list(zip(xs[first:last + 1], feet[first:last + 1])), DARK, 3)
+    q.text(0.15, 9, "u: where a point's ray meets z = 0", "start", INK)
+    q.text(0.15, 7.4, "dashed: the largest u so far; what lies below it is in shadow", "start", HOT)
+    q.ticks(range(0, 10), (0, 5, 10))
+    return stacked(p, q)
 
 
 SONAR, BOX = 6.0, (14.0, 15.0, 0.8)  # altitude; ground range of the box from, to, and its height, metres
@@ -152,9 +186,9 @@ def ping():
         p.line([q for q in arc if -0.01 <= q[1] <= 7], "#2a7", 1, 'stroke-dasharray="2 3"')
     p.dot(0, SONAR, 6, HOT)
     p.text(0.3, SONAR, "sonar, 6 m above the bottom", "start", HOT, (4, -8))
-    p.text((near + far) / 2, height, "target", shift=(0, -6))
-    p.text((far + at["shadow_end"]) / 2, 0, "shadow", shift=(4, 18))
-    p.text(10.2, 5.2, "arcs: points of equal range, heard at the same time", "start", "#175")
+    p.text((near + far) / 2, 0, "target", shift=(0, 18))
+    p.text((far + at["shadow_end"]) / 2, 0, "shadow", shift=(14, 18))
+    p.text(10.2, 6.3, "arcs: points of equal range, heard at the same time", "start", "#175")
     p.ticks(range(0, 23, 2), range(0, 7, 2))
     return p.svg()
 
@@ -180,7 +214,7 @@ def echo():
     p.area([(0, 0)] + points + [(22, 0)], LIT)
     p.line(points, INK, 1.2)
     p.text(3, 0.2, "water column: silence")
-    p.text(11.2, 0.5, "bottom, weaker at lower grazing angles")
+    p.text(10.4, 0.1, "bottom, weaker at lower grazing angles")
     p.text(at["top"], 1.03, "front face, before its foot: layover", "end", HOT, (-4, 0))
     p.text((at["edge"] + at["end"]) / 2, 0.06, "shadow", color=DARK)
     p.line([(0, 0), (22, 0)], INK, 1)
