@@ -71,7 +71,7 @@ inline std::string markdown(const std::vector<outcome>& outcomes, const class_co
 
 /// Confusion matrices side by side, darker squares for more chips.
 inline std::string svg(const std::vector<outcome>& outcomes) {
-    constexpr int cell = 44, left = 62, top = 42, width = left + 3 * cell + 40, height = top + 3 * cell + 14;
+    constexpr int cell = 44, left = 62, top = 58, width = left + 3 * cell + 40, height = top + 3 * cell + 14;
     constexpr std::size_t columns = 4;
     const auto rows = static_cast<int>((outcomes.size() + columns - 1) / columns);
     const int across = static_cast<int>((std::min)(columns, outcomes.size()));
@@ -86,6 +86,8 @@ inline std::string svg(const std::vector<outcome>& outcomes) {
                     static_cast<int>(i / columns) * height);
         out += text("<text x=\"%d\" y=\"16\" font-weight=\"bold\">%s, %zu: %.2f</text>\n", left,
                     outcomes[i].name.c_str(), outcomes[i].images, balanced(outcomes[i].transfer).mean);
+        out += text("<text x=\"%d\" y=\"32\">answered, %% of those shown</text>\n", left);
+        out += text("<text x=\"%d\" y=\"%d\" text-anchor=\"end\">shown</text>\n", left - 6, top - 8);
         for (int k = 0; k < 3; ++k) {
             const std::string& name = classes[static_cast<std::size_t>(k)];
             out += text("<text x=\"%d\" y=\"%d\" text-anchor=\"middle\">%s</text>\n", left + k * cell + cell / 2,

@@ -77,9 +77,60 @@ inline std::string color_of(const std::string& policy) {
     return found == colors.end() ? "#000000" : found->second;
 }
 
+/// A rectangle of a chart, in its pixels.
+struct area {
+    double x0, y0, x1, y1;
+    bool overlaps(const area& o) const { return x0 < o.x1 && o.x0 < x1 && y0 < o.y1 && o.y0 < y1; }
+    /// Whether the segment from a to b passes through, by 32 points of it.
+    bool is_crossed(const std::array<double, 2>& a, const std::array<double, 2>& b) const {
+        for (int i = 0; i <= 32; ++i) {
+            const double t = i / 32.0, x = a[0] + t * (b[0] - a[0]), y = a[1] + t * (b[1] - a[1]);
+            if (x0 < x && x < x1 && y0 < y && y < y1) return true;
+        }
+        return false;
+    }
+};
+
+/// Names beside the points of a panel: each where it covers no other name, no ring of a named point and no line.
+/// @param points  in pixels, with their names
+/// @param line    corners of the panel's line
+inline std::string names_beside(const std::vector<std::pair<std::array<double, 2>, std::string>>& points,
+                                const std::vector<std::array<double, 2>>& line) {
+    constexpr double letter = 8.5, height = 13, beside = 10;
+    std::vector<area> taken;
+    for (const auto& [at, name] : points) taken.push_back({at[0] - 8, at[1] - 8, at[0] + 8, at[1] + 8});
+    std::string body;
+    for (const auto& [at, name] : points) {
+        const double width = letter * static_cast<double>(name.size());
+        struct place {
+            area where;
+            bool is_left;
+        };
+        std::array<place, 4> places{};
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const bool is_left = i % 2 == 1;
+            const double x = is_left ? at[0] - beside - width : at[0] + beside, y = i < 2 ? at[1] - 8 : at[1] + 18;
+            places[i] = {{x, y - height + 2, x + width, y + 3}, is_left};
+        }
+        const auto cost = [&](const place& p) {
+            double sum = 0;
+            for (const area& other : taken) sum += p.where.overlaps(other) ? 10 : 0;
+            for (std::size_t i = 1; i < line.size(); ++i) sum += p.where.is_crossed(line[i - 1], line[i]) ? 1 : 0;
+            return sum;
+        };
+        const place& best = *std::min_element(places.begin(), places.end(),
+                                              [&](const place& a, const place& b) { return cost(a) < cost(b); });
+        taken.push_back(best.where);
+        body +=
+            svg::text(best.is_left ? best.where.x1 : best.where.x0, best.where.y1 - 3, name,
+                      std::string(" fill='#c0392b' font-weight='bold'") + (best.is_left ? " text-anchor='end'" : ""));
+    }
+    return body;
+}
+
 /// Error against time, a panel for each seabed: every way as a dot, the front as a line, and the named settings.
 inline std::string trade_chart(const contents& c) {
-    constexpr double width = 330, height = 300, left = 60, top = 64, gap = 30;
+    constexpr double width = 330, height = 300, left = 80, top = 64, gap = 30;
     double least = 1e30, most = 0;
     for (const way& w : c.ways) least = std::min(least, w.ms), most = std::max(most, w.ms);
     const double low_ms = std::log10(least) - 0.05, high_ms = std::log10(most) + 0.05;
@@ -120,23 +171,31 @@ inline std::string trade_chart(const contents& c) {
         for (std::size_t i = 1; i < front.size(); ++i)
             body += svg::line(x(front[i - 1]->edge), y(front[i - 1]->ms), x(front[i]->edge), y(front[i]->ms), "#333333",
                               " stroke-width='1.5'");
+        std::vector<std::pair<std::array<double, 2>, std::string>> named;
         for (const way& w : c.ways)
-            if (w.seabed == seabed && !w.name.empty())
-                body += svg::circle(x(w.edge), y(w.ms), 7, "none", " stroke='#c0392b' stroke-width='2'") +
-                        svg::text(x(w.edge) + 10, y(w.ms) - 8, w.name, " fill='#c0392b' font-weight='bold'");
+            if (w.seabed == seabed && !w.name.empty()) named.push_back({{x(w.edge), y(w.ms)}, w.name});
+        for (const auto& [at, name] : named)
+            body += svg::circle(at[0], at[1], 7, "none", " stroke='#c0392b' stroke-width='2'");
+        std::vector<std::array<double, 2>> line;
+        for (const way* const w : front) line.push_back({x(w->edge), y(w->ms)});
+        body += names_beside(named, line);
+        body += svg::text(x0 + width / 2, top + height + 38, "error of shadow edges, pixels (mean displacement)",
+                          " text-anchor='middle'");
         x0 += width + gap;
     }
+    body += "<text transform='translate(16 " + svg::number(top + height / 2, 0) +
+            ") rotate(-90)' text-anchor='middle'>processor time of a frame</text>\n";
     double key = left;
     for (const std::string policy : {"exact", "map", "pcf", "none"}) {
-        body += svg::circle(key, top + height + 42, 5, color_of(policy)) +
-                svg::text(key + 10, top + height + 46, policy == "none" ? "no shadows" : policy);
+        body += svg::circle(key, top + height + 66, 5, color_of(policy)) +
+                svg::text(key + 10, top + height + 70, policy == "none" ? "no shadows" : policy);
         key += 110;
     }
-    body += svg::line(key, top + height + 42, key + 26, top + height + 42, "#333333", " stroke-width='1.5'") +
-            svg::text(key + 34, top + height + 46, "nothing is both faster and closer") +
-            svg::circle(key + 270, top + height + 42, 7, "none", " stroke='#c0392b' stroke-width='2'") +
-            svg::text(key + 284, top + height + 46, "settings with names");
-    return svg::page(static_cast<int>(left + 3 * width + 2 * gap + 30), static_cast<int>(top + height + 64), body);
+    body += svg::line(key, top + height + 66, key + 26, top + height + 66, "#333333", " stroke-width='1.5'") +
+            svg::text(key + 34, top + height + 70, "nothing is both faster and closer") +
+            svg::circle(key + 270, top + height + 66, 7, "none", " stroke='#c0392b' stroke-width='2'") +
+            svg::text(key + 284, top + height + 70, "settings with names");
+    return svg::page(static_cast<int>(left + 3 * width + 2 * gap + 30), static_cast<int>(top + height + 88), body);
 }
 
 /// Distance between marks of an axis up to `end`: 1, 2 or 5 times a power of ten, at most half of it.
