@@ -22,6 +22,7 @@
 #include <filesystem>
 
 #include "common/pictures.hpp"
+#include "common/usage.hpp"
 
 namespace in = insonify;
 using namespace in::literals;
@@ -107,6 +108,7 @@ in::image<float> line_of(const in::scene& scene, in::side_scan rig, in::side sid
 }  // namespace
 
 int main(int argc, char** argv) try {
+    examples::check_arguments(argc, argv, 0, 2, "beside_real [recorded line [out.png]]");
     const std::string real = argc > 1 ? argv[1] : EXAMPLES_REFERENCE "/sidescan_scotsman/waterfall_u8_linear.png";
     const std::string out = argc > 2 ? argv[2] : "beside_real.png";
     const in::side_scan rig{.altitude = 14, .ping_spacing = 0.06f, .pings = 461, .range = 29.98f, .bins = 1018};

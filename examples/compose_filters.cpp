@@ -10,14 +10,12 @@
 #include <cstdio>
 
 #include "common/pictures.hpp"
+#include "common/usage.hpp"
 
 namespace in = insonify;
 
 int main(int argc, char** argv) try {
-    if (argc < 3) {
-        std::fputs("compose_filters in.png out.png [reference picture]\n", stderr);
-        return 2;
-    }
+    examples::check_arguments(argc, argv, 2, 3, "compose_filters in.png out.png [reference picture]");
     const in::image<float> picture = examples::read_gray(argv[1]);
     const in::image<float> reference = argc > 3 ? examples::read_gray(argv[3]) : picture;
 

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "common/usage.hpp"
 #include <gdal_priv.h>
 
 namespace in = insonify;
@@ -43,10 +44,7 @@ sb::heightfield read_raster(const char* path, float scale) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-    if (argc < 3) {
-        std::fputs("import_geotiff <file> <out.png> [-1 for depths]\n", stderr);
-        return 2;
-    }
+    examples::check_arguments(argc, argv, 2, 3, "import_geotiff <file> <out.png> [-1 for depths]");
     const float scale = argc > 3 ? static_cast<float>(std::atof(argv[3])) : 1.0f;
     const sb::heightfield survey = sb::fill_gaps(read_raster(argv[1], scale), 10);
 

@@ -24,6 +24,7 @@
 
 #include "common/scale_bar.hpp"
 #include "common/text.hpp"
+#include "common/usage.hpp"
 
 namespace in = insonify;
 namespace sb = insonify::seabed;
@@ -97,6 +98,7 @@ std::vector<entry> entries();
 }  // namespace
 
 int main(int argc, char** argv) try {
+    examples::check_arguments(argc, argv, 0, 1, "object_gallery [objects.png]");
     const std::string out = argc > 1 ? argv[1] : "objects.png";
     in::thread_pool pool;
     const std::vector<entry> all = entries();

@@ -14,6 +14,8 @@
 
 #include <cstdio>
 
+#include "common/usage.hpp"
+
 namespace in = insonify;
 using namespace in::literals;
 
@@ -48,6 +50,7 @@ in::mesh load(const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) try {
+    examples::check_arguments(argc, argv, 0, 3, "render_mesh [mesh [out.png [y or z: which axis is up]]]");
     const std::string path = argc > 1 ? argv[1] : EXAMPLES_MESH;
     const bool y_up = argc <= 3 || argv[3][0] != 'z';
 

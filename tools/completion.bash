@@ -1,6 +1,6 @@
-# Completes the options of tools/generate, generate_dataset and tools/test in bash: source tools/completion.bash
+# Completes the options of the generator, of the example programs and of tools/ in bash: source tools/completion.bash
 #
-# The tests compare the options with those in examples/generate_dataset/options.cpp.
+# The tests compare the generator's with those in examples/generate_dataset/options.cpp. Built programs are asked by --help.
 
 _insonify_generate() {
     local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} values=
@@ -32,9 +32,36 @@ _insonify_generate() {
             --targets --threads --tilt --verify --visible-share" -- "$current"))
     fi
 }
-_insonify_test() {
-    COMPREPLY=($(compgen -W "--ci --full" -- "${COMP_WORDS[COMP_CWORD]}"))
+# Options of a tool that are listed here.
+_insonify_tool() {
+    local current=${COMP_WORDS[COMP_CWORD]} options=--help
+    COMPREPLY=()
+    case ${COMP_WORDS[0]##*/} in
+        test) options+=" --ci --full" ;;
+        merge) options+=" --preview" ;;
+        bench) options+=" --install --workloads --sizes --only --threads --frames --processor-time --json --svg --dump" ;;
+        recognize) options+=" --real" ;;
+        slurm) options+=" --tasks" ;;
+        amalgamate | reference) options+=" --check" ;;
+        compile_cost) options+=" --check --record" ;;
+        mutants) options+=" --jobs --only --least --record" ;;
+        tradeoff) options+=" --out --pixels --runs" ;;
+    esac
+    if [[ $current == -* ]]; then COMPREPLY=($(compgen -W "$options" -- "$current")); fi
+}
+# Options of a program, by its --help.
+_insonify_program() {
+    local current=${COMP_WORDS[COMP_CWORD]}
+    COMPREPLY=()
+    if [[ $current == -* ]]; then
+        COMPREPLY=($(compgen -W "$("${COMP_WORDS[0]}" --help 2>/dev/null | grep -oE -- '^ +(-h,)?--[a-z-]+' |
+            sed 's/.*--/--/')" -- "$current"))
+    fi
 }
 
 complete -o default -F _insonify_generate generate_dataset tools/generate ./tools/generate insonify/tools/generate
-complete -o default -F _insonify_test tools/test ./tools/test
+for _insonify_name in test merge bench recognize slurm amalgamate reference compile_cost mutants tradeoff pictures playground; do
+    complete -o default -F _insonify_tool "tools/$_insonify_name" "./tools/$_insonify_name" "insonify/tools/$_insonify_name"
+done
+unset _insonify_name
+complete -o default -F _insonify_program merge_dataset sidescan_survey ping_simulator recognize recognize_real

@@ -2,6 +2,8 @@
 #
 #   need <name>...   checks that each is present; on Debian and Ubuntu installs what is missing, elsewhere says what to install
 #   ways             fills the array `generator` with CMake's options for the best build program at hand
+#   explain "$@"     with --help among the arguments: prints the comment at the top of the tool, and ends it
+#   refuse <option>  ends the tool: it has no such option
 
 set -u -o pipefail
 export LC_ALL=C
@@ -49,6 +51,18 @@ gdb           command:gdb                             gdb                   gdb 
 doxygen       command:doxygen                         doxygen               doxygen             doxygen
 clang-format  command:clang-format                    clang-format          clang-tools-extra   clang-format
 '
+
+explain() {
+    local word
+    for word in "$@"; do
+        case $word in -h | --help) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "tools/$(basename "$0")" && exit 0 ;; esac
+    done
+}
+
+refuse() {
+    echo "tools/$(basename "$0"): '$1' is not an option; --help lists them" >&2
+    exit 2
+}
 
 # Whether one of the alternatives `a|b` of a probe is present.
 present() {

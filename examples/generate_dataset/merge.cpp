@@ -1,6 +1,7 @@
 // merge_dataset: joins the shards of a data set, that lie in one folder or in several. See --help, and tools/merge.
 #include <cstdio>
 
+#include "../common/refusal.hpp"
 #include "configuration.hpp"
 #include "folder.hpp"
 #include "lock.hpp"
@@ -88,8 +89,13 @@ int main(int argc, char** argv) try {
     app.add_option("out", out, "Folder of the joined set; that of the shards, if they all wrote to one")->required();
     app.add_flag("--preview", preview, "Write preview.html, a page to look through the set");
     app.add_option("folders", folders, "Folders of the shards, if they wrote to several");
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        examples::exit_after(app, error);
+    }
 
+    if (folders.empty() && !fs::exists(generator::folder_path(out))) throw io_error(out + ": does not exist");
     const fs::path root = generator::opened(out);
     const generator::folder_lock lock(root, -1);
     std::uint64_t images = 0;

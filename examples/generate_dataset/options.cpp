@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "../common/refusal.hpp"
 #include "config_text.hpp"
 #include "formats.hpp"
 #include "layout.hpp"
@@ -314,7 +315,7 @@ options parsed(int argc, const char* const* argv,
 
 options parse(int argc, const char* const* argv) {
     return parsed(argc, argv,
-                  [](const CLI::App& app, const CLI::ParseError& error) { std::exit(app.exit(error) == 0 ? 0 : 2); });
+                  [](const CLI::App& app, const CLI::ParseError& error) { examples::exit_after(app, error); });
 }
 
 options parse_quietly(int argc, const char* const* argv) {

@@ -458,6 +458,8 @@ class Generator(unittest.TestCase):
             self.assertIn(text, run(*options, expect=expect))
         out = ["--out", self.folder / "a"]
         refused("--out is required")
+        refused("--sead is not an option; did you mean --seed?", *out, "--sead", 3)
+        refused("--nonsense is not an option", "--nonsense")
         refused("tank", *out, "--targets", "tank")
         refused("lava", *out, "--seabeds", "lava")
         refused("'fog' is not one of", *out, "--noise", "fog")

@@ -15,6 +15,7 @@
 #include <mutex>
 #include <thread>
 
+#include "../common/refusal.hpp"
 #include "chip.hpp"
 #include <CLI/CLI.hpp>
 
@@ -53,7 +54,7 @@ options parse(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        std::exit(app.exit(error) == 0 ? 0 : 2);
+        examples::exit_after(app, error);
     }
     return o;
 }

@@ -2,6 +2,7 @@
 //
 // tools/recognize runs the whole experiment: builds this and ping_simulator, makes the simulator's sets, and writes the
 // figures of docs/recognition.md to out/recognize.
+#include "../common/refusal.hpp"
 #include "classifier.hpp"
 #include "report.hpp"
 #include <CLI/CLI.hpp>
@@ -43,7 +44,7 @@ options parse(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        std::exit(app.exit(error) == 0 ? 0 : 2);
+        examples::exit_after(app, error);
     }
     return o;
 }

@@ -1,5 +1,6 @@
 // recognize_real: trains with a generated set, tests on real side-scan images. See --help, and tools/recognize --real
 // DIR.
+#include "../common/refusal.hpp"
 #include "real_report.hpp"
 #include <CLI/CLI.hpp>
 
@@ -33,7 +34,7 @@ options parse(int argc, char** argv) {
         for (const std::size_t count : o.counts)
             if (count % 2 != 0) throw CLI::ValidationError("--counts", std::to_string(count) + " is odd");
     } catch (const CLI::ParseError& error) {
-        std::exit(app.exit(error) == 0 ? 0 : 2);
+        examples::exit_after(app, error);
     }
     return o;
 }

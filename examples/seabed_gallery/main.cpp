@@ -13,6 +13,7 @@
 #include "../common/pictures.hpp"
 #include "../common/scale_bar.hpp"
 #include "../common/text.hpp"
+#include "../common/usage.hpp"
 #include "texture.hpp"
 
 namespace in = insonify;
@@ -100,6 +101,7 @@ void paste(in::image<float>& sheet, int left, int top, const in::image<float>& t
 }  // namespace
 
 int main(int argc, char** argv) try {
+    examples::check_arguments(argc, argv, 0, 2, "seabed_gallery [seabeds.png [folder of real tiles]]");
     const std::string out = argc > 1 ? argv[1] : "seabeds.png";
     const std::string folder = argc > 2 ? argv[2] : EXAMPLES_REFERENCE "/sas_sassed";
     in::thread_pool pool;

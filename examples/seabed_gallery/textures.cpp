@@ -14,6 +14,7 @@
 #include <string>
 
 #include "../common/pictures.hpp"
+#include "../common/usage.hpp"
 #include "texture.hpp"
 
 namespace in = insonify;
@@ -162,6 +163,7 @@ void print(const char* name, const char* what, const row& values) {
 }  // namespace
 
 int main(int argc, char** argv) try {
+    examples::check_arguments(argc, argv, 0, 1, "seabed_textures [folder of real tiles]");
     const std::string folder = argc > 1 ? argv[1] : EXAMPLES_REFERENCE "/sas_sassed";
     if (!std::filesystem::exists(folder)) return std::printf("no real tiles in %s\n", folder.c_str()), 77;
     std::printf("%-18s", "");

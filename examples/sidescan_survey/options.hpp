@@ -4,6 +4,7 @@
 #include <insonify/insonify.hpp>
 #include <insonify/seabed/blend.hpp>
 
+#include "../common/refusal.hpp"
 #include "vehicle.hpp"
 #include <CLI/CLI.hpp>
 
@@ -46,7 +47,7 @@ inline options parse(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        std::exit(app.exit(error) == 0 ? 0 : 2);
+        examples::exit_after(app, error);
     }
     return o;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""tools/completion.bash offers each option of the generator, and completes as bash would: completion.py <project folder>"""
+"""tools/completion.bash offers each option of the programs, and completes as bash would: completion.py <project folder>"""
 
 import pathlib
 import re
@@ -10,19 +10,32 @@ project = pathlib.Path(sys.argv[1])
 script = project / "tools/completion.bash"
 
 
-def completed(*words):
+def completed(*words, program="generate_dataset", function="_insonify_generate"):
     """What bash offers behind these words."""
-    ask = (f"source {script}; COMP_WORDS=(generate_dataset {' '.join(map(repr, words))}); COMP_CWORD={len(words)}; "
-           "_insonify_generate; printf '%s\\n' \"${COMPREPLY[@]}\"")
+    ask = (f"source {script}; COMP_WORDS=({program} {' '.join(map(repr, words))}); COMP_CWORD={len(words)}; "
+           f"{function}; printf '%s\\n' \"${{COMPREPLY[@]}}\"")
     return subprocess.run(["bash", "-c", ask], check=True, capture_output=True, text=True).stdout.split()
 
 
-source = (project / "examples/generate_dataset/options.cpp").read_text()
-names = re.findall(r'(?:add_(?:option|flag)\(|set_config\()\s*"([^"]+)"', source)
-options = {name for names_of_one in names for name in names_of_one.split(",")} | {"--help"}
-offered = set(completed("--"))
-faults = [f"{name} is not offered" for name in sorted(options - offered)]
-faults += [f"{name} is no option" for name in sorted(offered - options)]
+def options_in(path):
+    """The options that a program's source declares, by CLI11 or argparse, or that a script compares with."""
+    names = re.findall(r'(?:add_(?:option|flag|argument)\(|set_config\()\s*"([^"]+)"', (project / path).read_text())
+    return {name for names_of_one in names for name in names_of_one.split(",") if name.startswith("--")} | {"--help"}
+
+
+def differences(program, options, offered):
+    return ([f"{program}: {name} is not offered" for name in sorted(options - offered)] +
+            [f"{program}: {name} is no option" for name in sorted(offered - options)])
+
+
+options = options_in("examples/generate_dataset/options.cpp")
+faults = differences("generate_dataset", options, set(completed("--")))
+for tool, path, more in (("merge", "examples/generate_dataset/merge.cpp", set()),
+                         ("bench", "tests/benchmarks/peers/main.cpp", {"--install"}),
+                         ("tradeoff", "tests/benchmarks/tradeoff/main.cpp", set()),
+                         ("mutants", "tools/mutants", set())):
+    offered = set(completed("--", program=f"tools/{tool}", function="_insonify_tool"))
+    faults += differences(tool, options_in(path) | more, offered)
 for words, expected in {("--recipe", "p"): ["published"], ("--seabeds", "mud,ro"): ["mud,rock"],
                         ("--see",): ["--seed"]}.items():
     if completed(*words) != expected:

@@ -1,0 +1,62 @@
+// How programs that read their options by CLI11 refuse a command line.
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace examples {
+
+/// Insertions, deletions and replacements that make one word another (Levenshtein).
+inline std::size_t edits_between(const std::string& from, const std::string& to) {
+    std::vector<std::size_t> row(to.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 0; j < to.size(); ++j) {
+            const std::size_t replaced = diagonal + (from[i] != to[j]);
+            diagonal = row[j + 1];
+            row[j + 1] = (std::min)({replaced, diagonal + 1, row[j] + 1});
+        }
+    }
+    return row[to.size()];
+}
+
+/// The option whose name is closest to a word, empty if none is within two edits.
+inline std::string similar_option(const CLI::App& app, const std::string& word) {
+    std::string best;
+    std::size_t least = 3;
+    for (const CLI::Option* const option : app.get_options())
+        for (const std::string& name : option->get_lnames())
+            if (const std::size_t edits = edits_between(word, "--" + name); edits < least) {
+                least = edits;
+                best = "--" + name;
+            }
+    return best;
+}
+
+/// Ends the program: after --help with 0; otherwise with 2, having named the fault and, for an unknown option, the one
+/// that is spelt like it.
+[[noreturn]] inline void exit_after(const CLI::App& app, const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) std::exit(app.exit(error));
+    bool is_unknown = false;
+    for (const std::string& word : app.remaining()) {
+        if (!word.starts_with("--")) continue;
+        const std::string name = word.substr(0, word.find('=')), similar = similar_option(app, name);
+        std::fprintf(stderr, "%s is not an option%s\n", name.c_str(),
+                     similar.empty() ? "" : ("; did you mean " + similar + "?").c_str());
+        is_unknown = true;
+    }
+    if (is_unknown)
+        std::fputs("Run with --help for more information.\n", stderr);
+    else
+        app.exit(error);
+    std::exit(2);
+}
+
+}  // namespace examples
