@@ -1,19 +1,23 @@
 // One picture of a data set: contact_sheet <data set> <out.png> [images per class]
 //
-// A row for each class; in it, plain images before those with the look of a reference, by seabed.
+// A row for each class; in it, plain images before those with the look of a reference, by seabed. Sets of the recipe
+// `published` have a scale bar in each tile.
 #include <insonify/core/image.hpp>
 #include <insonify/io/file.hpp>
 #include <insonify/io/png.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <sstream>
 #include <tuple>
 #include <vector>
 
 #include "common/pictures.hpp"
+#include "common/scale_bar.hpp"
 #include "common/text.hpp"
+#include "common/usage.hpp"
 
 namespace in = insonify;
 
@@ -24,6 +28,7 @@ constexpr int tile = 256, gap = 8, caption = 20;
 struct entry {
     std::string class_name, seabed, file;
     bool referenced;
+    double metres;  ///< along a side, 0 if the manifest has no scale
     auto order() const { return std::tie(referenced, seabed, file); }
 };
 
@@ -56,12 +61,15 @@ std::map<std::string, std::vector<entry>> read_manifest(const std::string& folde
         return static_cast<std::size_t>(found - names.begin());
     };
     const std::size_t file = column("file"), name = column("class"), seabed = column("seabed"),
-                      look = column("reference");
+                      look = column("reference"), pixels = column("size_px");
+    const auto scale =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), "metres_per_pixel") - names.begin());
     std::map<std::string, std::vector<entry>> classes;
     while (std::getline(text, line)) {
         const std::vector<std::string> row = cells(line);
         if (row.size() < names.size()) continue;
-        classes[row[name]].push_back({row[name], row[seabed], row[file], row[look] != "-1"});
+        const double metres = scale < names.size() ? std::atof(row[scale].c_str()) * std::atof(row[pixels].c_str()) : 0;
+        classes[row[name]].push_back({row[name], row[seabed], row[file], row[look] != "-1", metres});
     }
     for (auto& [key, entries] : classes)
         std::sort(entries.begin(), entries.end(), [](const entry& a, const entry& b) { return a.order() < b.order(); });
@@ -90,26 +98,29 @@ in::image<float> shrink(const in::image<float>& picture) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-    if (argc < 3) {
-        std::fputs("contact_sheet <data set> <out.png> [images per class]\n", stderr);
-        return 2;
-    }
+    examples::check_arguments(argc, argv, 2, 3, "contact_sheet <data set> <out.png> [images per class]");
     const std::string folder = argv[1];
-    const std::size_t most = argc > 3 ? std::stoul(argv[3]) : 6;
+    const int number = argc > 3 ? std::atoi(argv[3]) : 6;
+    if (number < 1) throw in::invalid_input("images per class: '" + std::string(argv[3]) + "' is not a number from 1");
+    const auto most = static_cast<std::size_t>(number);
     const auto classes = read_manifest(folder);
-    if (classes.empty() || most == 0) throw in::io_error(folder + ": has no images to show");
+    if (classes.empty()) throw in::io_error(folder + ": has no images to show");
 
     std::size_t columns = 0;
     for (const auto& [name, entries] : classes) columns = (std::max)(columns, (std::min)(most, entries.size()));
     in::image<float> sheet(static_cast<int>(columns) * (tile + gap) + gap,
-                           static_cast<int>(classes.size()) * (tile + gap + caption) + gap, 0.12f);
-    int top = gap;
+                           caption + static_cast<int>(classes.size()) * (tile + gap + caption) + gap, 0.12f);
+    const bool has_scale = classes.begin()->second.front().metres > 0;
+    if (has_scale) examples::write_text(sheet, gap + 2, gap, "sound travels from left to right", 1.0f);
+    int top = gap + (has_scale ? caption : 0);
     for (const auto& [name, entries] : classes) {
         for (std::size_t i = 0; i < (std::min)(most, entries.size()); ++i) {
             const int left = gap + static_cast<int>(i) * (tile + gap);
             const in::image<float> small_one = shrink(examples::read_gray(folder + "/" + entries[i].file));
             for (int y = 0; y < tile; ++y)
                 std::copy_n(small_one.row(y).begin(), tile, sheet.row(top + y).begin() + left);
+            if (entries[i].metres > 0)
+                examples::draw_scale_bar(sheet, left + tile, top + tile, tile, entries[i].metres, 1.0f, 0.12f);
             examples::write_text(
                 sheet, left + 2, top + tile + 5,
                 name + ", " + entries[i].seabed + (entries[i].referenced ? ", look of a reference" : ""), 1.0f);

@@ -1,15 +1,18 @@
 // All filters on one page: filter_page out.png [picture [reference picture]]
 //
 // Each under its name: the filtered picture, and beside it its histogram, dark levels below and light ones above, in
-// front of the unfiltered picture's histogram in gray. Without pictures, a cylinder on rippled sand.
+// front of the unfiltered picture's histogram in gray. Without pictures, a cylinder on rippled sand, with a scale bar.
 #include <insonify/filter/poisson.hpp>
 #include <insonify/insonify.hpp>
 #include <insonify/io/png.hpp>
 
+#include <cmath>
 #include <cstdio>
 
 #include "common/pictures.hpp"
+#include "common/scale_bar.hpp"
 #include "common/text.hpp"
+#include "common/usage.hpp"
 
 namespace in = insonify;
 using namespace in::literals;
@@ -17,13 +20,14 @@ using namespace in::literals;
 namespace {
 
 constexpr int tile = 120, chart = 72, gap = 8, caption = 16, columns = 5;
+constexpr float altitude = 2.2f;
 constexpr in::rgb8 paper{24, 26, 30}, ink{225, 225, 225}, before{70, 76, 86}, bars{232, 168, 64};
 
 in::image<float> scene_picture() {
     in::scene scene;
     scene.seabed = in::seabed::ripples{.wavelength = 0.9f, .steepness = 0.08f, .direction = 0.5f, .seed = 7};
     scene.add(in::cylinder{.radius = 0.35f, .length = 2}, {.position = {-0.4, 0.3, 0.35}, .yaw = 60_deg}, "cylinder");
-    const in::overhead rig{.altitude = 2.2f, .size = {tile, tile}, .grazing = 14_deg};
+    const in::overhead rig{.altitude = altitude, .size = {tile, tile}, .grazing = 14_deg};
     // Dim and slightly grainy, as recordings are: speckle would clip on bright pixels of a picture in [0, 1].
     return in::render(scene, rig).image | [](float v) { return 0.05f + 0.55f * v; } | in::gamma_speckle{.looks = 60};
 }
@@ -37,19 +41,30 @@ in::image<float> middle_of(const in::image<float>& picture) {
 
 class page {
   public:
-    page(in::image<float> picture, int cells)
+    /// @param metres  along a side of the picture, 0 if unknown
+    page(in::image<float> picture, int cells, double metres)
         : picture_(std::move(picture)),
-          sheet_(columns * (tile + chart + gap) + gap, (cells + columns - 1) / columns * (tile + caption + gap) + gap,
-                 paper) {}
+          sheet_(columns * (tile + chart + gap) + gap,
+                 caption + gap + (cells + columns - 1) / columns * (tile + caption + gap) + gap, paper),
+          metres_(metres) {
+        examples::write_text(sheet_, gap, gap,
+                             "Beside each picture its histogram, dark levels below; a bar as long as the space is wide "
+                             "is an eighth of the pixels. Gray: before the filter.",
+                             ink);
+        if (metres_ > 0)
+            examples::write_text(sheet_, sheet_.width() - 190, gap, "sound travels from left to right", ink);
+    }
 
     void add(const std::string& name, const in::image<float>& result, const in::color_table& colors) {
         const int left = gap + cell_ % columns * (tile + chart + gap),
-                  top = gap + cell_ / columns * (tile + caption + gap);
+                  top = caption + 2 * gap + cell_ / columns * (tile + caption + gap);
         ++cell_;
         examples::write_text(sheet_, left, top, name, ink);
         const in::image<in::rgb8> colored = result | colors;
         for (int y = 0; y < colored.height(); ++y)
             std::copy_n(colored.row(y).begin(), colored.width(), sheet_.row(top + caption + y).begin() + left);
+        if (metres_ > 0 && cell_ == 1)
+            examples::draw_scale_bar(sheet_, left + tile, top + caption + tile, tile, metres_, ink, paper);
         draw(picture_, left + tile, top + caption, before);
         draw(result, left + tile, top + caption, bars);
     }
@@ -77,23 +92,24 @@ class page {
 
     in::image<float> picture_;
     in::image<in::rgb8> sheet_;
+    double metres_;
     int cell_ = 0;
 };
 
 }  // namespace
 
 int main(int argc, char** argv) try {
-    if (argc < 2) {
-        std::fputs("filter_page out.png [picture [reference picture]]\n", stderr);
-        return 2;
-    }
+    examples::check_arguments(argc, argv, 1, 3, "filter_page out.png [picture [reference picture]]");
     const in::image<float> picture = argc > 2 ? middle_of(examples::read_gray(argv[2])) : scene_picture();
     const in::image<float> reference =
         argc > 3 ? examples::read_gray(argv[3]) : in::image<float>(512, 512, 0.3f) | in::gamma_speckle{.looks = 3};
     const in::image<std::uint8_t> dark = picture | [](float v) -> std::uint8_t { return v < 0.15f; };
     constexpr in::correlation_length grain{2, 2};
 
-    page all(picture, 25);
+    // From an altitude, a field of view of `overhead` degrees shows 2 altitude tan(field of view / 2) metres.
+    const double across =
+        2.0 * static_cast<double>(altitude) * std::tan(static_cast<double>(in::overhead{}.field_of_view) / 2);
+    page all(picture, 25, argc > 2 ? 0 : across);
     all.add("before", in::filter_chain<>{});
     all.add("gaussian", in::gaussian{.variance = 0.01f});
     all.add("gaussian, correlated", in::gaussian{.variance = 0.01f, .correlation = grain});

@@ -4,6 +4,7 @@
 Adds a margin with the direction of the sound and a scale bar, and stores few levels, so that each file stays small.
 """
 
+import csv
 import pathlib
 import sys
 
@@ -20,9 +21,9 @@ class Overhead:
 
     def margin(self, draw, left, top, width, height):
         below = top + height
-        draw.text((left, below + 8), "sound travels to the right", INK)
-        arrow(draw, left + 160, below + 14, 40)
-        scale_bar(draw, left + width, below + 12, width / self.metres, self.metres)
+        draw.text((left + 6, below + 8), "sound travels to the right", INK)
+        arrow(draw, left + 166, below + 14, 40)
+        scale_bar(draw, left + width - 6, below + 12, width / self.metres, self.metres)
 
 
 class Swath:
@@ -62,7 +63,7 @@ class Plain:
         self.caption, self.levels = caption, levels
 
     def margin(self, draw, left, top, width, height):
-        draw.text((left, top + height + 8), self.caption, INK)
+        draw.text((left + 6, top + height + 8), self.caption, INK)
 
 
 # What each program's picture shows: of an overhead rig, 2 altitude tan(field of view / 2) metres.
@@ -82,6 +83,14 @@ SHRUNK = {"cylinder.png": (512, 512), "beside_real.png": (1024, 467)}
 IN_DOCS = {"cylinder.png", "swath.png", "beside_real.png"}  # the others belong to the guide
 
 
+# Where the sound travels on a chip, right, up, left or down: of its manifest's quarter turns, and of 4 more if mirrored.
+DIRECTIONS = [(1, 0), (0, -1), (-1, 0), (0, 1)]
+
+
+def direction(turn):
+    return DIRECTIONS[(turn + 2) % 4] if turn >= 4 else DIRECTIONS[turn]
+
+
 # The chips of README.md's picture, of the guide's data set `boats`.
 CHIPS = ["ship/000000/000000002", "plane/000000/000000009", "ship/000000/000000004", "plane/000000/000000008",
          "ship/000000/000000005", "tyre/000000/000000010", "plane/000000/000000006", "empty/000000/000000014"]
@@ -95,26 +104,39 @@ def copper(gray):
 
 
 def front(source, target):
-    """The guide's survey line beside a recorded one, in the same scale across, above chips of the guide's data set."""
+    """The guide's survey line beside a recorded one, above chips of the guide's data set.
+
+    Both lines have slant range across, with the track in the middle; chips have their extent in range.
+    """
     width, height, side, gap = 455, 234, 110, 5
     line = Image.open(source / "line.png").convert("RGB").getchannel("G").point(lambda v: round(v / 0.7812))
     metre = line.height / 50.4
     line = line.crop((0, round(line.height - 43 * metre), line.width, round(line.height - 10 * metre)))
-    panels = [("generated: slant range 32 m to a side", line)]
+    panels = [("generated", line, 32)]
     if REAL_LINE.exists():
-        panels.append(("recorded: 30 m to a side, CIDCO OpenSidescan (MIT)", Image.open(REAL_LINE).convert("L")))
-    sheet = Image.new("RGB", (2 * width + 10, height + side + 46), PAPER)
+        panels.append(("recorded, CIDCO OpenSidescan (MIT)", Image.open(REAL_LINE).convert("L"), 29.98))
+    sheet = Image.new("RGB", (2 * width + 10, height + side + 96), PAPER)
     draw = ImageDraw.Draw(sheet)
-    for k, (words, panel) in enumerate(panels):
+    for k, (words, panel, metres) in enumerate(panels):
         left = k * (width + 10)
         sheet.paste(copper(panel.resize((width, height), Image.Resampling.BOX)), (left, 0))
-        text(draw, left + width / 2, height + 4, words)
+        for mark in range(-int(metres) // 10 * 10 + (10 if metres % 10 else 0), int(metres) + 1, 10):
+            x = left + width / 2 + mark * width / (2 * metres)
+            draw.line([(x, height), (x, height + 4)], INK)
+            text(draw, min(max(x, left + 7), left + width - 7), height + 6, str(abs(mark)))
+        text(draw, left + width / 2, height + 20, f"{words}: slant range from the track, m")
+    with (source / "boats/manifest.csv").open(newline="") as table:
+        rows = {row["file"]: row for row in csv.DictReader(table)}
     for k, chip in enumerate(CHIPS):
         picture = Image.open(source / "boats/images" / f"{chip}.png").convert("L").resize((side, side))
         left = k * (side + gap)
-        sheet.paste(picture.convert("RGB").point(lambda v: round(v / 36.4) * 36), (left, height + 24))
-        name = chip.split("/")[0]
-        text(draw, left + side / 2, height + side + 28, "generated: " + ("bottom" if name == "empty" else name))
+        sheet.paste(picture.convert("RGB").point(lambda v: round(v / 36.4) * 36), (left, height + 40))
+        name, row = chip.split("/")[0], rows[f"images/{chip}.png"]
+        text(draw, left + side / 2, height + side + 44, "generated: " + ("bottom" if name == "empty" else name))
+        text(draw, left + side / 2 - 14, height + side + 60, f"{float(row['chip_m']):.1f} m")
+        (x, y), middle = direction(int(row["turn"])), (left + side / 2 + 24, height + side + 66)
+        arrow(draw, middle[0] - 7 * x, middle[1] - 7 * y, 14, (x, y))
+    text(draw, width + 5, height + side + 79, "Chips: extent in range; arrows point away from the sonar.")
     save(sheet, target.parent / "front.png", 64)
 
 
@@ -145,9 +167,11 @@ def posterized(picture, levels):
     return Image.merge("RGB", [gray.point([t[channel] for t in tables]) for channel in range(3)])
 
 
-def arrow(draw, x, y, length):
-    draw.line([(x, y), (x + length, y)], INK)
-    draw.polygon([(x + length, y), (x + length - 7, y - 4), (x + length - 7, y + 4)], INK)
+def arrow(draw, x, y, length, along=(1, 0)):
+    u, v = along
+    tip, neck = (x + u * length, y + v * length), (x + u * (length - 7), y + v * (length - 7))
+    draw.line([(x, y), tip], INK)
+    draw.polygon([tip, (neck[0] - 4 * v, neck[1] - 4 * u), (neck[0] + 4 * v, neck[1] + 4 * u)], INK)
 
 
 def scale_bar(draw, right, y, pixels_per_metre, metres):
