@@ -6158,21 +6158,21 @@ struct regular_grid {
     glm::dvec2 origin{0}, right{0}, up{0};  ///< metres, in the mesh's frame
     /// Cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1).
     bool is_rising = true;
+    double off = 0x1p-12;  ///< how far vertices may lie beside their places, in steps
 };
 
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Compares numbers, Period of them a block, with what goes on in equal steps from block to block.
-template <class T, int Period>
+template <int Period>
 struct pattern_kernel {
     struct term {
-        T start, step;  ///< in the first block, and from block to block
-        T tolerance;    ///< how far off it may be
+        std::uint32_t start, step;  ///< in the first block, and from block to block
     };
-    const T* numbers;
+    const std::uint32_t* numbers;
     std::size_t blocks;
     const term (&pattern)[static_cast<unsigned>(Period)];
-    std::atomic<bool>& differs;  ///< set if a number is farther off, or isn't one
+    std::atomic<bool>& differs;  ///< set if a number is another
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -6184,27 +6184,25 @@ struct pattern_kernel {
     /// N blocks are Period vectors.
     template <int N>
     INSONIFY_INLINE bool differ(std::size_t first, std::size_t last) const {
-        using numbers_of = lanes<T, N>;
+        using numbers_of = lanes<std::uint32_t, N>;
         constexpr auto period = static_cast<unsigned>(Period);
-        numbers_of block[period], start[period], step[period], tolerance[period];
+        numbers_of block[period], start[period], step[period];
         unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
             for (int k = 0; k < N; ++k) {
                 const int at = v * N + k;
                 const term& t = pattern[at % Period];
-                set_lane(block[v], k, static_cast<T>(at / Period));
+                set_lane(block[v], k, static_cast<std::uint32_t>(at / Period));
                 set_lane(start[v], k, t.start);
                 set_lane(step[v], k, t.step);
-                set_lane(tolerance[v], k, t.tolerance);
             }
         });
         lanes<std::int32_t, N> wrong{};
         for (std::size_t i = first; i < last; i += N) {
-            const T before = static_cast<T>(i);
+            const auto before = static_cast<std::uint32_t>(i);
             unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
                 numbers_of number;
                 load(number, numbers + i * Period + static_cast<std::size_t>(v * N));
-                const numbers_of off = number - (start[v] + (block[v] + before) * step[v]);
-                wrong |= lanes<std::int32_t, N>((off > tolerance[v]) | (off < 0 - tolerance[v]) | (off != off));
+                wrong |= lanes<std::int32_t, N>(number != start[v] + (block[v] + before) * step[v]);
             });
         }
         return any(wrong);
@@ -6253,7 +6251,7 @@ struct cell_cut {
 inline namespace INSONIFY_FLAGS {
 
 /// The regular grid that a mesh's vertices lie on, if they do and all heights are finite.
-/// @param off  by which share of a step vertices may lie beside the lattice
+/// @param off  how far vertices may lie beside their places, in steps; the grid tells how far they do
 template <executor_argument E = serial_executor>
 std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
     if (m.triangles.size() < 2) return std::nullopt;
@@ -6273,29 +6271,34 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
     const double area = grid.right.x * grid.up.y - grid.right.y * grid.up.x;
     if (!(cut->is_mirrored ? area < 0 : area > 0)) return std::nullopt;  // written so that NaN doesn't pass
     const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
-    const double shorter = numeric::square_root((std::min)(square(grid.right), square(grid.up)));
-    const auto tolerance = static_cast<float>(shorter * off);
+    const double shorter = numeric::square_root((std::min)(square(grid.right), square(grid.up))),
+                 longer = numeric::square_root((std::max)(square(grid.right), square(grid.up)));
 
     std::atomic<bool> differs = false;
-    bulk_ranges(ex, rows, 16, [&](std::size_t first, std::size_t last) {
+    constexpr std::size_t grain = 16;
+    std::vector<double> farthest((rows + grain - 1) / grain, 0);  // of some rows' vertices from their places, squared
+    bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t j = first; j < last && !differs; ++j) {
             const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;
-            const detail::pattern_kernel<float, 3>::term along[3] = {
-                {static_cast<float>(start.x), static_cast<float>(grid.right.x), tolerance},
-                {static_cast<float>(start.y), static_cast<float>(grid.right.y), tolerance},
-                {0, 0, (std::numeric_limits<float>::max)()}};
-            dispatch(detail::pattern_kernel<float, 3>{&m.positions[j * columns].x, columns, along, differs},
-                     best_isa());
+            for (std::size_t i = 0; i < columns; ++i) {
+                const std::size_t vertex = j * columns + i;
+                const double distance = square(place(vertex) - (start + static_cast<double>(i) * grid.right));
+                farthest[j / grain] = (std::max)(farthest[j / grain], distance);
+                // Written so that NaN doesn't pass.
+                if (!(distance <= shorter * off * (shorter * off) && numeric::is_finite(m.positions[vertex].z)))
+                    differs = true;
+            }
             if (j + 1 == rows) continue;
             const auto corner = static_cast<std::uint32_t>(j * columns);
-            detail::pattern_kernel<std::uint32_t, 6>::term cells[6];
-            for (int i = 0; i < 6; ++i) cells[i] = {cell[i / 3][i % 3] + corner, 1, 0};
-            dispatch(detail::pattern_kernel<std::uint32_t, 6>{&m.triangles[j * 2 * (columns - 1)].x, columns - 1, cells,
-                                                              differs},
+            detail::pattern_kernel<6>::term cells[6];
+            for (int i = 0; i < 6; ++i) cells[i] = {cell[i / 3][i % 3] + corner, 1};
+            dispatch(detail::pattern_kernel<6>{&m.triangles[j * 2 * (columns - 1)].x, columns - 1, cells, differs},
                      best_isa());
         }
     });
     if (differs) return std::nullopt;
+    // Across a step lies the other one's line, nearer than its length where the lattice is oblique.
+    grid.off = numeric::square_root(*std::max_element(farthest.begin(), farthest.end())) * longer / numeric::abs(area);
     return grid;
 }
 
@@ -14582,16 +14585,15 @@ struct horizon_kernel {
 /// Which of a heightfield's own points are lit, dark, or left to an exact test.
 class horizon_bounds {
   public:
-    /// @param m       the mesh, a regular grid whose vertices lie within `off` steps of the lattice
+    /// @param m       the mesh, on the lattice
     /// @param travel  where the light goes, in the mesh's frame: down
     template <executor E>
-    horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, double off, isa level,
-                   E& ex)
-        : grid_(lattice, travel), heights_(m, grid_, ex), off_(off) {
+    horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, isa level, E& ex)
+        : grid_(lattice, travel), heights_(m, grid_, ex), off_(lattice.off) {
         const auto greatest = static_cast<double>(heights_.greatest), least = static_cast<double>(heights_.least);
         const double relief = grid_.drop * (greatest - least);
         const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
-        margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
+        margin_ = 0x1p-21 * size + 4 * off_ * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
         bounds_ = insonify::detail::uninitialized_vector<float>(
@@ -14821,23 +14823,32 @@ class horizon_triangles {
             }
     }
 
-    /// Takes the answers back of cells over which others may cast: where rays through some u and w pass within the
-    /// relief.
-    /// @param lower, upper  where such rays meet the plane z = 0, in the grid's own steps
-    void forget(const glm::dvec2& lower, const glm::dvec2& upper, known* into) const {
+    /// Takes the answers back of cells over which others may cast, in some columns: those that a ray meets which passes
+    /// through a rectangle of the plane z = 0.
+    /// @param lower, upper  of the rectangle, in the grid's steps
+    void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
+                known* into) const {
+        // Such rays meet the relief between these columns, and each column between these rows.
         const auto least = static_cast<double>(horizon_.heights().least),
                    greatest = static_cast<double>(horizon_.heights().greatest);
-        const auto held = [](double at, int count) {
-            return static_cast<int>((std::min)((std::max)(at, 0.0), static_cast<double>(count)));
+        const double beside = 0x1p-8 + horizon_.margin();
+        const auto held = [](double at, int first, int last) {
+            return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
-        const int left = held(lower.x - grid_.drop * greatest - 2, grid_.columns - 1),
-                  right = held(upper.x - grid_.drop * least + 2, grid_.columns - 1);
-        const double up = grid_.slope * grid_.drop;
-        const int bottom = held(lower.y - up * greatest - 2, grid_.rows - 1),
-                  top = held(upper.y - up * least + 2, grid_.rows - 1);
-        for (int x = left; x < right; ++x)
-            for (int y = bottom; y < top; ++y)
+        const int left = held(lower.x - grid_.drop * greatest - beside - 1, first_column, last_column),
+                  right = held(upper.x - grid_.drop * least + beside + 1, first_column, last_column);
+        for (int x = left; x < right; ++x) {
+            const double up = grid_.slope;
+            const int bottom = held(lower.y - up * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
+                      top = held(upper.y - up * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
+            const float *const here = horizon_.heights().column(x), *const ahead = horizon_.heights().column(x + 1);
+            for (int y = bottom; y < top; ++y) {
+                const auto low = static_cast<double>((std::min)({here[y], here[y + 1], ahead[y], ahead[y + 1]})),
+                           high = static_cast<double>((std::max)({here[y], here[y + 1], ahead[y], ahead[y + 1]}));
+                if (high < lower.x - beside || low > upper.x + beside) continue;
                 into[grid_.first_triangle(x, y)] = into[grid_.first_triangle(x, y) + 1] = known::nothing;
+            }
+        }
     }
 
   private:
@@ -15227,13 +15238,12 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// A heightfield on a regular grid under parallel light. Light and camera are above it (skip::facing_its_own).
 class grid_caster {
   public:
-    /// @param off  by which vertices may lie beside the lattice, in steps
     template <executor E>
-    grid_caster(const caster& c, const light_frame& frame, double off, isa level, E& ex)
+    grid_caster(const caster& c, const light_frame& frame, isa level, E& ex)
         : mesh_(c.mesh),
           to_mesh_(inverse(c.placement)),
           travel_(transform_direction(to_mesh_, -frame.to_light())),
-          bounds_(mesh_, *c.grid, travel_, off, level, ex),
+          bounds_(mesh_, *c.grid, travel_, level, ex),
           blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
 
     /// Whether it blocks the light of one of its own points that faces the light.
@@ -15858,7 +15868,7 @@ class exact_occlusion {
         if (const auto* parallel = std::get_if<directional_light>(&light)) {
             const light_frame frame(*parallel);
             for (std::size_t i = 0; i < casters_.size(); ++i)
-                if (is_swept(casters_[i])) grids_[i].emplace(casters_[i], frame, shared_mesh_grid_error, level_, ex);
+                if (is_swept(casters_[i])) grids_[i].emplace(casters_[i], frame, level_, ex);
             const detail::light_plane plane(frame);
             glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
             for (int i = 0; i < 8; ++i) {
@@ -15910,10 +15920,8 @@ class exact_occlusion {
         const detail::lit_grid& grid = grids_[caster]->grid();
         const detail::horizon_triangles triangles = grids_[caster]->triangles(eye);
         insonify::detail::uninitialized_vector<known> answers(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
-        bulk_ranges(ex, static_cast<std::size_t>(grid.columns - 1), 32, [&](std::size_t first, std::size_t last) {
-            triangles.find(static_cast<int>(first), static_cast<int>(last), answers.data(), level_);
-        });
         // Where others may cast, too, points decide.
+        std::vector<std::pair<glm::dvec2, glm::dvec2>> shared;
         const plane_state& plane = planes_.front();
         const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
@@ -15921,9 +15929,13 @@ class exact_occlusion {
             const glm::dvec2 size = plane.tiles.tile();
             const auto columns = static_cast<std::size_t>(plane.tiles.columns);
             const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
-            const auto [lower, upper] = feet.of(plane.tiles.lower + size * place, size);
-            triangles.forget(lower, upper, answers.data());
+            shared.push_back(feet.of(plane.tiles.lower + size * place, size));
         }
+        bulk_ranges(ex, static_cast<std::size_t>(grid.columns - 1), 32, [&](std::size_t first, std::size_t last) {
+            const auto left = static_cast<int>(first), right = static_cast<int>(last);
+            triangles.find(left, right, answers.data(), level_);
+            for (const auto& [lower, upper] : shared) triangles.forget(lower, upper, left, right, answers.data());
+        });
         return answers;
     }
 
@@ -15978,7 +15990,6 @@ class exact_occlusion {
   private:
     static constexpr std::size_t most_points = 65536;
     static constexpr std::uint32_t no_caster = invalid_id, several_casters = invalid_id - 1;
-    static constexpr double shared_mesh_grid_error = 0x1p-12;  ///< see shared_mesh::grid_error
 
     struct plane_state {
         detail::light_plane plane;
@@ -17265,14 +17276,18 @@ class overhead_painter {
         out_.stats.seabed_rows = field_.heights.height();
     }
 
-    /// The lattice of the bottom's vertices, if none is missing and float holds their coordinates exactly.
+    /// The lattice of the bottom's vertices, if none is missing and float holds their coordinates to 2^-12 steps.
     void find_bottom_grid() {
         const glm::ivec2 size(field_.heights.width(), field_.heights.height());
         const glm::ivec2 last = bottom_first_ + size;
         const int farthest = (std::max)((std::max)(-bottom_first_.x, last.x), (std::max)(-bottom_first_.y, last.y));
         if (has_gaps_ || farthest >= 1 << 11) return;
-        bottom_grid_ = regular_grid{
-            size.x, size.y, field_.spacing * glm::dvec2(bottom_first_), {field_.spacing, 0}, {0, field_.spacing}, true};
+        bottom_grid_ = regular_grid{.columns = size.x,
+                                    .rows = size.y,
+                                    .origin = field_.spacing * glm::dvec2(bottom_first_),
+                                    .right = {field_.spacing, 0},
+                                    .up = {0, field_.spacing},
+                                    .off = 0x1p-23 * farthest};  // rounded to float, in either direction
     }
 
     /// The multiples of the spacing over a part of the ground, counted from the rig's position: the position of a

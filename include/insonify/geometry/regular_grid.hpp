@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <limits>
 #include <optional>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -29,21 +29,21 @@ struct regular_grid {
     glm::dvec2 origin{0}, right{0}, up{0};  ///< metres, in the mesh's frame
     /// Cells are cut from vertex (i, j) to (i + 1, j + 1), or else from (i + 1, j) to (i, j + 1).
     bool is_rising = true;
+    double off = 0x1p-12;  ///< how far vertices may lie beside their places, in steps
 };
 
 namespace detail::inline INSONIFY_FLAGS {
 
 /// Compares numbers, Period of them a block, with what goes on in equal steps from block to block.
-template <class T, int Period>
+template <int Period>
 struct pattern_kernel {
     struct term {
-        T start, step;  ///< in the first block, and from block to block
-        T tolerance;    ///< how far off it may be
+        std::uint32_t start, step;  ///< in the first block, and from block to block
     };
-    const T* numbers;
+    const std::uint32_t* numbers;
     std::size_t blocks;
     const term (&pattern)[static_cast<unsigned>(Period)];
-    std::atomic<bool>& differs;  ///< set if a number is farther off, or isn't one
+    std::atomic<bool>& differs;  ///< set if a number is another
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -55,27 +55,25 @@ struct pattern_kernel {
     /// N blocks are Period vectors.
     template <int N>
     INSONIFY_INLINE bool differ(std::size_t first, std::size_t last) const {
-        using numbers_of = lanes<T, N>;
+        using numbers_of = lanes<std::uint32_t, N>;
         constexpr auto period = static_cast<unsigned>(Period);
-        numbers_of block[period], start[period], step[period], tolerance[period];
+        numbers_of block[period], start[period], step[period];
         unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
             for (int k = 0; k < N; ++k) {
                 const int at = v * N + k;
                 const term& t = pattern[at % Period];
-                set_lane(block[v], k, static_cast<T>(at / Period));
+                set_lane(block[v], k, static_cast<std::uint32_t>(at / Period));
                 set_lane(start[v], k, t.start);
                 set_lane(step[v], k, t.step);
-                set_lane(tolerance[v], k, t.tolerance);
             }
         });
         lanes<std::int32_t, N> wrong{};
         for (std::size_t i = first; i < last; i += N) {
-            const T before = static_cast<T>(i);
+            const auto before = static_cast<std::uint32_t>(i);
             unroll<Period>([&](int v) INSONIFY_INLINE_LAMBDA {
                 numbers_of number;
                 load(number, numbers + i * Period + static_cast<std::size_t>(v * N));
-                const numbers_of off = number - (start[v] + (block[v] + before) * step[v]);
-                wrong |= lanes<std::int32_t, N>((off > tolerance[v]) | (off < 0 - tolerance[v]) | (off != off));
+                wrong |= lanes<std::int32_t, N>(number != start[v] + (block[v] + before) * step[v]);
             });
         }
         return any(wrong);
@@ -124,7 +122,7 @@ struct cell_cut {
 inline namespace INSONIFY_FLAGS {
 
 /// The regular grid that a mesh's vertices lie on, if they do and all heights are finite.
-/// @param off  by which share of a step vertices may lie beside the lattice
+/// @param off  how far vertices may lie beside their places, in steps; the grid tells how far they do
 template <executor_argument E = serial_executor>
 std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, double off = 1.0 / 256) {
     if (m.triangles.size() < 2) return std::nullopt;
@@ -144,29 +142,34 @@ std::optional<regular_grid> regular_grid_of(const mesh_view& m, E&& ex = {}, dou
     const double area = grid.right.x * grid.up.y - grid.right.y * grid.up.x;
     if (!(cut->is_mirrored ? area < 0 : area > 0)) return std::nullopt;  // written so that NaN doesn't pass
     const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
-    const double shorter = numeric::square_root((std::min)(square(grid.right), square(grid.up)));
-    const auto tolerance = static_cast<float>(shorter * off);
+    const double shorter = numeric::square_root((std::min)(square(grid.right), square(grid.up))),
+                 longer = numeric::square_root((std::max)(square(grid.right), square(grid.up)));
 
     std::atomic<bool> differs = false;
-    bulk_ranges(ex, rows, 16, [&](std::size_t first, std::size_t last) {
+    constexpr std::size_t grain = 16;
+    std::vector<double> farthest((rows + grain - 1) / grain, 0);  // of some rows' vertices from their places, squared
+    bulk_ranges(ex, rows, grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t j = first; j < last && !differs; ++j) {
             const glm::dvec2 start = grid.origin + static_cast<double>(j) * grid.up;
-            const detail::pattern_kernel<float, 3>::term along[3] = {
-                {static_cast<float>(start.x), static_cast<float>(grid.right.x), tolerance},
-                {static_cast<float>(start.y), static_cast<float>(grid.right.y), tolerance},
-                {0, 0, (std::numeric_limits<float>::max)()}};
-            dispatch(detail::pattern_kernel<float, 3>{&m.positions[j * columns].x, columns, along, differs},
-                     best_isa());
+            for (std::size_t i = 0; i < columns; ++i) {
+                const std::size_t vertex = j * columns + i;
+                const double distance = square(place(vertex) - (start + static_cast<double>(i) * grid.right));
+                farthest[j / grain] = (std::max)(farthest[j / grain], distance);
+                // Written so that NaN doesn't pass.
+                if (!(distance <= shorter * off * (shorter * off) && numeric::is_finite(m.positions[vertex].z)))
+                    differs = true;
+            }
             if (j + 1 == rows) continue;
             const auto corner = static_cast<std::uint32_t>(j * columns);
-            detail::pattern_kernel<std::uint32_t, 6>::term cells[6];
-            for (int i = 0; i < 6; ++i) cells[i] = {cell[i / 3][i % 3] + corner, 1, 0};
-            dispatch(detail::pattern_kernel<std::uint32_t, 6>{&m.triangles[j * 2 * (columns - 1)].x, columns - 1, cells,
-                                                              differs},
+            detail::pattern_kernel<6>::term cells[6];
+            for (int i = 0; i < 6; ++i) cells[i] = {cell[i / 3][i % 3] + corner, 1};
+            dispatch(detail::pattern_kernel<6>{&m.triangles[j * 2 * (columns - 1)].x, columns - 1, cells, differs},
                      best_isa());
         }
     });
     if (differs) return std::nullopt;
+    // Across a step lies the other one's line, nearer than its length where the lattice is oblique.
+    grid.off = numeric::square_root(*std::max_element(farthest.begin(), farthest.end())) * longer / numeric::abs(area);
     return grid;
 }
 

@@ -46,7 +46,7 @@ class exact_occlusion {
         if (const auto* parallel = std::get_if<directional_light>(&light)) {
             const light_frame frame(*parallel);
             for (std::size_t i = 0; i < casters_.size(); ++i)
-                if (is_swept(casters_[i])) grids_[i].emplace(casters_[i], frame, shared_mesh_grid_error, level_, ex);
+                if (is_swept(casters_[i])) grids_[i].emplace(casters_[i], frame, level_, ex);
             const detail::light_plane plane(frame);
             glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
             for (int i = 0; i < 8; ++i) {
@@ -98,10 +98,8 @@ class exact_occlusion {
         const detail::lit_grid& grid = grids_[caster]->grid();
         const detail::horizon_triangles triangles = grids_[caster]->triangles(eye);
         insonify::detail::uninitialized_vector<known> answers(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
-        bulk_ranges(ex, static_cast<std::size_t>(grid.columns - 1), 32, [&](std::size_t first, std::size_t last) {
-            triangles.find(static_cast<int>(first), static_cast<int>(last), answers.data(), level_);
-        });
         // Where others may cast, too, points decide.
+        std::vector<std::pair<glm::dvec2, glm::dvec2>> shared;
         const plane_state& plane = planes_.front();
         const detail::ray_feet feet(plane.plane, c.placement, grid);
         for (std::size_t tile = 0; tile < plane.tiles.count(); ++tile) {
@@ -109,9 +107,13 @@ class exact_occlusion {
             const glm::dvec2 size = plane.tiles.tile();
             const auto columns = static_cast<std::size_t>(plane.tiles.columns);
             const glm::dvec2 place(static_cast<double>(tile % columns), static_cast<double>(tile / columns));
-            const auto [lower, upper] = feet.of(plane.tiles.lower + size * place, size);
-            triangles.forget(lower, upper, answers.data());
+            shared.push_back(feet.of(plane.tiles.lower + size * place, size));
         }
+        bulk_ranges(ex, static_cast<std::size_t>(grid.columns - 1), 32, [&](std::size_t first, std::size_t last) {
+            const auto left = static_cast<int>(first), right = static_cast<int>(last);
+            triangles.find(left, right, answers.data(), level_);
+            for (const auto& [lower, upper] : shared) triangles.forget(lower, upper, left, right, answers.data());
+        });
         return answers;
     }
 
@@ -166,7 +168,6 @@ class exact_occlusion {
   private:
     static constexpr std::size_t most_points = 65536;
     static constexpr std::uint32_t no_caster = invalid_id, several_casters = invalid_id - 1;
-    static constexpr double shared_mesh_grid_error = 0x1p-12;  ///< see shared_mesh::grid_error
 
     struct plane_state {
         detail::light_plane plane;

@@ -110,3 +110,20 @@ TEST_CASE("Meshes that are no regular grid are not taken for one") {
         m.triangles[61] = other.triangles[61];
     }));
 }
+
+TEST_CASE("A regular grid tells how far its vertices lie beside their places, in its own steps") {
+    // Exact in float: steps of (1, 0.5) and (-0.5, 0.25), whose parallelogram has an area of 0.5.
+    in::mesh m = grid_of(9, 9);
+    for (std::size_t i = 0; i < m.positions.size(); ++i) {
+        const auto column = static_cast<float>(i % 9), row = static_cast<float>(i / 9);
+        m.positions[i].x = column - 0.5f * row;
+        m.positions[i].y = 0.5f * column + 0.25f * row;
+    }
+    CHECK(in::regular_grid_of(m).value().off == 0);
+    m.positions[40].x -= 0x1p-10f;  // by 2^-11 steps of the first kind and -2^-10 of the other
+    const double off = in::regular_grid_of(m).value().off;
+    CHECK(off >= 0x1p-10);
+    CHECK(off < 0x1p-8);
+    // Decimal steps are rounded to float.
+    CHECK(in::regular_grid_of(grid_of(9, 9)).value().off < 1e-6);
+}

@@ -1,5 +1,6 @@
 // Heightfields on a grid as casters: triangles known to be lit or dark, against single rays, and the number of points
 // that need a test in doubles.
+#include <insonify/geometry/cube.hpp>
 #include <insonify/geometry/shared_mesh.hpp>
 #include <insonify/seabed/models.hpp>
 #include <insonify/seabed/sample.hpp>
@@ -74,6 +75,38 @@ TEST_CASE("A triangle that is known to be lit or dark is so at all of its points
     CHECK(known > all / 2);
 }
 
+TEST_CASE("Where another caster may shade a seabed, its triangles are known no longer") {
+    in::serial_executor serial;
+    std::size_t lit = 0, shaded = 0;
+    double azimuth = 35;
+    for (const double elevation : {6.0, 25.0, 60.0})
+        for (int turn = 0; turn < 4; ++turn) {
+            azimuth += 88;
+            const shadow::directional_light light = parallel(azimuth, elevation);
+            const swept_seabed bottom(recipes[0], 65, light);
+            const in::affine place{glm::dmat3(1), {0.2, -0.1, 0.4}};
+            const lit::mesh box(in::to_mesh(in::cube{.size = glm::vec3(0.3f)}), light, place);
+            const shadow::caster casters[] = {lit::caster_of(*box, place), bottom.caster()};
+            const auto built = shadow::exact{}.build(casters, light, {{{-1.5, -1.5, -1}, {1.5, 1.5, 1}}}, serial);
+            const auto answers = built.known_triangles(1, {0.3, -0.2, 5}, serial);
+            CAPTURE(elevation, azimuth);
+            int wrong = 0;
+            for (std::uint32_t i = 0; i < answers.size(); ++i) {
+                const glm::dvec3 a = bottom.surface.corner(i, 0), b = bottom.surface.corner(i, 1),
+                                 c = bottom.surface.corner(i, 2), centre = (a + b + c) / 3.0;
+                const bool is_shaded =
+                    box.is_blocked(a) || box.is_blocked(b) || box.is_blocked(c) || box.is_blocked(centre);
+                if (is_shaded) ++shaded;
+                if (answers[i] == shadow::known::nothing) continue;
+                wrong += is_shaded ? 1 : 0;
+                if (answers[i] == shadow::known::lit) ++lit;
+            }
+            CHECK(wrong == 0);
+        }
+    CHECK(shaded > 500);
+    CHECK(lit > 10 * shaded);  // few others are left to their points
+}
+
 TEST_CASE("Few points of a seabed need a triangle test, and all agree with rays") {
     in::serial_executor serial;
     double azimuth = 50;
@@ -82,8 +115,8 @@ TEST_CASE("Few points of a seabed need a triangle test, and all agree with rays"
             azimuth += 77;
             const shadow::directional_light light = parallel(azimuth, elevation);
             const swept_seabed bottom(recipe, 65, light);
-            const shadow::detail::grid_caster caster(bottom.caster(), shadow::light_frame(light), 0x1p-12,
-                                                     in::best_isa(), serial);
+            const shadow::detail::grid_caster caster(bottom.caster(), shadow::light_frame(light), in::best_isa(),
+                                                     serial);
             const lit::point_list own = bottom.surface.facing(400, 3);
             CAPTURE(recipe.legend().front().name, elevation, azimuth);
             int wrong = 0;

@@ -13,13 +13,12 @@ namespace shadow::detail::inline INSONIFY_FLAGS {
 /// A heightfield on a regular grid under parallel light. Light and camera are above it (skip::facing_its_own).
 class grid_caster {
   public:
-    /// @param off  by which vertices may lie beside the lattice, in steps
     template <executor E>
-    grid_caster(const caster& c, const light_frame& frame, double off, isa level, E& ex)
+    grid_caster(const caster& c, const light_frame& frame, isa level, E& ex)
         : mesh_(c.mesh),
           to_mesh_(inverse(c.placement)),
           travel_(transform_direction(to_mesh_, -frame.to_light())),
-          bounds_(mesh_, *c.grid, travel_, off, level, ex),
+          bounds_(mesh_, *c.grid, travel_, level, ex),
           blocks_(bounds_.grid(), bounds_.heights(), level, ex) {}
 
     /// Whether it blocks the light of one of its own points that faces the light.

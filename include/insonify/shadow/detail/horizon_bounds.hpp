@@ -247,16 +247,15 @@ struct horizon_kernel {
 /// Which of a heightfield's own points are lit, dark, or left to an exact test.
 class horizon_bounds {
   public:
-    /// @param m       the mesh, a regular grid whose vertices lie within `off` steps of the lattice
+    /// @param m       the mesh, on the lattice
     /// @param travel  where the light goes, in the mesh's frame: down
     template <executor E>
-    horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, double off, isa level,
-                   E& ex)
-        : grid_(lattice, travel), heights_(m, grid_, ex), off_(off) {
+    horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, isa level, E& ex)
+        : grid_(lattice, travel), heights_(m, grid_, ex), off_(lattice.off) {
         const auto greatest = static_cast<double>(heights_.greatest), least = static_cast<double>(heights_.least);
         const double relief = grid_.drop * (greatest - least);
         const double size = grid_.columns + grid_.drop * (std::max)(numeric::abs(greatest), numeric::abs(least));
-        margin_ = 0x1p-21 * size + 4 * off * (2 + relief);
+        margin_ = 0x1p-21 * size + 4 * off_ * (2 + relief);
         first_strip_ = -static_cast<int>(grid_.slope * grid_.columns) - 2;
         strips_ = (grid_.rows - first_strip_ + 1 + 15) / 16 * 16;
         bounds_ = insonify::detail::uninitialized_vector<float>(

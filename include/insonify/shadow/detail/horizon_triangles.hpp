@@ -91,23 +91,32 @@ class horizon_triangles {
             }
     }
 
-    /// Takes the answers back of cells over which others may cast: where rays through some u and w pass within the
-    /// relief.
-    /// @param lower, upper  where such rays meet the plane z = 0, in the grid's own steps
-    void forget(const glm::dvec2& lower, const glm::dvec2& upper, known* into) const {
+    /// Takes the answers back of cells over which others may cast, in some columns: those that a ray meets which passes
+    /// through a rectangle of the plane z = 0.
+    /// @param lower, upper  of the rectangle, in the grid's steps
+    void forget(const glm::dvec2& lower, const glm::dvec2& upper, int first_column, int last_column,
+                known* into) const {
+        // Such rays meet the relief between these columns, and each column between these rows.
         const auto least = static_cast<double>(horizon_.heights().least),
                    greatest = static_cast<double>(horizon_.heights().greatest);
-        const auto held = [](double at, int count) {
-            return static_cast<int>((std::min)((std::max)(at, 0.0), static_cast<double>(count)));
+        const double beside = 0x1p-8 + horizon_.margin();
+        const auto held = [](double at, int first, int last) {
+            return static_cast<int>((std::min)((std::max)(at, static_cast<double>(first)), static_cast<double>(last)));
         };
-        const int left = held(lower.x - grid_.drop * greatest - 2, grid_.columns - 1),
-                  right = held(upper.x - grid_.drop * least + 2, grid_.columns - 1);
-        const double up = grid_.slope * grid_.drop;
-        const int bottom = held(lower.y - up * greatest - 2, grid_.rows - 1),
-                  top = held(upper.y - up * least + 2, grid_.rows - 1);
-        for (int x = left; x < right; ++x)
-            for (int y = bottom; y < top; ++y)
+        const int left = held(lower.x - grid_.drop * greatest - beside - 1, first_column, last_column),
+                  right = held(upper.x - grid_.drop * least + beside + 1, first_column, last_column);
+        for (int x = left; x < right; ++x) {
+            const double up = grid_.slope;
+            const int bottom = held(lower.y - up * (upper.x - x) - beside - 2, 0, grid_.rows - 1),
+                      top = held(upper.y - up * (lower.x - x - 1) + beside + 2, 0, grid_.rows - 1);
+            const float *const here = horizon_.heights().column(x), *const ahead = horizon_.heights().column(x + 1);
+            for (int y = bottom; y < top; ++y) {
+                const auto low = static_cast<double>((std::min)({here[y], here[y + 1], ahead[y], ahead[y + 1]})),
+                           high = static_cast<double>((std::max)({here[y], here[y + 1], ahead[y], ahead[y + 1]}));
+                if (high < lower.x - beside || low > upper.x + beside) continue;
                 into[grid_.first_triangle(x, y)] = into[grid_.first_triangle(x, y) + 1] = known::nothing;
+            }
+        }
     }
 
   private:

@@ -118,14 +118,18 @@ class overhead_painter {
         out_.stats.seabed_rows = field_.heights.height();
     }
 
-    /// The lattice of the bottom's vertices, if none is missing and float holds their coordinates exactly.
+    /// The lattice of the bottom's vertices, if none is missing and float holds their coordinates to 2^-12 steps.
     void find_bottom_grid() {
         const glm::ivec2 size(field_.heights.width(), field_.heights.height());
         const glm::ivec2 last = bottom_first_ + size;
         const int farthest = (std::max)((std::max)(-bottom_first_.x, last.x), (std::max)(-bottom_first_.y, last.y));
         if (has_gaps_ || farthest >= 1 << 11) return;
-        bottom_grid_ = regular_grid{
-            size.x, size.y, field_.spacing * glm::dvec2(bottom_first_), {field_.spacing, 0}, {0, field_.spacing}, true};
+        bottom_grid_ = regular_grid{.columns = size.x,
+                                    .rows = size.y,
+                                    .origin = field_.spacing * glm::dvec2(bottom_first_),
+                                    .right = {field_.spacing, 0},
+                                    .up = {0, field_.spacing},
+                                    .off = 0x1p-23 * farthest};  // rounded to float, in either direction
     }
 
     /// The multiples of the spacing over a part of the ground, counted from the rig's position: the position of a
