@@ -1,7 +1,8 @@
-# The installed package: find_package(insonify) gives the target insonify::insonify.
+# The installed package: find_package(insonify) gives the targets insonify::insonify and insonify::compiled.
 include(${CMAKE_CURRENT_LIST_DIR}/find_glm.cmake)
 if(TARGET insonify::glm)
   include(${CMAKE_CURRENT_LIST_DIR}/insonifyTargets.cmake)
+  include(${CMAKE_CURRENT_LIST_DIR}/compiled.cmake)
 else()
   set(insonify_FOUND FALSE)
   set(insonify_NOT_FOUND_MESSAGE "the GLM headers are missing")

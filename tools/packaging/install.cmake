@@ -14,6 +14,6 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/insonifyConfigVersion.cmake COMPATIBILITY SameMinorVersion
                                  ARCH_INDEPENDENT)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/insonify.pc.in ${PROJECT_BINARY_DIR}/insonify.pc @ONLY)
-install(FILES ${CMAKE_CURRENT_LIST_DIR}/insonifyConfig.cmake ${CMAKE_CURRENT_LIST_DIR}/find_glm.cmake
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/insonifyConfig.cmake ${CMAKE_CURRENT_LIST_DIR}/find_glm.cmake ${CMAKE_CURRENT_LIST_DIR}/compiled.cmake
               ${PROJECT_BINARY_DIR}/insonifyConfigVersion.cmake DESTINATION ${package_dir})
 install(FILES ${PROJECT_BINARY_DIR}/insonify.pc DESTINATION ${CMAKE_INSTALL_DATADIR}/pkgconfig)

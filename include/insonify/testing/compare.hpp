@@ -35,17 +35,21 @@ struct picture_comparison {
 
 namespace detail::inline INSONIFY_FLAGS {
 
-/// A pixel's channels as doubles.
+/// A pixel's channels, as doubles and as text: the shortest that reads back as the same sample.
 template <class Pixel>
 struct channels_of {
     static constexpr int count = 1;
     static double at(const Pixel& p, int) { return static_cast<double>(p); }
+    static std::string text(const Pixel& p) { return to_text(p); }
 };
 template <class Sample>
 struct channels_of<rgb<Sample>> {
     static constexpr int count = 3;
     static double at(const rgb<Sample>& p, int channel) {
         return static_cast<double>(channel == 0 ? p.r : channel == 1 ? p.g : p.b);
+    }
+    static std::string text(const rgb<Sample>& p) {
+        return "(" + to_text(p.r) + " " + to_text(p.g) + " " + to_text(p.b) + ")";
     }
 };
 
@@ -60,14 +64,6 @@ double pixel_distance(const Pixel& a, const Pixel& b) {
         most = off == off ? (std::max)(most, off) : std::numeric_limits<double>::infinity();
     }
     return most;
-}
-
-template <class Pixel>
-std::string pixel_text(const Pixel& p) {
-    std::string text;
-    for (int c = 0; c < channels_of<Pixel>::count; ++c)
-        text += (c == 0 ? "" : " ") + to_text(channels_of<Pixel>::at(p, c));
-    return channels_of<Pixel>::count == 1 ? text : "(" + text + ")";
 }
 
 inline std::string size_text(int width, int height) {
@@ -107,10 +103,12 @@ picture_comparison compare_pictures(const image<Pixel>& found, const image<Pixel
     result.message = to_text(result.wrong) + " of " + to_text(result.pixels) + " pixels differ by more than " +
                      to_text(tolerance.value) + " (" + to_text(tolerance.share) +
                      " of them may); the most at x = " + to_text(result.x) + ", y = " + to_text(result.y) + ": " +
-                     detail::pixel_text(found(result.x, result.y)) + ", expected " +
-                     detail::pixel_text(expected(result.x, result.y));
+                     detail::channels_of<Pixel>::text(found(result.x, result.y)) + ", expected " +
+                     detail::channels_of<Pixel>::text(expected(result.x, result.y)) + ", off by " +
+                     to_text(static_cast<float>(result.largest));
     return result;
 }
+
 /// Where two pictures differ: the expected one in dim gray, on it red where the found one is brighter and blue where it
 /// is darker, full at the largest difference.
 /// @throws invalid_input if the sizes differ

@@ -52,7 +52,10 @@ TEST_CASE("A difference is reported with its place, its values and the number of
     CHECK(result.y == 1);
     CHECK(result.largest == 0.25);
     CHECK(result.message ==
-          "2 of 15 pixels differ by more than 0.1 (0 of them may); the most at x = 3, y = 1: 0.75, expected 0.5");
+          "2 of 15 pixels differ by more than 0.1 (0 of them may); the most at x = 3, y = 1: 0.75, expected 0.5, "
+          "off by 0.25");
+    found(3, 1) = 0.1f;  // in the digits of a float
+    CHECK(in::compare_pictures(found, slope(5, 3)).message.ends_with(": 0.1, expected 0.5, off by 0.4"));
 }
 
 TEST_CASE("A tolerance includes its own value, for pixels and for the fraction of them") {

@@ -1,0 +1,13 @@
+# Gives the target insonify::compiled, the compiled form: a static library of the one unit that compiles what draws, built
+# when something links it, by optimized code whatever the build type. Read by the build and by the installed package.
+get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
+if(TARGET insonify_compiled OR NOT CXX IN_LIST languages)
+  return()
+endif()
+
+file(CONFIGURE OUTPUT insonify_compiled.cpp CONTENT "#define INSONIFY_IMPLEMENTATION\n#include <insonify/insonify.hpp>\n" @ONLY)
+add_library(insonify_compiled STATIC EXCLUDE_FROM_ALL ${CMAKE_CURRENT_BINARY_DIR}/insonify_compiled.cpp)
+add_library(insonify::compiled ALIAS insonify_compiled)
+target_link_libraries(insonify_compiled PUBLIC insonify::insonify)
+target_compile_definitions(insonify_compiled INTERFACE INSONIFY_COMPILED)
+target_compile_options(insonify_compiled PRIVATE $<IF:$<CXX_COMPILER_ID:MSVC>,/O2,-O2>)
