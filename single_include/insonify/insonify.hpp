@@ -14599,7 +14599,7 @@ class horizon_bounds {
         bounds_ = insonify::detail::uninitialized_vector<float>(
             2 * static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(strips_),
             insonify::detail::memory_of(ex));
-        bulk_ranges(ex, static_cast<std::size_t>(strips_), 128, [&](std::size_t from, std::size_t to) {
+        bulk_ranges(ex, static_cast<std::size_t>(strips_), 64, [&](std::size_t from, std::size_t to) {
             insonify::detail::dispatch(
                 horizon_kernel{grid_, heights_, first_strip_, static_cast<int>(from), static_cast<int>(to), strips_,
                                static_cast<float>(margin_), bounds_.data()},
