@@ -19,7 +19,7 @@ _insonify_generate() {
         --out | --reference | --heightmap | --plan | --config) COMPREPLY=($(compgen -f -- "$current")) && return ;;
     esac
     if [ "$values" ]; then
-        # Lists are written with commas: only the last word is completed.
+        # Lists are separated by commas: complete the last item.
         local done=
         [[ $current == *,* ]] && done=${current%,*},
         COMPREPLY=($(compgen -P "$done" -W "$values" -- "${current##*,}"))

@@ -1,9 +1,9 @@
-# Sourced by the tools: finds or installs what a build needs.
+# Sourced by the tools: finds or installs build dependencies.
 #
-#   need <name>...   checks that each is present; on Debian and Ubuntu installs what is missing, elsewhere says what to install
-#   ways             fills the array `generator` with CMake's options for the best build program at hand
-#   explain "$@"     with --help among the arguments: prints the comment at the top of the tool, and ends it
-#   refuse <option>  ends the tool: it has no such option
+#   need <name>...   checks dependencies; installs missing ones on Debian and Ubuntu, lists their packages elsewhere
+#   build_options    sets the array `generator` to CMake options for ninja and ccache, and the number of parallel jobs
+#   explain "$@"     prints the comment at the top of the tool and exits, if --help is among the arguments
+#   refuse <option>  exits with an error for an unknown option
 
 set -u -o pipefail
 export LC_ALL=C
@@ -72,7 +72,7 @@ present() {
             command) command -v "$candidate" >/dev/null && return 0 ;;
             python) python3 -c "import $candidate" 2>/dev/null && return 0
                 /usr/bin/python3 -c "import $candidate" 2>/dev/null && return 0 ;;
-            clang) # a flag, and the library behind it; the fuzzer brings main()
+            clang) # links a program with the flag; libFuzzer provides main()
                 echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
                     clang++ "$candidate" -x c++ - -o /dev/null 2>/dev/null && return 0
                 ;;
@@ -90,7 +90,7 @@ present() {
     return 1
 }
 
-# The table's rows of those named that are missing.
+# Prints the rows of `requirements` for named dependencies that are missing.
 missing() {
     local name probe packages
     while read -r name probe packages; do
@@ -98,7 +98,7 @@ missing() {
     done <<<"$requirements"
 }
 
-# Installs Debian packages, as root or through sudo, updating the lists only if they lack a package.
+# Installs Debian packages as root or by sudo; updates the package lists only if that fails.
 install_debian() {
     local root=()
     [ "$(id -u)" = 0 ] || root=(sudo)
@@ -118,13 +118,13 @@ need() {
         [ -n "$rows" ] || return 0
     fi
     {
-        echo "Missing, with the packages that bring it:"
+        echo "Missing dependencies, and their packages:"
         awk '{printf "  %-13s Debian, Ubuntu: %-20s Fedora: %-18s Homebrew: %s\n", $1, $3, $4, $5}' <<<"$rows"
     } >&2
     return 1
 }
 
-ways() {
+build_options() {
     generator=()
     if command -v ninja >/dev/null; then generator=(-G Ninja); fi
     if command -v ccache >/dev/null; then generator+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi

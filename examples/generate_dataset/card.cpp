@@ -8,7 +8,7 @@ namespace generator {
 
 namespace {
 
-constexpr std::size_t most_words = 50;
+constexpr std::size_t max_words = 50;
 
 std::string shown(double value) {
     char text[32];
@@ -16,7 +16,7 @@ std::string shown(double value) {
     return text;
 }
 
-/// A name that neither ends a cell of a table nor is a tag.
+/// Escapes text for a cell of a Markdown table.
 std::string cell(const std::string& text) {
     std::string safe;
     for (const char c : text) {
@@ -43,7 +43,7 @@ void data_card::add(const json& record) {
             c.sum += v;
         } else {
             const std::string word = value.is_string() ? value.get<std::string>() : value.dump();
-            if (c.words.size() < most_words || c.words.contains(word)) ++c.words[word];
+            if (c.words.size() < max_words || c.words.contains(word)) ++c.words[word];
         }
         ++c.count;
     }
@@ -59,8 +59,8 @@ std::string data_card::text(const json& config) const {
                     " files of images and masks, " + number(bytes_) + " bytes. Made by `generate_dataset`, " +
                     config.at("version").get<std::string>() + ", recipe " + config.value("recipe", "published") +
                     ", seed " + config.at("seed").dump() +
-                    ".\nEvery pixel is computed: there is no recording of a sea floor in it.\n\n"
-                    "`config.json` holds what decides the bytes; image i depends on it and on i alone. "
+                    ".\nEvery pixel is computed; none comes from a recording.\n\n"
+                    "`config.json` decides every byte; image i depends on it and on i alone. "
                     "`sha256sum -c SHA256SUMS`\nchecks the tables, `generate_dataset ... --verify` each file.\n";
     t += "\n## Samples\n\n| class | first image |\n|---|---|\n";
     for (const auto& [name, image] : samples_) t += "| " + cell(name) + " | ![" + cell(name) + "](" + image + ") |\n";
@@ -74,10 +74,11 @@ std::string data_card::text(const json& config) const {
         }
         std::string list;
         for (const auto& [word, count] : c.words) list += (list.empty() ? "" : ", ") + cell(word) + " " + number(count);
-        counts += "| " + cell(name) + " | " + list + (c.words.size() == most_words ? ", and others" : "") + " |\n";
+        counts += "| " + cell(name) + " | " + list + (c.words.size() == max_words ? ", and others" : "") + " |\n";
     }
     t += "\n## Counts\n\n| parameter | images |\n|---|---|\n" + counts;
-    t += "\n## What was sampled\n\n| parameter | images | lowest | mean | highest |\n|---|---|---|---|---|\n" + numbers;
+    t += "\n## Sampled parameters\n\n| parameter | images | lowest | mean | highest |\n|---|---|---|---|---|\n" +
+         numbers;
     t += "\n## Recipe\n\n| option | value |\n|---|---|\n";
     for (const auto& [name, value] : config.items())
         if (name != "inputs") t += "| " + cell(name) + " | " + cell(value.dump()) + " |\n";

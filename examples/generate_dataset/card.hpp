@@ -1,4 +1,4 @@
-// README.md of a data set: what it holds and how to make it again, for a person who finds the folder.
+// README.md of a data set: what it holds and how to make it again.
 #pragma once
 
 #include <map>
@@ -11,6 +11,7 @@ namespace generator {
 
 using json = nlohmann::ordered_json;
 
+/// Collects statistics of all records.
 class data_card {
   public:
     void add(const json& record);
@@ -20,12 +21,12 @@ class data_card {
     struct column {
         std::uint64_t count = 0;
         double lowest = 0, highest = 0, sum = 0;
-        std::map<std::string, std::uint64_t> words;  ///< the first 50 and how often they are there
+        std::map<std::string, std::uint64_t> words;  ///< counts of the first 50 distinct values
     };
     std::uint64_t images_ = 0, bytes_ = 0, files_ = 0;
-    std::vector<std::string> names_;  ///< of columns, as records have them
+    std::vector<std::string> names_;  ///< of columns, in the order of the records
     std::map<std::string, column> columns_;
-    std::map<std::string, std::string> samples_;  ///< by class: the first image
+    std::map<std::string, std::string> samples_;  ///< first image of each class
 };
 
 }  // namespace generator

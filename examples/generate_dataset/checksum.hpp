@@ -1,4 +1,4 @@
-// SHA-256, as lower-case hexadecimal digits: what `sha256sum` prints.
+// SHA-256 as lower-case hexadecimal digits, as `sha256sum` prints it.
 #pragma once
 
 #include <memory>
@@ -7,12 +7,12 @@
 
 namespace generator {
 
-/// Of bytes that come in pieces.
+/// SHA-256 of bytes added in pieces.
 class sha256_sum {
   public:
     sha256_sum();
     void add(std::string_view bytes);
-    /// To be called once, at the end.
+    /// The digits. Call once, at the end.
     std::string digits();
 
   private:

@@ -1,4 +1,4 @@
-// Reader of --config files: lines of `option = value`. Refuses anything else, which CLI11 would skip.
+// Reader of --config files: lines of `option = value`. Anything else is refused; CLI11 would skip it silently.
 #pragma once
 
 #include <sstream>
@@ -8,6 +8,7 @@
 
 namespace generator {
 
+/// CLI11's TOML reader behind a stricter check.
 class strict_config : public CLI::ConfigTOML {
   public:
     explicit strict_config(const CLI::App& app) : app_(app) {}
@@ -45,7 +46,7 @@ class strict_config : public CLI::ConfigTOML {
             std::string name = CLI::detail::trim_copy(line.substr(0, equals)),
                         value = CLI::detail::trim_copy(line.substr(equals + 1));
             if (app_.get_option_no_throw("--" + name) == nullptr || name == "config" || name == "help")
-                refuse(number, "'" + shortened(name) + "' is no option; --help lists them");
+                refuse(number, "'" + shortened(name) + "' is not an option; --help lists them");
             if (value.empty()) refuse(number, "'" + name + "' has no value");
             value = CLI::detail::trim_copy(value.substr(0, value.find('#')));
             if (value == "[") refuse(number, "'" + name + " = [': begin the list on this line");
@@ -61,7 +62,7 @@ class strict_config : public CLI::ConfigTOML {
     const CLI::App& app_;
 };
 
-/// A plain file of at most a mebibyte.
+/// Accepts a regular file of at most 1 MiB.
 inline CLI::Validator config_file() {
     return CLI::Validator(
         [](std::string& path) -> std::string {

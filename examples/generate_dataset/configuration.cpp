@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of the folder and of what is drawn into it: raised with each change of either.
+/// Version of the folder's layout and of the recipes.
 constexpr int format = 4;
 
 std::string version() {
@@ -19,7 +19,7 @@ std::string version() {
            text(INSONIFY_VERSION_PATCH);
 }
 
-/// "\n  name was a, is b" for each member that differs; for inputs, each input.
+/// A line "name was a, is b" for each member that differs; inputs are compared one by one.
 std::string differences(const json& before, const json& now, const std::string& within = "") {
     std::string text;
     const auto add = [&](const std::string& name, const json* was, const json* is) {
@@ -92,7 +92,7 @@ json configuration_of(const options& o, const std::vector<input>& inputs) {
 json shards_of(const options& o) {
     json shards{{"first", o.first}, {"count", o.count}, {"shards", o.shard.of}};
     if (!o.table || !o.table->has_ids()) return shards;
-    // A plan may leave ids out: runs of them, the first and the last.
+    // The ids of a plan may have gaps: list the first and last of each run.
     json& runs = shards["ids"] = json::array();
     for (std::uint64_t i = o.first; i < o.first + o.count; ++i) {
         const std::uint64_t id = image_id(o, i);
@@ -116,7 +116,7 @@ json pinned(const fs::path& root, const std::string& name) {
 void pin(const fs::path& root, const std::string& name, const json& now, staging& into) {
     json before = pinned(root, name);
     if (before.is_null()) {
-        if (into.put_first({name, now.dump(2, ' ', false, json::error_handler_t::replace) + "\n"})) return;
+        if (into.write_if_absent({name, now.dump(2, ' ', false, json::error_handler_t::replace) + "\n"})) return;
         before = pinned(root, name);
     }
     check_pinned(root, before, now);
@@ -126,7 +126,7 @@ void check_pinned(const fs::path& root, const json& before, const json& now) {
     const std::string text = differences(before, now);
     if (!text.empty())
         throw insonify::io_error(root.string() + ": holds a data set of another configuration:" + text +
-                                 "\nName another folder, or run with the values that it has.");
+                                 "\nName another folder, or use the same options.");
 }
 
 }  // namespace generator

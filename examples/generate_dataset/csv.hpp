@@ -9,7 +9,7 @@
 
 namespace generator {
 
-/// A cell: quoted where it must be.
+/// A cell, quoted if necessary.
 inline std::string csv_cell(std::string_view text) {
     if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
     std::string quoted = "\"";
@@ -17,11 +17,11 @@ inline std::string csv_cell(std::string_view text) {
     return quoted + '"';
 }
 
-/// Reads a table record by record. Lines end with LF or CR LF; empty lines are skipped. Blanks around a cell without
-/// quotes do not count.
+/// Reads a table record by record. Lines end with LF or CR LF; empty lines are skipped, as are blanks around unquoted
+/// cells.
 class csv_reader {
   public:
-    static constexpr std::size_t most_cells = 4096;  ///< of a line
+    static constexpr std::size_t max_cells = 4096;  ///< per line
 
     /// @param name  of the table, for errors
     /// @param text  outlives the reader
@@ -31,7 +31,7 @@ class csv_reader {
     }
 
     /// Reads the next record. @returns false at the end of the table
-    /// @throws io_error, with the line and the column's number, for what is no table
+    /// @throws io_error, with the numbers of line and column, for malformed text
     bool next(std::vector<std::string>& cells) {
         while (at_ < text_.size() && (text_[at_] == '\n' || text_.substr(at_).starts_with("\r\n"))) end_line();
         if (at_ >= text_.size()) return false;
@@ -39,7 +39,7 @@ class csv_reader {
         cells.clear();
         for (;;) {
             const std::size_t column = cells.size() + 1;
-            if (column > most_cells) fail(column, "is one too many; a line has at most 4096 cells");
+            if (column > max_cells) fail(column, "is one too many; a line has at most 4096 cells");
             cells.push_back(at_ < text_.size() && text_[at_] == '"' ? quoted(column) : plain(column));
             if (at_ >= text_.size()) return true;
             if (text_[at_] != ',') break;

@@ -1,4 +1,4 @@
-// Looks into the files of an image: whether they decode, and show what the annotations say.
+// Decodes the files of an image and compares masks with annotations.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace generator {
 
-/// What is wrong with the bytes of a PNG that belongs to a record.
+/// Why a file of a record does not decode or contradicts the annotations; empty if it is right.
 std::optional<std::string> decode_fault(const std::string& bytes, const std::string& name,
                                         const nlohmann::ordered_json& record, const nlohmann::ordered_json& entry);
 

@@ -1,18 +1,18 @@
-// From plan to picture: builds the scene, renders it, and gives it the look that was asked for.
+// Draws an image of the published recipe: scene, rendering, histogram matching, noise and colour.
 #pragma once
 
 #include <insonify/insonify.hpp>
 
-#include "facts.hpp"
 #include "masked_match.hpp"
 #include "plan.hpp"
-#include "stock.hpp"
+#include "shared_inputs.hpp"
+#include "target_geometry.hpp"
 
 namespace generator {
 
 namespace in = insonify;
 
-inline in::seabed::any seabed_of(const plan& p, const stock& shared) {
+inline in::seabed::any seabed_of(const plan& p, const shared_inputs& shared) {
     const auto relief = static_cast<float>(p.relief);
     const auto wavelength = static_cast<float>(p.wavelength);
     const in::seabed::ripples ripples{.wavelength = wavelength,
@@ -29,22 +29,22 @@ inline in::seabed::any seabed_of(const plan& p, const stock& shared) {
     return in::seabed::flat{.seed = p.seabed_seed};
 }
 
-/// Of the sonar that makes speckle, metres a second and hertz.
+/// Sonar parameters that decide the speckle, metres per second and hertz.
 inline constexpr double sound_speed = 1500, frequency = 450e3;
 
-/// A finished image with the numbers that the labels want.
-struct drawn {
+/// A finished image with its labels and measurements.
+struct rendered_image {
     in::labels labels;
-    in::image<float> values;  ///< what is shown, before 8 bits and colour
+    in::image<float> values;  ///< before quantization to 8 bits and colour
     in::image<in::rgb8> color;
-    in::image<std::uint8_t> gray;  ///< used where the colour map is gray
+    in::image<std::uint8_t> gray;  ///< empty with a colour map other than gray
     in::pose placement;
-    glm::dvec2 rig{0, 0};  ///< of the camera, or of a sonar at the first ping
-    facts known;
+    glm::dvec2 rig{0, 0};  ///< position of the camera, or of the sonar at the first ping
+    target_geometry geometry;
 };
 
 /// The target in its own frame: length along x, width along y, height along z.
-inline in::mesh target_of(const plan& p, const stock& shared) {
+inline in::mesh target_of(const plan& p, const shared_inputs& shared) {
     const auto [length, width, height] = std::tuple(p.extents.x, p.extents.y, p.extents.z);
     const auto of = [](double metres) { return static_cast<float>(metres); };
     const auto scaled = [](in::mesh m, double x, double y, double z) {
@@ -65,8 +65,9 @@ inline in::mesh target_of(const plan& p, const stock& shared) {
                   factor(height, unit.z));
 }
 
-/// Level first, tilted in place then: what one end rises, the other sinks in, and no light passes below.
-inline in::pose laid_down(const plan& p, const in::scene& scene, const in::mesh& shape, const glm::dvec2& ground) {
+/// Rests the level target on the seabed, then tilts it about its centre: one end sinks in as the other rises, and no
+/// light passes below.
+inline in::pose resting_pose(const plan& p, const in::scene& scene, const in::mesh& shape, const glm::dvec2& ground) {
     in::pose placement =
         in::rest_on(scene.seabed, shape, {.position = glm::dvec3(ground, 0), .yaw = static_cast<float>(p.yaw)});
     placement.pitch = static_cast<float>(p.pitch);
@@ -75,17 +76,17 @@ inline in::pose laid_down(const plan& p, const in::scene& scene, const in::mesh&
     return placement;
 }
 
-/// Where the rig's work is: a heightmap lies where it lies, everything else is endless.
-inline glm::dvec2 place_of(const plan& p, const stock& shared) {
+/// World position of the image: the centre of a heightmap, or the plan's position on an unbounded seabed.
+inline glm::dvec2 world_position(const plan& p, const shared_inputs& shared) {
     if (p.seabed != "heightmap") return {p.place_x, p.place_y};
     const in::seabed::heightfield& map = shared.heightmap();
     return map.origin + 0.5 * map.spacing * glm::dvec2(map.heights.width() - 1, map.heights.height() - 1);
 }
 
-/// The image before noise, in [0, 1], as the paper's camera takes it.
-inline in::image<float> photograph(const options& o, const plan& p, const stock& shared, in::scene& scene, drawn& d,
-                                   auto& ex) {
-    in::overhead rig{.position = place_of(p, shared),
+/// Renders the overhead camera of the paper; pixels are in [0, 1], without noise.
+inline in::image<float> render_overhead(const options& o, const plan& p, const shared_inputs& shared, in::scene& scene,
+                                        rendered_image& d, auto& ex) {
+    in::overhead rig{.position = world_position(p, shared),
                      .altitude = static_cast<float>(p.altitude),
                      .yaw = static_cast<float>(p.rig_yaw),
                      .size = {o.size, o.size},
@@ -102,19 +103,19 @@ inline in::image<float> photograph(const options& o, const plan& p, const stock&
     const glm::dvec2 ground =
         rig.position + glm::dvec2(offset.x * cosine - offset.y * sine, offset.x * sine + offset.y * cosine);
     const in::mesh shape = target_of(p, shared);
-    d.placement = laid_down(p, scene, shape, ground);
+    d.placement = resting_pose(p, scene, shape, ground);
     scene.add(shape, d.placement, p.class_name, {static_cast<float>(o.reflectivity)});
 
     auto frame = in::render(scene, rig, {}, ex);
     d.labels = std::move(frame.labels);
-    d.known = facts_of(view, scene.targets.front(), d.labels.targets.front());
+    d.geometry = geometry_of(view, scene.targets.front(), d.labels.targets.front());
     return std::move(frame.image);
 }
 
-/// The same as a side-scan sonar hears it: `ping` by range, or laid out on the bottom.
+/// Renders a side-scan recording, in slant or ground range.
 template <in::across_track Axis>
-in::image<float> recording_of(const options& o, const plan& p, const stock& shared, in::scene& scene, drawn& d,
-                              auto& ex) {
+in::image<float> render_side_scan(const options& o, const plan& p, const shared_inputs& shared, in::scene& scene,
+                                  rendered_image& d, auto& ex) {
     const double ground_range = p.distance * p.altitude, pixel = o.chip / o.size;
     const double centre = Axis == in::across_track::slant_range
                               ? in::range_geometry::slant_range(ground_range, p.altitude)
@@ -128,12 +129,12 @@ in::image<float> recording_of(const options& o, const plan& p, const stock& shar
                                 .range = static_cast<float>(first + o.chip),
                                 .bins = o.size,
                                 .side = p.port ? in::side::port : in::side::starboard};
-    // The target lies at the place, and the track beside it.
-    const glm::dvec2 ground = place_of(p, shared);
+    // The target is at the world position; the track is beside it.
+    const glm::dvec2 ground = world_position(p, shared);
     rig.position = ground - in::ping_frame(in::ping_of(rig, 0), rig.side).world(ground_range, p.along * o.chip);
     d.rig = rig.position;
     const in::mesh shape = target_of(p, shared);
-    d.placement = laid_down(p, scene, shape, ground);
+    d.placement = resting_pose(p, scene, shape, ground);
     scene.add(shape, d.placement, p.class_name, {static_cast<float>(o.reflectivity)});
 
     const in::horizontal_beam beam{static_cast<float>(p.beam)};
@@ -142,7 +143,7 @@ in::image<float> recording_of(const options& o, const plan& p, const stock& shar
     for (float& intensity : heard.image.pixels()) intensity += static_cast<float>(p.noise);
     for (const noise_step& step : noise_steps(o))
         if (step.kind == "seabed") {
-            // The speckle of neighbouring pings is alike as long as the beam makes it so.
+            // The beamwidth decides over how many pings the speckle stays correlated.
             const double slant = in::range_geometry::slant_range(ground_range, p.altitude);
             const double pings = beam.speckle_length(slant, sound_speed / frequency) / pixel;
             heard = in::with_speckle(std::move(heard),
@@ -150,18 +151,18 @@ in::image<float> recording_of(const options& o, const plan& p, const stock& shar
                                      ex);
         }
     d.labels = std::move(heard.labels);
-    d.known = facts_of(rig, scene.targets.front(), d.labels.targets.front());
+    d.geometry = geometry_of(rig, scene.targets.front(), d.labels.targets.front());
     return in::apply(std::move(heard.image), in::display{.white = static_cast<float>(p.white)}, ex);
 }
 
-inline drawn draw(const options& o, const plan& p, const stock& shared, auto& ex) {
+inline rendered_image draw(const options& o, const plan& p, const shared_inputs& shared, auto& ex) {
     in::scene scene;
     scene.seabed = seabed_of(p, shared);
-    drawn result{};
+    rendered_image result{};
     in::image<float> look =
-        o.mode == "slant_range"    ? recording_of<in::across_track::slant_range>(o, p, shared, scene, result, ex)
-        : o.mode == "ground_range" ? recording_of<in::across_track::ground_range>(o, p, shared, scene, result, ex)
-                                   : photograph(o, p, shared, scene, result, ex);
+        o.mode == "slant_range"    ? render_side_scan<in::across_track::slant_range>(o, p, shared, scene, result, ex)
+        : o.mode == "ground_range" ? render_side_scan<in::across_track::ground_range>(o, p, shared, scene, result, ex)
+                                   : render_overhead(o, p, shared, scene, result, ex);
     const auto add = [&](const auto& filter) { look = in::apply(std::move(look), filter, ex); };
     if (p.referenced && o.match == "masked")
         look = match_masked(std::move(look), shadows_of(result.labels), shared.reference(p.reference));

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Many chips in one process: memory and rate stay what they were: endurance_test.py <generate_dataset>
+"""Memory and rate stay constant over many chips in one process: endurance_test.py <generate_dataset>
 
 INSONIFY_CHIPS: how many (2000; tools/test --full: 100000). INSONIFY_CHIP_SIZE: their pixels (32). Processor time is
 measured, not the clock's, for each hundredth of the set; other programs disturb it upwards alone, so the lower fifth
@@ -58,7 +58,7 @@ def main():
     memory = [megabytes for _, _, megabytes in seen]
     tenth = len(milliseconds) // 10
     early, late = lower_fifth(milliseconds[:len(milliseconds) // 2]), lower_fifth(milliseconds[len(milliseconds) // 2:])
-    # The first tenth warms up; from there on the largest memory counts.
+    # The first tenth is a warm-up; the maximum memory is measured after it.
     before, after = memory[tenth], max(memory[tenth:])
     print(f"{COUNT} chips of {SIZE} pixels in {seconds:.0f} s, {seen[-1][1]:.0f} s of a core: {early:.2f} ms a chip in "
           f"the first half, {late:.2f} in the second; {before:.1f} MB after a tenth, {after:.1f} at most from there on")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The generator at the end of each call that touches a file: faults_test.py <generate_dataset>
+"""Kills the generator at, or fails, each system call that touches a file: faults_test.py <generate_dataset>
 
 A preloaded library counts these calls in all threads, and at the N-th one kills the process (with half of a write done)
 or lets it, and all that follow, fail. Whatever happens, the folder holds no record without its files, and the same
@@ -141,7 +141,7 @@ class Faults(unittest.TestCase):
         return int(count.read_text())
 
     def check_rest(self, out):
-        """A record that is there has its files; the same command completes the set to the same bytes."""
+        """Every existing record has its files, and the same command completes the set to the same bytes."""
         for record in (self.folder / out / "records").rglob("*.json"):
             for file in json.loads(record.read_text())["files"]:
                 self.assertEqual(hashlib.sha256((self.folder / out / file["path"]).read_bytes()).hexdigest(),
@@ -159,13 +159,13 @@ class Faults(unittest.TestCase):
             count = self.folder / "count"
             if self.run_with("killed", at=at, count=count).returncode == -9:
                 killed += 1
-            else:  # threads vary, and with them the number of calls: this run ended before the N-th
+            else:  # the number of calls varies with the threads: this run ended before the N-th
                 self.assertLess(int(count.read_text()), at)
             self.check_rest("killed")
         self.assertGreater(killed, len(range(1, total + 1, STEP)) // 2)
         print(f"{killed} runs killed at {total} calls")
 
-    def test_each_call_fails_that_writes_and_those_after_it(self):
+    def test_all_writes_fail_from_each_call_on(self):
         total = self.calls(at=0, errno=errno.EIO)
         failed = 0
         for reason in errno.ENOSPC, errno.EROFS, errno.EDQUOT, errno.EIO, errno.EMFILE:
@@ -180,18 +180,18 @@ class Faults(unittest.TestCase):
         self.assertGreater(failed, 5 * len(range(1, total + 1, STEP)) // 2)
         print(f"{failed} runs failed at {total} calls")
 
-    def test_a_single_call_fails(self):
+    def test_each_call_fails_once(self):
         total = self.calls(at=0, errno=errno.EIO)
         for at in range(1, total + 1, STEP):
             self.run_with("once", at=at, errno=errno.EIO, once=1)
             self.check_rest("once")
 
-    def test_a_clock_that_jumps_changes_no_byte(self):
+    def test_a_clock_jump_changes_no_byte(self):
         result = self.run_with("clock", clock=1)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.whole, digest(self.folder / "clock"))
 
-    def test_a_reference_that_vanishes_or_changes_is_named(self):
+    def test_a_missing_or_changed_reference_is_named(self):
         look = self.folder / "look.pgm"
         good = look.read_bytes()
         shutil.copytree(self.folder / "whole", self.folder / "looks")
@@ -208,7 +208,7 @@ class Faults(unittest.TestCase):
             look.write_bytes(good)
         self.assertEqual(self.whole, digest(self.folder / "looks"))
 
-    def test_torn_and_flipped_files_are_made_again(self):
+    def test_truncated_and_corrupted_files_are_repaired(self):
         chance = random.Random(4)
         for name in sorted(set(self.whole) - {"config.json"})[::max(1, STEP // 8)]:
             shutil.copytree(self.folder / "whole", self.folder / "torn")

@@ -16,7 +16,7 @@ fs::path opened(const std::string& out) {
     std::error_code failed;
     fs::create_directories(root, failed);
     if (failed) throw insonify::io_error(out + ": can't make this folder: " + failed.message());
-    // What a run leaves that was killed before it wrote config.json; `config.json.tmp0` is of an older version.
+    // Leftovers of a run that was killed before it wrote config.json; older versions left `config.json.tmp0`.
     std::string foreign;
     for (const auto& entry : fs::directory_iterator(root)) {
         const std::string name = entry.path().filename().string();
@@ -25,7 +25,7 @@ fs::path opened(const std::string& out) {
         else if (name != ".lock" && name != ".partial" && !name.starts_with(".nfs"))
             foreign = name;
     }
-    // In this order: another process may begin the set in between.
+    // Checked in this order, since another process may start the set in between.
     if (!foreign.empty() && !fs::exists(root / "config.json"))
         throw insonify::io_error(out + ": is not empty and holds no data set (" + foreign + "); name another folder");
     return root;

@@ -1,4 +1,4 @@
-// Opens the folder of a data set, for a generator or a merge.
+// Opens the folder of a data set.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +6,11 @@
 
 namespace generator {
 
-/// The folder of a data set, made if need be.
-/// @throws io_error if it can't be made, or holds something else
+/// The folder of a data set, created if necessary.
+/// @throws io_error if it can't be created, or holds something else
 std::filesystem::path opened(const std::string& out);
 
-/// Without a slash at the end.
+/// The path without a trailing slash.
 std::filesystem::path folder_path(const std::string& out);
 
 }  // namespace generator

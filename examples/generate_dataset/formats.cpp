@@ -40,9 +40,9 @@ void append_to_string(png_structp png, png_bytep data, png_size_t size) {
     }
 }
 
-/// libpng reports errors by a jump, which runs no destructors: everything here is a plain pointer or number.
+/// libpng reports errors by longjmp, which runs no destructors: all locals here are trivial.
 /// @param samples  big-endian, row by row
-/// @returns whether there was enough memory
+/// @returns false if memory ran out
 bool encode_png16(const png_byte* samples, int width, int height, std::string* bytes) {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
@@ -107,11 +107,13 @@ std::string format_fault(const std::string& of, const std::string& bytes, int si
     if (of == "npy") {
         const std::string header = npy_header(size, size);
         const auto pixels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
-        return bytes.starts_with(header) && bytes.size() == header.size() + 4 * pixels ? "" : "is no array of its size";
+        return bytes.starts_with(header) && bytes.size() == header.size() + 4 * pixels
+                   ? ""
+                   : "is not an array of the image's size";
     }
     if (of == "pfm") {
         const auto picture = insonify::parse_netpbm<float>(bytes, of);
-        return picture.width() == size && picture.height() == size ? "" : "is not of its size";
+        return picture.width() == size && picture.height() == size ? "" : "does not have the image's size";
     }
     png_image picture{};
     picture.version = PNG_IMAGE_VERSION;
@@ -120,7 +122,7 @@ std::string format_fault(const std::string& of, const std::string& bytes, int si
         return std::string("does not decode: ") + picture.message;
     if (picture.format != PNG_FORMAT_LINEAR_Y || picture.width != static_cast<png_uint_32>(size) ||
         picture.height != static_cast<png_uint_32>(size)) {
-        fault = "is no gray PNG of 16 bits and of its size";
+        fault = "is not a 16-bit gray PNG of the image's size";
     } else {
         std::vector<png_uint_16> pixels(PNG_IMAGE_SIZE(picture) / 2);
         if (png_image_finish_read(&picture, nullptr, pixels.data(), 0, nullptr) == 0)

@@ -1,4 +1,5 @@
-// The files that a data set is made from, read once: what is drawn from and what is pinned are the same bytes.
+// The input files of a data set. Each is read once, so that the bytes that are drawn are the bytes whose checksum is
+// pinned.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +11,17 @@
 
 namespace generator {
 
-/// What config.json pins of an input. The folder it lies in doesn't count.
+/// An input as config.json pins it: by name and content, not by folder.
 struct input {
     std::string option, name;  ///< `--mesh wreck`, `wreck.obj`
     std::uint64_t bytes;
     std::string sha256;
 };
 
-/// Reads inputs, and keeps account of them.
+/// Reads input files and lists them.
 class input_reader {
   public:
-    /// @param limit  bytes of the largest input
+    /// @param limit  maximum size of a file, bytes
     explicit input_reader(std::uint64_t limit) : limit_(limit) {}
 
     /// @throws io_error, with the option, for a file that can't be read
@@ -34,7 +35,7 @@ class input_reader {
         add(option, path, bytes);
         return bytes;
     }
-    /// Keeps account of what was read elsewhere.
+    /// Lists a file that was read elsewhere.
     void add(const std::string& option, const std::string& path, const std::string& bytes) {
         list_.push_back({option, std::filesystem::path(path).filename().string(), bytes.size(), sha256(bytes)});
     }
@@ -50,7 +51,7 @@ class input_reader {
     std::vector<input> list_;
 };
 
-/// The pictures that `--reference` names, folders opened, in the order of their names.
+/// The pictures that `--reference` names; those of a folder are sorted by name.
 /// @throws io_error for a folder without pictures
 inline std::vector<std::string> picture_paths(const std::vector<std::string>& references) {
     namespace fs = std::filesystem;

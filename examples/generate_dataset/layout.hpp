@@ -1,14 +1,14 @@
-// Where things lie in the folder of a data set.
+// Paths in the folder of a data set.
 //
-//     config.json                                   what decides its bytes: recipe, seed, version, contents of inputs
-//     images/<class>/<block>/<id>.png               a class folder holds all images of a class, at any depth
+//     config.json                                   recipe, seed, version and input checksums; decides every byte
+//     images/<class>/<block>/<id>.png               all images of a class
 //     masks/<block>/<id>_{target,shadow,seabed}.png
-//     records/<block>/<id>.json                     one for each image; written last, so that it vouches for the files
-//     annotations.json  manifest.csv  SHA256SUMS    tables of all records, and their own checksums
-//     shards.json                                   while the set is made by shards and is not joined yet
-//     .partial/  .lock                              files in the making, and the lock of those that make them
+//     records/<block>/<id>.json                     one per image; written last, so that its files are complete
+//     annotations.json  manifest.csv  SHA256SUMS    tables of all records, and checksums of the tables
+//     shards.json                                   present until the shards are merged
+//     .partial/  .lock                              unfinished files, and the lock of running generators
 //
-// An id is the index of the image with nine digits, so that names sort as numbers; a block holds a thousand ids.
+// An id is the image's index padded to nine digits, so that names sort numerically. A block holds a thousand ids.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace generator {
 
-inline constexpr std::uint64_t most_images = 1'000'000'000;
+inline constexpr std::uint64_t max_images = 1'000'000'000;
 
 inline std::string id_of(std::uint64_t index) {
     const std::string digits = std::to_string(index);
@@ -37,7 +37,7 @@ inline std::string record_path(std::uint64_t index) {
     return "records/" + block_of(index) + "/" + id_of(index) + ".json";
 }
 
-/// A file that is yet to be written.
+/// Path and contents of a file to write.
 struct file {
     std::string path, bytes;
 };

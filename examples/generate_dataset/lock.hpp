@@ -1,5 +1,5 @@
-// File locks that keep two generators from making the same images at the same time. On file systems without locks the
-// work is done twice, with the same bytes.
+// File locks that keep two generators from making the same images. On file systems without locks both make them, with
+// the same bytes.
 #pragma once
 
 #include <insonify/io/file.hpp>
@@ -38,7 +38,7 @@ class folder_lock {
             return;
         }
         ::close(handle_);
-        throw insonify::io_error(folder.string() + ": another generator is at work in this folder" +
+        throw insonify::io_error(folder.string() + ": another generator is running in this folder" +
                                  (shard < 0 ? "" : ", on shard " + std::to_string(shard)) +
                                  "; wait for it to end, or name another folder");
 #else

@@ -28,17 +28,16 @@ void request_stop(int signal) {
     stop_signal = signal;
 }
 
-/// Lets the memory that one file is packed in serve the next, instead of going back to the system, which would have to
-/// clear thousands of pages for every image.
+/// Keeps freed memory in the process: returned to the system, each image would fault thousands of pages in again.
 void keep_freed_memory() {
 #if defined(__GLIBC__)
-    ::mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most there is
+    ::mallopt(M_MMAP_THRESHOLD, 32 << 20);  // glibc's maximum
     ::mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
 }
 
-/// Calls `fn(next)` once on each thread, where `next()` is the next index of the range that no thread has, and
-/// `work.last` at the end or after a signal. The first exception stops all.
+/// Calls `fn(next)` once per thread. `next()` takes the next index of the range, and returns `work.last` at the end or
+/// after a signal. The first exception stops all threads.
 void for_each_index(insonify::thread_pool& pool, const generator::index_range& work, const auto& fn) {
     std::atomic<std::uint64_t> next = work.first;
     pool.bulk(static_cast<std::size_t>(pool.threads()), [&](std::size_t) {
@@ -54,8 +53,8 @@ void for_each_index(insonify::thread_pool& pool, const generator::index_range& w
     });
 }
 
-/// Checks each file of the set, and changes nothing.
-int verify(const generator::options& o, const generator::stock& shared, insonify::thread_pool& pool) {
+/// Checks each file of the set without changing any.
+int verify(const generator::options& o, const generator::shared_inputs& shared, insonify::thread_pool& pool) {
     const std::filesystem::path root = generator::folder_path(o.out);
     const generator::json before = generator::pinned(root, "config.json");
     if (before.is_null()) throw insonify::io_error(o.out + ": --verify: holds no data set");
@@ -83,28 +82,28 @@ int verify(const generator::options& o, const generator::stock& shared, insonify
     return faults > 0 ? 1 : 0;
 }
 
-/// Says what is about to be made. Few images are not worth an estimate, which draws some of them.
-void describe(const generator::options& o, const generator::stock& shared, int threads) {
+/// Prints what the run will make. A small set gets no estimate, since estimating draws images.
+void describe(const generator::options& o, const generator::shared_inputs& shared, int threads) {
     const generator::index_range work = generator::range_of(o.first, o.count, o.shard);
     generator::image_cost cost;
     if (o.dry_run || work.size() >= 256) cost = generator::measured_cost(o, work, shared);
     std::fputs(generator::summary_of(o, work, cost, threads).c_str(), o.dry_run ? stdout : stderr);
 }
 
-int generate(const generator::options& o, const generator::stock& shared, insonify::thread_pool& pool) {
+int generate(const generator::options& o, const generator::shared_inputs& shared, insonify::thread_pool& pool) {
     const std::filesystem::path root = generator::opened(o.out);
     const generator::folder_lock lock(root, o.shard.given ? static_cast<std::int64_t>(o.shard.number) : -1);
     if (!lock.without().empty())
-        std::fprintf(stderr, "%s: has no locks (%s); two runs that make the same images do them twice\n", o.out.c_str(),
-                     lock.without().c_str());
+        std::fprintf(stderr, "%s: no file locks here (%s); concurrent runs may make the same images twice\n",
+                     o.out.c_str(), lock.without().c_str());
     generator::staging into(root, o.shard.given ? "shard" + std::to_string(o.shard.number) : "all");
     generator::pin(root, "config.json", generator::configuration_of(o, shared.inputs()), into);
     if (o.shard.given)
         generator::pin(root, "shards.json", generator::shards_of(o), into);
     else if (std::filesystem::exists(root / "shards.json"))
-        throw insonify::io_error(o.out + ": is made by shards: go on with --shard, or join them with tools/merge");
+        throw insonify::io_error(o.out + ": is made in shards: continue with --shard, or join them with tools/merge");
 
-    // Whole images run side by side, each by itself on one thread: encoding a PNG is as long as drawing it, and serial.
+    // One image per thread: encoding a PNG is serial and takes as long as drawing it.
     const generator::index_range work = generator::range_of(o.first, o.count, o.shard);
     describe(o, shared, pool.threads());
     examples::progress bar(work.size());
@@ -133,7 +132,7 @@ int generate(const generator::options& o, const generator::stock& shared, insoni
     std::printf(", %llu of them new, %.2f images/s\n", number(made), static_cast<double>(made) / bar.elapsed());
     if (!o.shard.given) std::fputs(generator::where_to_look(o).c_str(), stdout);
     if (stop_signal != 0 && bar.done() < work.size()) {
-        std::fprintf(stderr, "Stopped; the same command goes on from here.\n");
+        std::fprintf(stderr, "Stopped; the same command continues from here.\n");
         return 128 + stop_signal;
     }
     return 0;
@@ -143,15 +142,15 @@ int generate(const generator::options& o, const generator::stock& shared, insoni
 
 int main(int argc, char** argv) try {
     const generator::options o = generator::parse(argc, argv);
-    const generator::stock shared(o);
+    const generator::shared_inputs shared(o);
     generator::check_plan(o, shared);
     std::signal(SIGINT, request_stop);
     std::signal(SIGTERM, request_stop);
-    generator::set_packing();
+    generator::set_png_compression();
     keep_freed_memory();
     insonify::thread_pool pool(o.threads);
     if (pool.threads() < o.threads)
-        std::fprintf(stderr, "--threads %d: the system started %d of them\n", o.threads, pool.threads());
+        std::fprintf(stderr, "--threads %d: the system started only %d\n", o.threads, pool.threads());
     if (o.dry_run) return describe(o, shared, pool.threads()), 0;
     return o.verify ? verify(o, shared, pool) : generate(o, shared, pool);
 } catch (const std::exception& error) {

@@ -1,7 +1,8 @@
-// Histogram matching that keeps shadows dark: shadows take the reference's darkest part, the rest takes the rest.
+// Histogram matching that keeps shadows dark: shadow pixels are matched with the darkest part of the reference, the
+// others with the rest.
 //
-// Matched as a whole, a picture's darkest pixels become the reference's darkest, however many of either there are: a
-// picture with fewer shadows than its reference gets dark bottoms, one with more gets gray shadows with ripples inside.
+// Matching all pixels as one depends on the area of the shadows: a picture with fewer shadows than the reference gets a
+// dark bottom, one with more gets gray shadows with ripples inside.
 #pragma once
 
 #include <insonify/insonify.hpp>
@@ -41,8 +42,8 @@ inline in::image<std::uint8_t> shadows_of(const in::labels& l) {
     return mask;
 }
 
-/// Of a real picture so much is shadow: what a picture has more of is as dark.
-inline constexpr double darkest_part = 0.05;
+/// Upper bound of the share of a reference that is taken as shadow.
+inline constexpr double max_shadow_share = 0.05;
 
 /// @param dark  255 where a pixel is in shadow
 inline in::image<float> match_masked(in::image<float> picture, in::image<std::uint8_t> dark,
@@ -50,10 +51,10 @@ inline in::image<float> match_masked(in::image<float> picture, in::image<std::ui
     std::uint64_t shadows = 0;
     for (const std::uint8_t d : dark.pixels()) shadows += d != 0;
     const double share = std::min(
-        darkest_part, static_cast<double>(shadows) / static_cast<double>(std::max<std::size_t>(dark.size(), 1)));
+        max_shadow_share, static_cast<double>(shadows) / static_cast<double>(std::max<std::size_t>(dark.size(), 1)));
     const split_distribution parts =
         split_at(reference, static_cast<std::uint64_t>(share * static_cast<double>(reference.total())));
-    // Of few pixels, either part may be empty: then the whole serves both.
+    // With few pixels a part may be empty: match all of them with the whole reference.
     if (parts.dark.total() == 0 || parts.bright.total() == 0)
         return std::move(picture) | in::match_histogram(reference);
     picture = std::move(picture) | in::where(dark.view(), in::match_histogram(parts.dark));

@@ -1,4 +1,4 @@
-// merge_dataset: joins the shards of a data set, that lie in one folder or in several. See --help, and tools/merge.
+// merge_dataset: joins the shards of a data set, which are in one folder or in several. See --help and tools/merge.
 #include <cstdio>
 
 #include "../common/refusal.hpp"
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using generator::json;
 using insonify::io_error;
 
-/// The files of an image, and last its record.
+/// The files of an image; the record is the last one.
 /// @throws io_error if the image is not complete
 std::vector<generator::file> read_image(const fs::path& from, std::uint64_t index) {
     if (const auto fault = generator::fault_of(from, index, false))
@@ -32,8 +32,8 @@ std::vector<generator::file> read_image(const fs::path& from, std::uint64_t inde
     return files;
 }
 
-/// Copies what `root` lacks of another folder.
-void take(const fs::path& root, const fs::path& from, generator::staging& into) {
+/// Copies the images that `root` lacks from another folder.
+void copy_missing(const fs::path& root, const fs::path& from, generator::staging& into) {
     if (!fs::exists(from / "config.json")) throw io_error(from.string() + ": holds no data set");
     for (const char* const name : {"config.json", "shards.json"}) {
         const json theirs = generator::pinned(from, name);
@@ -47,11 +47,11 @@ void take(const fs::path& root, const fs::path& from, generator::staging& into) 
     files.finish();
 }
 
-/// @throws io_error that names what the shards have not made yet
+/// @throws io_error that lists the shards with missing images
 void check_complete(const fs::path& root, const json& shards) {
     const auto first = shards.at("first").get<std::uint64_t>(), count = shards.at("count").get<std::uint64_t>(),
                of = shards.at("shards").get<std::uint64_t>();
-    std::vector<std::uint64_t> ids;  // of a plan that leaves some out
+    std::vector<std::uint64_t> ids;  // of a plan whose ids have gaps
     for (const json& run : shards.value("ids", json::array()))
         for (auto id = run.at(0).get<std::uint64_t>(); id <= run.at(1).get<std::uint64_t>() && ids.size() < count; ++id)
             ids.push_back(id);
@@ -101,7 +101,7 @@ int main(int argc, char** argv) try {
     std::uint64_t images = 0;
     {
         generator::staging into(root, "all");
-        for (const std::string& folder : folders) take(root, generator::folder_path(folder), into);
+        for (const std::string& folder : folders) copy_missing(root, generator::folder_path(folder), into);
         const json config = generator::pinned(root, "config.json");
         if (config.is_null()) throw io_error(out + ": holds no data set; name the folders of its shards, too");
         if (const json shards = generator::pinned(root, "shards.json"); !shards.is_null()) check_complete(root, shards);

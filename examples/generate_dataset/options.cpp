@@ -22,38 +22,38 @@ std::vector<noise_step> noise_steps(const options& o) {
 
 namespace {
 
-/// Help without the validators' shorthand: what a value may be is said in words.
+/// Help without the validators' shorthand: the descriptions state the allowed values.
 struct plain_formatter : CLI::Formatter {
     plain_formatter() { column_width(30); }
     std::string make_option_opts(const CLI::Option* option) const override {
-        return option->get_expected_max() == 0 ? "" : option->get_required() ? " VALUE (needed)" : " VALUE";
+        return option->get_expected_max() == 0 ? "" : option->get_required() ? " VALUE (required)" : " VALUE";
     }
 };
 
-/// Ranges that are fine one by one may be too much together.
+/// Checks combinations of ranges.
 void check_geometry(const options& o) {
     const auto text = [](double value) { return insonify::detail::to_text(value); };
     if (o.is_overhead()) {
         if (o.chip > 1000 * o.altitude.low)
             throw CLI::ValidationError("--chip", text(o.chip) + " m from an --altitude of " + text(o.altitude.low) +
-                                                     " m is wider than a camera sees; take at most 1000 altitudes");
+                                                     " m exceeds the field of view; use at most 1000 altitudes");
         return;
     }
     const double farthest = (o.distance.high + 1) * o.altitude.high + o.chip;
     if (farthest > 1e5)
         throw CLI::ValidationError("--distance", text(o.distance.high) + " times an --altitude of " +
                                                      text(o.altitude.high) + " m, and a --chip of " + text(o.chip) +
-                                                     " m, end beyond 100000 m; take less of one of them");
+                                                     " m, exceed 100000 m; reduce one of them");
 }
 
 options parsed(int argc, const char* const* argv,
                const std::function<void(const CLI::App&, const CLI::ParseError&)>& refuse) {
     options o;
     CLI::App app{
-        "Makes labelled side-scan sonar images: for every image a target on a seabed, camera and light posed,\n"
-        "rendered, given the look of a reference, and written with its masks.\n\n"
-        "Image i depends on the seed and i alone. A run checks what is there by checksum, repairs what is not what it\n"
-        "was, and goes on where another one stopped.",
+        "Makes labelled side-scan sonar images: targets on seabeds, with masks, boxes and parameters.\n\n"
+        "Image i depends on the seed and i alone. A run verifies existing files by checksum, repairs damaged ones, "
+        "and\n"
+        "continues where an earlier run stopped.",
         "generate_dataset"};
     app.footer(
         "A range is low:high, or one number. Examples:\n"
@@ -79,142 +79,138 @@ options parsed(int argc, const char* const* argv,
     const CLI::Validator seabed_names = CLI::IsMember({"ripples", "mud", "rock", "sand", "mixed", "heightmap"});
 
     const char* const what = "What to make";
-    app.add_option("--out", o.out, "Folder of the data set; made if need be")
+    app.add_option("--out", o.out, "Folder of the data set; created if missing")
         ->required()
-        ->check([](const std::string& name) { return name.empty() ? "this is no folder's name" : ""; })
+        ->check([](const std::string& name) { return name.empty() ? "an empty name is not a folder" : ""; })
         ->group(what);
-    app.add_option("--count", o.count, "How many images (24)")->check(whole_number(1, most_images))->group(what);
+    app.add_option("--count", o.count, "How many images (24)")->check(whole_number(1, max_images))->group(what);
     app.add_option("--first", o.first, "Index of the first image (0)")
-        ->check(whole_number(0, most_images - 1))
+        ->check(whole_number(0, max_images - 1))
         ->group(what);
-    app.add_option(
-           "--shard", shard,
-           "K/N: of N contiguous shares of the set, make that with number K, from 0. N alone: K is the number of\n"
-           "this task in a job array, SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX. tools/merge joins the shards")
+    app.add_option("--shard", shard,
+                   "K/N: make shard K of N, counted from 0. N alone: K is the index of this task in a job array,\n"
+                   "SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX. tools/merge joins the shards")
         ->group(what);
-    app.add_flag("--verify", o.verify, "Make nothing; check every file of the set, and decode it")->group(what);
-    app.add_flag("--dry-run", o.dry_run,
-                 "Make nothing; say what would be made: counts, size, estimates of time and bytes")
+    app.add_flag("--verify", o.verify, "Check and decode every file of the set; write nothing")->group(what);
+    app.add_flag("--dry-run", o.dry_run, "Print counts, size and estimates of time and bytes; write nothing")
         ->group(what);
-    app.add_option("--seed", o.seed, "Another seed is another data set (1)")
-        ->check(whole_number(0, UINT64_MAX))
-        ->group(what);
-    app.add_option("--size,--pixels", o.size, "Pixels a side (2048; 128 for a sonar's modes)")
+    app.add_option("--seed", o.seed, "Seed of all random values (1)")->check(whole_number(0, UINT64_MAX))->group(what);
+    app.add_option("--size,--pixels", o.size, "Pixels a side (2048; recipe sonar and side-scan modes: 128)")
         ->check(whole_number(16, 16384))
         ->group(what);
-    app.add_option("--threads", o.threads, "0: one for each hardware thread; never changes a byte")
+    app.add_option("--threads", o.threads,
+                   "Number of threads, 0 for one per hardware thread (0); does not change the output")
         ->check(whole_number(0, 1024))
         ->group(what);
-    app.add_option("--input-limit", input_limit, "Largest file taken as an input, MiB (1024)")
+    app.add_option("--input-limit", input_limit, "Maximum size of an input file, MiB (1024)")
         ->check(whole_number(1, 1 << 20))
         ->group(what);
     app.add_option("--format", o.formats,
-                   "Beside PNG of 8 bits: png16, npy, pfm (what an image shows, 16 bits or float), and webdataset\n"
-                   "(tar files of a thousand samples each)")
+                   "In addition to 8-bit PNG: png16, npy, pfm (16 bits or float), webdataset (tar files of a thousand\n"
+                   "samples each)")
         ->delimiter(',')
         ->check(CLI::IsMember(std::vector<std::string>(std::begin(format_names), std::end(format_names))))
         ->group(what);
-    app.add_flag("--preview", o.preview, "Write preview.html, a page to look through the set")->group(what);
-    app.add_flag("--demo", o.demo, "All targets on all seabeds, plain and with a reference")->group(what);
+    app.add_flag("--preview", o.preview, "Write preview.html, a page to browse the set")->group(what);
+    app.add_flag("--demo", o.demo, "Every target on every seabed, plain and matched with a reference")->group(what);
 
     app.add_option("--recipe", o.recipe,
-                   "sonar: wrecks, aeroplanes and bare bottoms as side-scan sonars show them;\n"
-                   "published: the paper's primitives, camera and light, or a sonar's modes over them (sonar)")
+                   "sonar: side-scan images of wrecks, aeroplanes and bare bottoms;\n"
+                   "published: the paper's primitives, camera and light, or side-scan modes (sonar)")
         ->check(CLI::IsMember({"sonar", "published"}))
         ->group(what);
 
-    app.add_option(
-           "--plan", plan,
-           "CSV with a line for each image or target, that gives what is drawn at random otherwise: the\n"
-           "manifest.csv of a set, which makes it again, or a table of targets (id, shape, length, width, height,\n"
-           "orientation), each shown at every aspect on every seabed")
+    app.add_option("--plan", plan,
+                   "CSV with a line for each image or target, whose values replace random ones: the manifest.csv of a\n"
+                   "set, which makes it again, or a table of targets (id, shape, length, width, height, orientation),\n"
+                   "each shown at every aspect on every seabed")
         ->check(CLI::ExistingFile)
         ->group(what);
 
     const char* const scene = "Scene";
     app.add_option("--aspects", aspects,
-                   "first:step:last or a list, degrees from the line of sight: each target at each of them; or random\n"
+                   "Aspects of each target, degrees from the line of sight: first:step:last, a list, or random\n"
                    "(recipe published from overhead: 0:10:350; otherwise random)")
         ->group(scene);
-    app.add_option("--place", o.place,
-                   "Where a picture has its target: at one third, or anywhere (as the recipe has it)")
+    app.add_option("--place", o.place, "Position of the target in the image: third or anywhere (decided by the recipe)")
         ->check(CLI::IsMember({"third", "anywhere"}))
         ->group(scene);
     app.add_option("--visible-share", o.visible_share,
-                   "Recipe sonar: share of its outline that a target shows at least, or it is drawn again (0.1)")
+                   "Recipe sonar: images are redrawn if less than this share of a target's outline is visible (0.1)")
         ->check(number(0, 1))
         ->group(scene);
-    app.add_option("--empty", o.empty, "Recipe sonar: share of images without a target, a class of their own (0.5)")
+    app.add_option("--empty", o.empty, "Recipe sonar: share of images without a target, class `empty` (0.5)")
         ->check(number(0, 1))
         ->group(scene);
     app.add_option("--per-class", o.per_class,
-                   "CLASS=COUNT,...: so many images of each class, one class after the other, instead of taking turns")
+                   "CLASS=COUNT,...: number of images of each class, one class after the other instead of in turn")
         ->delimiter(',')
         ->group(scene);
-    app.add_option("--targets", o.targets, "cylinder,cube,cone,sphere; taken in turn")
+    app.add_option("--targets", o.targets,
+                   "Classes of targets, taken in turn (cylinder,cube,cone,sphere; recipe sonar: ship,plane)")
         ->delimiter(',')
         ->check(target_names)
         ->group(scene);
-    app.add_option("--mesh", o.meshes, "CLASS=FILE.obj: a mesh as a class of its own; repeat for more")->group(scene);
-    app.add_option("--mesh-up", o.mesh_up, "Which axis of the meshes is up: y or z (y)")
+    app.add_option("--mesh", o.meshes, "CLASS=FILE.obj: add a mesh as a class; may be repeated")->group(scene);
+    app.add_option("--mesh-up", o.mesh_up, "Up axis of the meshes: y or z (y)")
         ->check(CLI::IsMember({"y", "z"}))
         ->group(scene);
-    app.add_option("--seabeds", o.seabeds, "ripples,mud,rock,sand,mixed,heightmap; taken in turn")
+    app.add_option("--seabeds", o.seabeds, "Of ripples,mud,rock,sand,mixed,heightmap; taken in turn (ripples,mud,rock)")
         ->delimiter(',')
         ->check(seabed_names)
         ->group(scene);
-    app.add_option("--heightmap", o.heightmap,
-                   "PNG of 8 or 16 bits, PGM or PFM with heights, for the seabed `heightmap`")
+    app.add_option("--heightmap", o.heightmap, "Heights of the seabed `heightmap`: PNG of 8 or 16 bits, PGM or PFM")
         ->check(CLI::ExistingFile)
         ->group(scene);
-    app.add_option("--heightmap-spacing", o.heightmap_spacing, "Metres from pixel to pixel (0.02)")
+    app.add_option("--heightmap-spacing", o.heightmap_spacing, "Metres between pixels (0.02)")
         ->check(number(1e-4, 1e4))
         ->group(scene);
-    app.add_option("--heightmap-scale", o.heightmap_scale, "Metres for a full-scale pixel (1)")
+    app.add_option("--heightmap-scale", o.heightmap_scale, "Height of a full-scale pixel, metres (1)")
         ->check(number(-1e6, 1e6))
         ->group(scene);
-    app.add_option("--target-size", target_size, "Range: height or diameter, metres (0.4:0.8)")->group(scene);
-    app.add_option("--aspect", aspect, "Range: length over what is usual for the kind (0.8:1.25)")->group(scene);
-    app.add_option("--tilt", tilt, "Range: pitch and roll, degrees (-3:3)")->group(scene);
-    app.add_option("--burial", burial, "Range: share of the height that is buried (0.1:0.3)")->group(scene);
+    app.add_option("--target-size", target_size, "Range of height or diameter, metres (0.4:0.8)")->group(scene);
+    app.add_option("--aspect", aspect, "Range of length relative to the usual one of the shape (0.8:1.25)")
+        ->group(scene);
+    app.add_option("--tilt", tilt, "Range of pitch and roll, degrees (-3:3)")->group(scene);
+    app.add_option("--burial", burial, "Range of the buried share of the height (0.1:0.3)")->group(scene);
 
     const char* const rig = "Camera and light, or sonar";
     app.add_option("--mode", o.mode,
-                   "overhead: the paper's camera and light; slant_range: as a side-scan sonar hears it;\n"
-                   "ground_range: the same laid out on the bottom (overhead)")
+                   "overhead: the paper's camera and light; slant_range, ground_range: a side-scan sonar (overhead)")
         ->check(CLI::IsMember({"overhead", "ground_range", "slant_range"}))
         ->group(rig);
     app.add_option("--chip", o.chip,
-                   "Metres a side, the target a third from the left; range grows to the right\n"
-                   "(overhead: 0, all that the camera sees; a sonar's modes: 5)")
+                   "Side of the image, metres; range increases to the right\n"
+                   "(overhead: 0, the field of view; side-scan modes: 5)")
         ->check(number(0, 1e4))
         ->group(rig);
-    app.add_option("--altitude", altitude, "Range: metres above the sea floor (3.5:5; a sonar's: 3:10)")->group(rig);
-    app.add_option("--grazing", grazing, "Range: light above the sea floor, degrees (6)")->group(rig);
-    app.add_option("--distance", distance, "Range: of the target from a sonar's track, in altitudes (2:9)")->group(rig);
-    app.add_option("--beam", beam, "Range: width of a sonar's beam along the track, degrees (0.2:0.5)")->group(rig);
-    app.add_option("--intensity", o.intensity, "Light on a surface that faces it (4)")
+    app.add_option("--altitude", altitude, "Range of altitude, metres (3.5:5; side-scan modes: 3:10)")->group(rig);
+    app.add_option("--grazing", grazing, "Range of the light's grazing angle, degrees (6)")->group(rig);
+    app.add_option("--distance", distance, "Range of the target's distance from the track, in altitudes (2:9)")
+        ->group(rig);
+    app.add_option("--beam", beam, "Range of the along-track beamwidth, degrees (0.2:0.5)")->group(rig);
+    app.add_option("--intensity", o.intensity, "Intensity on a surface that faces the light (4)")
         ->check(number(0, 1e6))
         ->group(rig);
-    app.add_option("--sky", o.sky, "Light from everywhere (0.05)")->check(number(0, 1e6))->group(rig);
-    app.add_option("--reflectivity", o.reflectivity, "Of targets; seabeds have 0.4 to 0.6 (0.9)")
+    app.add_option("--sky", o.sky, "Ambient intensity (0.05)")->check(number(0, 1e6))->group(rig);
+    app.add_option("--reflectivity", o.reflectivity, "Reflectivity of targets; seabeds have 0.4 to 0.6 (0.9)")
         ->check(number(0, 1e6))
         ->group(rig);
 
     const char* const look = "Look";
     app.add_option("--reference", o.references,
-                   "Real image or folder of images to match histograms with; repeat for more")
+                   "Real image or folder of images to match histograms with; may be repeated")
         ->check(CLI::ExistingPath)
         ->group(look);
-    app.add_option(
-           "--match", o.match,
-           "masked: shadows take the reference's darkest part, the rest the rest; whole: all pixels as one (masked)")
+    app.add_option("--match", o.match,
+                   "masked: match shadows with the darkest part of the reference, other pixels with the rest;\n"
+                   "whole: match all pixels together (masked)")
         ->check(CLI::IsMember({"masked", "whole"}))
         ->group(look);
     app.add_option(
            "--noise", o.noise,
-           "none, or a chain: speckle:0.1,gaussian:0.01,poisson:255,rayleigh; seabed, of a sonar's modes alone,\n"
-           "is speckle that depends on the type of bottom (speckle:0.1; a sonar's: seabed)")
+           "none, or a chain: speckle:0.1,gaussian:0.01,poisson:255,rayleigh; side-scan modes also take seabed,\n"
+           "speckle that depends on the type of bottom (speckle:0.1; side-scan modes: seabed)")
         ->delimiter(',')
         ->group(look);
     app.add_option("--colormap", o.colormap, "gray or copper (gray)")
@@ -225,15 +221,15 @@ options parsed(int argc, const char* const* argv,
         app.parse(argc, argv);
         const auto given = [&](const char* name) { return !app.get_option(name)->empty(); };
         o.input_limit = input_limit << 20;
-        if (!plan.empty()) take_plan(o, plan, given);
+        if (!plan.empty()) apply_plan(o, plan, given);
         if (o.is_sonar()) {
-            // What only the other recipe has is refused, not left out in silence.
+            // Options of the other recipe are refused rather than ignored.
             for (const char* const name :
                  {"--demo", "--mesh",         "--heightmap", "--target-size", "--aspect",   "--tilt",    "--burial",
                   "--mode", "--chip",         "--altitude",  "--grazing",     "--distance", "--beam",    "--intensity",
                   "--sky",  "--reflectivity", "--reference", "--match",       "--noise",    "--colormap"})
                 if (given(name))
-                    throw CLI::ValidationError(name, "belongs to --recipe published; the recipe sonar draws its own");
+                    throw CLI::ValidationError(name, "belongs to --recipe published; recipe sonar samples its own");
             if (given("--seabeds") && !o.table)
                 throw CLI::ValidationError("--seabeds", "belongs to --recipe published, or to a --plan");
             if (given("--aspects") && !o.table)
@@ -254,7 +250,7 @@ options parsed(int argc, const char* const* argv,
             if (!given("--noise")) o.noise = {"seabed"};
             o.altitude = {3, 10};
         }
-        take_aspects(o, aspects);
+        apply_aspects(o, aspects);
         const auto take = [](const char* name, const std::string& text, range& into, double lowest, double highest) {
             if (!text.empty()) into = parse_range(name, text);
             if (into.low < lowest || into.high > highest)
@@ -271,7 +267,7 @@ options parsed(int argc, const char* const* argv,
         take("--beam", beam, o.beam, 1e-3, 20);
         for (const noise_step& step : noise_steps(o))
             if (step.kind == "seabed" && o.is_overhead())
-                throw CLI::ValidationError("--noise", "'seabed' is for the sonar's modes: --mode slant_range");
+                throw CLI::ValidationError("--noise", "'seabed' needs a side-scan mode, such as --mode slant_range");
         check_classes(o);
         check_counts(o);
         std::vector<std::string> formats;
@@ -279,21 +275,21 @@ options parsed(int argc, const char* const* argv,
             if (std::find(o.formats.begin(), o.formats.end(), name) != o.formats.end()) formats.push_back(name);
         o.formats = formats;
         if (o.preview && !shard.empty())
-            throw CLI::ValidationError("--preview", "a shard is no whole set; merge it with tools/merge --preview");
+            throw CLI::ValidationError("--preview", "cannot be combined with --shard; use tools/merge --preview");
         const bool needs_map = std::find(o.seabeds.begin(), o.seabeds.end(), "heightmap") != o.seabeds.end();
         if (needs_map && o.heightmap.empty())
             throw CLI::ValidationError("--seabeds", "heightmap needs --heightmap FILE");
         if (!o.heightmap.empty() && !needs_map && !(o.table && o.table->has("seabed"))) o.seabeds = {"heightmap"};
-        if (o.table) count_plan(o, given);
+        if (o.table) apply_plan_count(o, given);
         if (o.demo && !given("--count")) o.count = 24;
         if (!o.per_class.empty() && !given("--count")) {
             o.count = 0;
             for (const class_count& c : class_counts(o)) o.count += c.count;
         }
-        if (o.first + o.count > most_images)
+        if (o.first + o.count > max_images)
             throw CLI::ValidationError("--count", std::to_string(o.count) + " images from --first " +
-                                                      std::to_string(o.first) + " on end above index " +
-                                                      std::to_string(most_images - 1) + "; ids have nine digits");
+                                                      std::to_string(o.first) + " exceed index " +
+                                                      std::to_string(max_images - 1) + "; ids have nine digits");
         if (!shard.empty()) try {
                 o.shard = parse_shard(shard);
             } catch (const std::invalid_argument& error) {
@@ -301,7 +297,7 @@ options parsed(int argc, const char* const* argv,
             }
         if (o.shard.of > o.count)
             throw CLI::ValidationError("--shard", std::to_string(o.shard.of) + " shards are more than --count " +
-                                                      std::to_string(o.count) + "; take at most one for each image");
+                                                      std::to_string(o.count) + "; use at most one per image");
         check_geometry(o);
     } catch (const CLI::ParseError& error) {
         refuse(app, error);

@@ -1,4 +1,4 @@
-// What a data set shall be: everything that the command line and a config file can say.
+// The options of a data set, from the command line or a config file.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace generator {
 
-/// Drawn uniformly for every image; a single value is a range without width.
+/// Bounds of a value that is drawn uniformly for each image; a constant has low == high.
 struct range {
     double low, high;
 };
 
 struct options {
-    // Where, how many and how: these change no byte of an image.
+    // Output: these do not change any image.
     std::string out;
     std::uint64_t first = 0, count = 24;
     generator::shard shard;
@@ -26,15 +26,15 @@ struct options {
     int threads = 0;
     std::uint64_t input_limit = examples::usual_input_limit;  ///< bytes
 
-    // What decides pixels: pinned in the folder's config.json.
+    // Content: these decide the pixels and are pinned in config.json.
 
     std::string recipe = "sonar";             ///< or "published"
-    std::shared_ptr<const plan_table> table;  ///< of `--plan`, or null
-    std::vector<double> aspects;              ///< of each target, degrees; none: at random
-    std::string place;                        ///< of targets: "third", "anywhere", or empty, as the recipe has it
+    std::shared_ptr<const plan_table> table;  ///< `--plan`; null without one
+    std::vector<double> aspects;              ///< shown of each target, degrees; empty: random
+    std::string place;                        ///< of targets: "third", "anywhere" or empty (decided by the recipe)
     std::uint64_t seed = 1;
     int size = 2048;
-    double visible_share = 0.1;          ///< of a target's outline, recipe sonar
+    double visible_share = 0.1;          ///< lower bound, share of a target's outline; recipe sonar
     double empty = 0.5;                  ///< share of images without a target, recipe sonar
     std::vector<std::string> per_class;  ///< class=count
     std::vector<std::string> targets{"cylinder", "cube", "cone", "sphere"};
@@ -45,14 +45,14 @@ struct options {
     double heightmap_spacing = 0.02, heightmap_scale = 1;
     range target_size{0.4, 0.8}, aspect{0.8, 1.25}, tilt{-3, 3}, burial{0.1, 0.3};
     std::string mode = "overhead";
-    double chip = 0;  ///< metres a side; 0: what the camera sees
+    double chip = 0;  ///< metres a side; 0: the field of view
     range altitude{3.5, 5}, grazing{6, 6}, distance{2, 9}, beam{0.2, 0.5};
     double reflectivity = 0.9, intensity = 4, sky = 0.05;
     std::vector<std::string> references;
     std::string match = "masked";
     std::vector<std::string> noise{"speckle:0.1"};
     std::string colormap = "gray";
-    std::vector<std::string> formats;  ///< beside PNG of 8 bits, in the order of `format_names`
+    std::vector<std::string> formats;  ///< in addition to 8-bit PNG, in the order of `format_names`
     bool demo = false;
 
     bool is_overhead() const { return mode == "overhead"; }
@@ -68,11 +68,11 @@ struct noise_step {
 /// The noise chain of valid options.
 std::vector<noise_step> noise_steps(const options& o);
 
-/// Reads the command line. Prints help or an error and exits where there is nothing to generate.
+/// Parses the command line. On --help or an error, prints and exits.
 options parse(int argc, const char* const* argv);
 
-/// The same without printing or exiting.
-/// @throws invalid_input for anything that is no valid command line, --help too
+/// Parses the command line without printing or exiting.
+/// @throws invalid_input for an invalid command line and for --help
 options parse_quietly(int argc, const char* const* argv);
 
 }  // namespace generator

@@ -1,4 +1,5 @@
-// The one unit that draws: what is generic in the library is compiled here, for minutes, and nowhere else.
+// Draws the images of the published recipe. All rendering of the generator is compiled here and in sonar_pictures.cpp,
+// which take minutes.
 #include "pictures.hpp"
 
 #include "../common/png_bytes.hpp"
@@ -17,9 +18,8 @@ double degrees(double radians) {
     return in::numeric::to_degrees(radians);
 }
 
-/// What was drawn from the ranges, what follows from it, and what was measured: a column of manifest.csv each. What has
-/// no meaning in this image is null.
-json parameters_of(const options& o, const plan& p, const drawn& d) {
+/// The columns of manifest.csv: sampled values, derived ones and measurements; null without meaning in this image.
+json parameters_of(const options& o, const plan& p, const rendered_image& d) {
     const in::target_label& label = d.labels.targets.front();
     json parameters = columns_of_options(o);
     parameters.update(p.values);
@@ -29,24 +29,24 @@ json parameters_of(const options& o, const plan& p, const drawn& d) {
                        {"burial_m", static_cast<double>(d.placement.burial)},
                        {"rig_x_m", d.rig.x},
                        {"rig_y_m", d.rig.y},
-                       {"metres_per_pixel", d.known.metres_per_pixel},
-                       {"left_edge_m", d.known.left_edge},
-                       {"ground_range_m", d.known.ground_range},
-                       {"slant_range_m", d.known.slant_range},
-                       {"grazing_deg", degrees(d.known.grazing)},
-                       {"aspect_deg", degrees(d.known.aspect)},
-                       {"target_height_m", d.known.height},
-                       {"shadow_m", d.known.shadow},
-                       {"shadow_measured_m", d.known.shadow_measured},
-                       {"shadow_is_cut", d.known.shadow_is_cut},
-                       {"target_is_cut", d.known.target_is_cut},
+                       {"metres_per_pixel", d.geometry.metres_per_pixel},
+                       {"left_edge_m", d.geometry.left_edge},
+                       {"ground_range_m", d.geometry.ground_range},
+                       {"slant_range_m", d.geometry.slant_range},
+                       {"grazing_deg", degrees(d.geometry.grazing)},
+                       {"aspect_deg", degrees(d.geometry.aspect)},
+                       {"target_height_m", d.geometry.height},
+                       {"shadow_m", d.geometry.shadow},
+                       {"shadow_measured_m", d.geometry.shadow_measured},
+                       {"shadow_is_cut", d.geometry.shadow_is_cut},
+                       {"target_is_cut", d.geometry.target_is_cut},
                        {"target_area_px", label.area},
                        {"shadow_area_px", label.shadow_area}});
     return parameters;
 }
 
-/// What the library calls an argument, and the options that decide it.
-std::string in_words_of_options(std::string message) {
+/// Replaces the library's name of an argument by the options that decide it.
+std::string with_option_names(std::string message) {
     constexpr const char* names[][2] = {{"overhead.altitude", "--altitude"},
                                         {"overhead.field_of_view", "the field of view (--chip over --altitude)"},
                                         {"overhead.grazing", "--grazing"},
@@ -68,9 +68,9 @@ std::string in_words_of_options(std::string message) {
     return message;
 }
 
-std::vector<file> files_of_published(const options& o, const plan& p, const stock& shared) {
-    thread_local in::context alone;  // lends the memory of an image to this thread's next
-    const drawn d = draw(o, p, shared, alone);
+std::vector<file> files_of_published(const options& o, const plan& p, const shared_inputs& shared) {
+    thread_local in::context memory;  // reused by the next image of this thread
+    const rendered_image d = draw(o, p, shared, memory);
     const in::target_label& label = d.labels.targets.front();
     const auto target = in::target_mask(d.labels, label.instance);
     const auto shadow = in::shadow_mask(d.labels, label.instance);
@@ -80,7 +80,7 @@ std::vector<file> files_of_published(const options& o, const plan& p, const stoc
                             {mask_path("shadow", p.index), examples::png_bytes(shadow)},
                             {mask_path("seabed", p.index), examples::png_bytes(d.labels.seabed)}};
 
-    const double metres = d.known.metres_per_pixel;
+    const double metres = d.geometry.metres_per_pixel;
     const auto annotation = [&](const std::string& category, const char* of, const in::rect& box, std::int64_t area,
                                 const auto& mask) {
         return json{{"category", category},
@@ -98,13 +98,13 @@ std::vector<file> files_of_published(const options& o, const plan& p, const stoc
     record["annotations"] = {annotation(p.class_name, "target_mask", label.box, label.area, target),
                              annotation("shadow", "shadow_mask", label.shadow_box, label.shadow_area, shadow)};
     record["parameters"] = parameters_of(o, p, d);
-    files.push_back({record_path(p.index), sealed(record)});
+    files.push_back({record_path(p.index), record_text(record)});
     return files;
 }
 
 }  // namespace
 
-std::vector<file> files_of(const options& all, std::uint64_t i, const stock& shared) {
+std::vector<file> files_of(const options& all, std::uint64_t i, const shared_inputs& shared) {
     const std::uint64_t index = image_id(all, i);
     const plan_row line = all.table ? line_of_plan(all, i) : plan_row{};
     const plan_row* const given = all.table ? &line : nullptr;
@@ -117,24 +117,24 @@ std::vector<file> files_of(const options& all, std::uint64_t i, const stock& sha
     } catch (const plan_error&) {
         throw;
     } catch (const in::invalid_input& error) {
-        throw in::io_error(where + in_words_of_options(error.what()));
+        throw in::io_error(where + with_option_names(error.what()));
     } catch (const in::io_error& error) {
         throw in::io_error(where + error.what());
     }
 }
 
-void check_plan(const options& o, const stock& shared) {
+void check_plan(const options& o, const shared_inputs& shared) {
     if (!o.table) return;
     options without = o;
     without.table = nullptr;
-    if (o.is_sonar()) return check_columns(o, known_to_sonar(without));
+    if (o.is_sonar()) return check_columns(o, columns_of_sonar_recipe(without));
     const plan example = plan_image(without, 0, shared);
     check_columns(o, {example.values, example.choices, class_names(o)});
 }
 
-void set_packing() {
-    // Noise and flat masks pack no worse as they are than filtered any of PNG's ways, which to try takes twice as long,
-    // and no better for longer looking.
+void set_png_compression() {
+    // PNG's row filters and higher compression levels do not make noise and flat masks smaller; trying the filters
+    // doubles the time.
     stbi_write_force_png_filter = 0;
     stbi_write_png_compression_level = 1;
 }

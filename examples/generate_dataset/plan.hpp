@@ -1,4 +1,4 @@
-// What image i of the published recipe shows: every parameter, drawn from the seed and i alone, or given by a plan.
+// Parameters of image i of the published recipe: drawn from the seed and i alone, or given by a plan.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 #include "options.hpp"
 #include "sampler.hpp"
-#include "stock.hpp"
+#include "shared_inputs.hpp"
 #include "views.hpp"
 
 namespace generator {
@@ -15,21 +15,21 @@ struct plan {
     std::uint64_t index;
     std::string class_name, seabed;
     bool referenced;
-    std::size_t reference;  ///< which of the references, if any
+    std::size_t reference;  ///< index, if `referenced`
 
     double size;                      ///< metres: a height or diameter, of a mesh half of its largest extent
     glm::dvec3 extents;               ///< length, width and height, metres
     double yaw, pitch, roll, burial;  ///< radians, share of the height
     double altitude, light, rig_yaw;  ///< metres, radians
-    double across, along;             ///< where a picture has the target, in pictures from its left and lower edges
-    double place_x, place_y;          ///< of a camera, or of a sonar's target, in the world, metres
+    double across, along;             ///< position of the target in the image, shares from the left and lower edges
+    double place_x, place_y;          ///< world position of the camera or of the sonar's target, metres
     std::uint32_t seabed_seed, noise_seed;
     double relief, wavelength, direction;  ///< of the seabed: in [0, 1], metres, radians
-    double distance, beam;                 ///< of the target from a sonar's track, altitudes; radians
-    bool port;                             ///< which side of a sonar's track it is on
-    double noise, white;                   ///< of a sonar: what is heard in a shadow, and what is shown as white
+    double distance, beam;                 ///< of the target from the track, in altitudes; beamwidth, radians
+    bool port;                             ///< the target is to port of the track
+    double noise, white;                   ///< noise floor and white level of a side-scan picture
 
-    nlohmann::ordered_json values;  ///< all of it, by the names of columns
+    nlohmann::ordered_json values;  ///< all values, by column
     std::map<std::string, std::vector<std::string>> choices;
 };
 
@@ -39,8 +39,8 @@ inline double radians(double degrees) {
     return insonify::numeric::to_radians(degrees);
 }
 
-/// All images of a target that has an id show the same one.
-inline void sample_target(sampler& s, plan& p, const options& o, const stock& shared) {
+/// Size, tilt and burial of the target. With a target id, the random sequence depends on the id alone.
+inline void sample_target(sampler& s, plan& p, const options& o, const shared_inputs& shared) {
     const auto from = [&](const char* name, const range& r) { return s.uniform(name, r.low, r.high); };
     p.size = from("target_size_m", o.target_size);
     const double a = from("aspect", o.aspect);
@@ -49,7 +49,7 @@ inline void sample_target(sampler& s, plan& p, const options& o, const stock& sh
                              : p.class_name == "cone"   ? glm::dvec3(1.2 * a, 1.2 * a, 1.2)
                              : p.class_name == "sphere" ? glm::dvec3(a, 1, 1)
                                                         : 2.0 * shared.extents_of_mesh(p.class_name);
-    // A mesh may be flat.
+    // A flat mesh has an extent of 0.
     p.extents.x = s.derived("length_m", (std::max)(usual.x * p.size, 1e-3));
     p.extents.y = s.derived("width_m", (std::max)(usual.y * p.size, 1e-3));
     p.extents.z = s.derived("height_m", (std::max)(usual.z * p.size, 1e-3));
@@ -58,7 +58,7 @@ inline void sample_target(sampler& s, plan& p, const options& o, const stock& sh
     p.burial = from("burial", o.burial);
 }
 
-inline void sample_reference(sampler& s, plan& p, const stock& shared, bool is_drawn) {
+inline void sample_reference(sampler& s, plan& p, const shared_inputs& shared, bool is_drawn) {
     const auto count = static_cast<int>(shared.references());
     const auto drawn = static_cast<int>(s.drawn(0, count));
     int chosen = s.derived_whole("reference", is_drawn && count > 0 ? drawn : -1);
@@ -79,10 +79,10 @@ inline void sample_reference(sampler& s, plan& p, const stock& shared, bool is_d
 
 /// @param index  of the image
 /// @param given  a line of a plan, or null
-inline plan plan_image(const options& o, std::uint64_t index, const view_of_target& view, const stock& shared,
+inline plan plan_image(const options& o, std::uint64_t index, const view_of_target& view, const shared_inputs& shared,
                        const plan_row* given) {
     using detail::radians;
-    // The demonstration shows the same scenes twice: as they are, and with the look of a reference.
+    // --demo shows the same scenes twice: plain, and matched with a reference.
     const std::uint64_t scenes = class_names(o).size() * (std::max<std::size_t>)(o.seabeds.size(), 1);
     const insonify::random_sequence of_image(o.seed, 1, o.demo ? index % scenes : index);
     sampler s(of_image, given);
@@ -114,7 +114,7 @@ inline plan plan_image(const options& o, std::uint64_t index, const view_of_targ
     if (const std::optional<double> aspect = aspect_of(s, view))
         yaw = rig_yaw + *aspect + (sonar && p.port ? 180.0 : 0.0);
     p.yaw = radians(s.derived("yaw_deg", yaw));
-    const placing place = placing_of(o);
+    const placement_range place = placement_range_of(o);
     p.across = from("across", place.across);
     p.along = from("along", place.along);
     p.place_x = s.uniform("place_x_m", -500, 500);
@@ -130,7 +130,7 @@ inline plan plan_image(const options& o, std::uint64_t index, const view_of_targ
     p.white = s.uniform("white", 4, 12);
     detail::sample_reference(s, p, shared, !o.demo || index >= scenes);
 
-    // What has no meaning in this image.
+    // Drop values without meaning in this image.
     const auto drop_unless = [&](bool has_meaning, std::initializer_list<const char*> names) {
         if (!has_meaning)
             for (const char* const name : names) s.drop(name);
@@ -146,8 +146,8 @@ inline plan plan_image(const options& o, std::uint64_t index, const view_of_targ
     return p;
 }
 
-/// Without a plan.
-inline plan plan_image(const options& o, std::uint64_t index, const stock& shared) {
+/// The same without a plan.
+inline plan plan_image(const options& o, std::uint64_t index, const shared_inputs& shared) {
     return plan_image(o, index, view_of(o, index), shared, nullptr);
 }
 

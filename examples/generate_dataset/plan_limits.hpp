@@ -1,4 +1,4 @@
-// What a number of a plan may be: wide enough for every sea, narrow enough that each scene can be drawn.
+// Limits of a plan's numbers: wide enough for any sea floor, narrow enough that each scene can be drawn.
 #pragma once
 
 #include <string_view>
@@ -9,14 +9,14 @@ struct limits {
     double low, high;
 };
 
-/// By the name of the column, or by how it ends.
+/// Limits of a column, by its name or the ending of its name.
 constexpr limits limits_of(std::string_view column) {
     struct rule {
         std::string_view ending;
         limits within;
     };
     constexpr rule rules[] = {
-        // What is counted.
+        // Counts.
         {"clutter", {0, 1000}},
         {"debris", {0, 1000}},
         {"looks", {1, 1000}},
@@ -26,7 +26,7 @@ constexpr limits limits_of(std::string_view column) {
         {"trawls", {0, 100}},
         {"fill", {0.01, 100}},
         {"reference", {-1, 1e9}},
-        // Sizes, and where things lie.
+        // Sizes and positions.
         {"chip_m", {0.01, 1e4}},
         {"track_m", {0.01, 1e4}},
         {"place_x_m", {-1e6, 1e6}},

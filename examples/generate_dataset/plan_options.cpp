@@ -21,7 +21,7 @@ std::string joined(const std::vector<std::string>& names, char between) {
     return text;
 }
 
-/// What is measured in a picture, or says where its files are: written, never read.
+/// Columns that are written but never read: measurements and file names.
 bool is_measured(const std::string& column) {
     static const std::vector<std::string> names{
         "file",          "target_mask",      "shadow_mask",    "seabed_mask",       "png16",          "npy",
@@ -37,14 +37,14 @@ bool is_measured(const std::string& column) {
     return known(column);
 }
 
-/// What says which image, target and class a line is of.
+/// Columns that identify image, target and class.
 bool is_bookkeeping(const std::string& column) {
     for (const char* const name : {"index", "class", "target_id", "recipe", "categories", "seabed", "attempt"})
         if (column == name) return true;
     return false;
 }
 
-/// A target's size and heading, by the names that they have in tables of targets.
+/// Columns of a target's size and heading, named as in tables of targets.
 bool is_of_target(const std::string& column) {
     for (const char* const name : {"aspect_deg", "orientation_deg", "length_m", "width_m", "height_m"})
         if (column == name) return true;
@@ -108,7 +108,7 @@ options with_line(const options& o, const plan_row& row) {
             row.refuse("noise", "none, or a chain of speckle:VARIANCE, gaussian:VARIANCE, poisson:PHOTONS, rayleigh");
         }
     }
-    // Files are read once, so what they are read with is the same for all images.
+    // Input files are read once, so these options must be the same for all images.
     if (!o.heightmap.empty()) {
         if (row.number("heightmap_spacing_m", o.heightmap_spacing, 0, 1e9) != o.heightmap_spacing)
             row.refuse("heightmap_spacing_m", "the --heightmap-spacing");
@@ -183,14 +183,15 @@ std::vector<double> parse_aspects(const std::string& text) {
                  step = number(std::string_view(text).substr(first + 1, second - first - 1)),
                  high = number(std::string_view(text).substr(second + 1));
     if (!(step >= 0.01) || high < low) throw std::invalid_argument(usage + "; the step is 0.01 at least");
-    // Not summed up, so that the last is not lost by rounding.
+    // Multiplied rather than accumulated, so that rounding does not lose the last aspect.
     for (int i = 0; low + i * step <= high + 1e-9; ++i) aspects.push_back(low + i * step);
     return aspects;
 }
 
-void take_plan(options& o, const std::string& path, const is_given& given) {
+void apply_plan(options& o, const std::string& path, const is_given& given) {
     for (const char* const name : {"--per-class", "--demo", "--targets", "--empty"})
-        if (given(name)) throw CLI::ValidationError(name, "does not go with --plan, whose lines name the classes");
+        if (given(name))
+            throw CLI::ValidationError(name, "cannot be combined with --plan, whose lines name the classes");
     try {
         o.table = std::make_shared<const plan_table>(path.substr(path.rfind('/') + 1),
                                                      examples::read_input(path, o.input_limit, "raise --input-limit"));
@@ -215,7 +216,7 @@ void take_plan(options& o, const std::string& path, const is_given& given) {
     }
 }
 
-void take_aspects(options& o, const std::string& text) {
+void apply_aspects(options& o, const std::string& text) {
     const char* const decided = !o.table                     ? nullptr
                                 : o.table->has_ids()         ? "index"
                                 : o.table->has("yaw_deg")    ? "yaw_deg"
@@ -226,7 +227,7 @@ void take_aspects(options& o, const std::string& text) {
         if (decided != nullptr)
             throw CLI::ValidationError("--aspects", std::string("the plan has a column ") + decided +
                                                         ", so that each line is one image; remove either");
-        if (o.demo) throw CLI::ValidationError("--aspects", "does not go with --demo");
+        if (o.demo) throw CLI::ValidationError("--aspects", "cannot be combined with --demo");
         try {
             o.aspects = parse_aspects(text);
         } catch (const std::invalid_argument& error) {
@@ -237,7 +238,7 @@ void take_aspects(options& o, const std::string& text) {
     }
 }
 
-void count_plan(options& o, const is_given& given) {
+void apply_plan_count(options& o, const is_given& given) {
     const std::uint64_t images = o.table->size() * views_of_each(o);
     if (!given("--count")) o.count = images - (std::min)(images, o.first);
     if (o.count == 0 || o.first + o.count > images)

@@ -11,17 +11,17 @@ namespace generator {
 
 namespace {
 
-/// What the columns of a table of targets are called in a manifest.
-constexpr const char* other_names[][2] = {{"id", "target_id"},
-                                          {"shape", "class"},
-                                          {"length", "length_m"},
-                                          {"width", "width_m"},
-                                          {"height", "height_m"},
-                                          {"volume_factor", ""},
-                                          {"orientation", "orientation_deg"}};
+/// Columns of a table of targets, and their names in a manifest.
+constexpr const char* manifest_names[][2] = {{"id", "target_id"},
+                                             {"shape", "class"},
+                                             {"length", "length_m"},
+                                             {"width", "width_m"},
+                                             {"height", "height_m"},
+                                             {"volume_factor", ""},
+                                             {"orientation", "orientation_deg"}};
 
 /// The published generator's table: number, group and number within it, shape, extents, their geometric mean,
-/// orientation in degrees. Its program writes a shorter one, too.
+/// orientation in degrees. Its program also writes a shorter one.
 const std::vector<std::string> published_columns{"target_id", "",         "", "class",          "length_m",
                                                  "width_m",   "height_m", "", "orientation_deg"};
 const std::vector<std::string> published_short{"target_id", "class", "length_m",       "width_m",
@@ -40,7 +40,7 @@ bool is_number(const std::string& text) {
     return parse(text, value);
 }
 
-/// A shape may be given by its number in the published table.
+/// Replaces the number of a shape, as the published table has it, by its name.
 void name_shape(plan_row& row) {
     const std::string* const shape = row.find("class");
     if (shape != nullptr && is_number(*shape))
@@ -98,31 +98,30 @@ void plan_table::name_columns(std::vector<std::string>& first, std::size_t line)
         columns_ = cells == published_columns.size() ? published_columns : published_short;
         if (cells != columns_.size())
             fail("has " + std::to_string(cells) +
-                 " numbers and no names of columns; name them, or give the 9 or 7 columns of the published table");
+                 " numbers and no header; add one, or give the 9 or 7 columns of the published table");
         columns_.resize(first.size());
         return;
     }
     for (std::string& column : first) {
-        for (const auto& [from, to] : other_names)
+        for (const auto& [from, to] : manifest_names)
             if (column == from) column = to;
         if (!column.empty() && std::count(columns_.begin(), columns_.end(), column) > 0)
             fail("names the column '" + column + "' twice");
         columns_.push_back(column);
     }
-    if (first.size() == 1 && first[0].find(';') != std::string::npos)
-        fail("is one column; cells are separated by commas");
-    if (!has("class")) fail("names no column class, or shape; it has '" + columns_.front() + "' and others");
+    if (first.size() == 1 && first[0].find(';') != std::string::npos) fail("has one column; separate cells by commas");
+    if (!has("class")) fail("has no column class or shape; it has '" + columns_.front() + "' and others");
 }
 
 void plan_table::scan() {
     csv_reader reader("--plan " + name_, text_);
     std::vector<std::string> cells;
-    if (!reader.next(cells)) throw plan_error("--plan " + name_ + ": is empty; the first line names the columns");
+    if (!reader.next(cells)) throw plan_error("--plan " + name_ + ": is empty, expected a header line");
     name_columns(cells, reader.line());
     std::unordered_map<std::string, std::size_t> lines_of_targets;
     for (bool more = !is_named_ || reader.next(cells); more; more = reader.next(cells)) {
         check_length(cells, reader.line());
-        // Of the whole line, what decides which image it is and what it shows.
+        // Reads only the columns that identify the image and its class.
         plan_row row{name_, reader.line(), {}};
         for (const char* const name : {"index", "class", "target_id", "categories"})
             for (std::size_t i = 0; i < columns_.size(); ++i)
@@ -131,15 +130,15 @@ void plan_table::scan() {
         const std::string* const target = row.find("target_id");
         if (row.find("class") == nullptr) row.refuse("class", "the name of a class");
         if (has_ids() && row.find("index") == nullptr) row.refuse("index", "the number of an image");
-        // A table of targets numbers them; in a manifest many lines share a target.
+        // Ids are unique in a table of targets; in a manifest many lines share a target.
         if (target != nullptr && !has_ids()) {
             const auto [known, is_new] = lines_of_targets.try_emplace(*target, reader.line());
             if (!is_new) row.refuse("target_id", "another than in line " + std::to_string(known->second));
         }
         add_classes(row);
-        rows_.push_back({row.whole("index", rows_.size(), 0, most_images - 1), reader.begin(), reader.line()});
+        rows_.push_back({row.whole("index", rows_.size(), 0, max_images - 1), reader.begin(), reader.line()});
     }
-    if (rows_.empty()) throw plan_error("--plan " + name_ + ": has names of columns, and no line below them");
+    if (rows_.empty()) throw plan_error("--plan " + name_ + ": has a header and no other line");
     std::sort(rows_.begin(), rows_.end(),
               [](const place& a, const place& b) { return a.id != b.id ? a.id < b.id : a.line < b.line; });
     for (std::size_t i = 1; i < rows_.size(); ++i)

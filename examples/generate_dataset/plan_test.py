@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plans: sets that are made again from their manifest, tables of targets, and tables that are none.
+"""Tests of --plan: sets made again from their manifest, tables of targets, and malformed tables.
 
 plan_test.py <generate_dataset> <merge_dataset>
 """
@@ -37,7 +37,7 @@ def refusal(*options):
 
 
 def digest(folder):
-    """What every file of a set holds but those that name its plan."""
+    """SHA-256 of every file of a set except those that name its plan."""
     return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
             for path in sorted(folder.rglob("*")) if path.is_file() and path.name not in
             (".lock", "config.json", "README.md", "SHA256SUMS")}
@@ -70,26 +70,26 @@ class Plans(unittest.TestCase):
         return path
 
     def replay(self, name, *options, inputs=()):
-        """Makes a set, and makes it again by its manifest alone: all bytes agree."""
+        """Makes a set, and again from its manifest alone: all bytes agree."""
         first, again = self.folder / name, self.folder / (name + "_again")
         run("--out", first, *options, *inputs)
         run("--out", again, "--plan", first / "manifest.csv", *inputs)
         self.assertEqual(digest(first), digest(again))
         return first
 
-    def test_a_manifest_makes_a_set_of_the_sonar_recipe_again(self):
+    def test_a_manifest_reproduces_a_set_of_the_sonar_recipe(self):
         first = self.replay("a", "--count", 12, "--size", 64, "--seed", 3, "--targets", "tyre,ship,cylinder", "--format", "npy")
         self.assertEqual({row["recipe"] for row in manifest(first)}, {"sonar"})
         self.replay("b", "--size", 48, "--per-class", "crate=2,empty=1,plane=2", "--first", 1, "--count", 4)
 
-    def test_a_manifest_makes_a_set_of_the_published_recipe_again(self):
+    def test_a_manifest_reproduces_a_set_of_the_published_recipe(self):
         self.replay("a", "--recipe", "published", "--size", 64, "--count", 8, "--seed", 18446744073709551615, "--noise",
                     "gaussian:0.02,speckle:0.1", "--seabeds", "mixed,mud", "--colormap", "copper", "--chip", 7)
         for mode in "slant_range", "ground_range":
             self.replay(mode, "--recipe", "published", "--mode", mode, "--count", 5, "--pixels", 48, "--place", "anywhere")
         self.replay("demo", "--recipe", "published", "--demo", "--size", 32)
 
-    def test_a_manifest_with_files_makes_the_set_again_beside_the_same_files(self):
+    def test_a_manifest_with_input_files_reproduces_the_set(self):
         (self.folder / "tetra.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
         for name in "a", "b":
             (self.folder / f"{name},1.pgm").write_bytes(b"P5 16 16 255\n" + bytes(random.Random(name).randbytes(256)))
@@ -101,7 +101,7 @@ class Plans(unittest.TestCase):
         rows = manifest(first)
         self.assertEqual({row["reference_name"] for row in rows}, {"a,1.pgm", "b,1.pgm"})
         self.assertIn("tetra", {row["class"] for row in rows})
-        # In another order, references are found by their names; without them, the plan is refused.
+        # References are found by name in any order; without them the plan is refused.
         swapped = inputs[:2] + ["--reference", self.folder / "b,1.pgm", "--reference", self.folder / "a,1.pgm"] + inputs[6:]
         run("--out", self.folder / "s", "--plan", first / "manifest.csv", *swapped)
         for row in rows:
@@ -111,14 +111,14 @@ class Plans(unittest.TestCase):
         self.assertIn("column heightmap_spacing_m has '0.1'", refusal("--out", self.folder / "x", "--plan",
                                                                       first / "manifest.csv", *inputs, "--heightmap-spacing", 1))
 
-    def test_lines_left_out_and_shuffled_make_the_images_that_are_left(self):
+    def test_a_shuffled_subset_of_lines_makes_those_images(self):
         for recipe in "sonar", "published":
             first, again = self.folder / recipe, self.folder / (recipe + "_again")
             run("--out", first, "--recipe", recipe, "--count", 12, "--size", 48)
             rows = manifest(first)
             kept = rows[1::2] + rows[4:5]
             random.Random(1).shuffle(kept)
-            columns = sorted(rows[0], key=lambda name: hashlib.sha256(name.encode()).digest())  # in any order, too
+            columns = sorted(rows[0], key=lambda name: hashlib.sha256(name.encode()).digest())  # columns may have any order
             text = io.StringIO()
             writer = csv.DictWriter(text, columns, lineterminator="\n", quoting=csv.QUOTE_ALL)
             writer.writeheader()
@@ -130,7 +130,7 @@ class Plans(unittest.TestCase):
                 self.assertEqual(row, rows[int(row["index"])])
                 for of in "file", "target_mask", "shadow_mask", "seabed_mask":
                     self.assertEqual((first / row[of]).read_bytes(), (again / row[of]).read_bytes())
-            # The same by shards, which leave out what the plan leaves out.
+            # The same in shards.
             shards = self.folder / (recipe + "_shards")
             run("--out", shards, "--plan", self.table(text.getvalue()), "--shard", "0/2")
             self.assertIn("shard 1/2 lacks", run(shards, program=MERGE, expect=1))
@@ -139,7 +139,7 @@ class Plans(unittest.TestCase):
             self.assertEqual(digest(shards), digest(again))
             self.assertIn("0 faults", run("--out", shards, "--plan", self.table(text.getvalue()), "--verify"))
 
-    def test_a_value_that_is_given_changes_nothing_else(self):
+    def test_a_given_value_does_not_change_others(self):
         out = ["--recipe", "sonar", "--count", 4, "--size", 32, "--visible-share", 0]
         run("--out", self.folder / "a", *out)
         rows = manifest(self.folder / "a")
@@ -150,7 +150,7 @@ class Plans(unittest.TestCase):
             for column in "chip_m", "sonar", "altitude_m", "bottom_seed", "white", "turn", "t1_length_m":
                 self.assertEqual(before.get(column), after.get(column), column)
 
-    def test_a_range_that_is_given_decides_noise_beam_and_grain(self):
+    def test_a_given_range_decides_noise_beam_and_grain(self):
         pictures = set()
         for share in 0.03, 1:
             text = ("index,class,seabed,chip_m,sonar,first_range_m,altitude_m,range_share\n"
@@ -175,12 +175,12 @@ class Plans(unittest.TestCase):
             self.assertEqual(size, [2, 0.5, 0.6] if row["target_id"] == "7" else [1, 0.8, 0.7])
             if row["seabed"] == "sand":
                 self.assertAlmostEqual(float(row["target_height_m"]), size[2], delta=0.03)
-        # A line that is removed changes nothing of the others: the same target is the same one.
+        # Removing a line does not change the other targets.
         run("--out", self.folder / "b", "--recipe", "published", "--plan",
             self.table("id,shape,height,width,length\n9,2,0.7,0.8,1\n"), "--aspects", "45,135", "--seabeds", "sand", "--size", 64)
         self.assertEqual(len(manifest(self.folder / "b")), 2)
 
-    def test_the_sonar_recipe_shows_a_target_at_every_aspect_too(self):
+    def test_the_sonar_recipe_shows_a_target_at_every_aspect(self):
         out = self.folder / "a"
         run("--out", out, "--plan", self.table("id,class,length,height\n1,ship,40,9\n2,cube,1,2\n"), "--aspects", "0:120:240",
             "--seabeds", "sand,ripples", "--size", 48)
@@ -199,7 +199,7 @@ class Plans(unittest.TestCase):
         run("--out", again, "--plan", first / "manifest.csv")
         self.assertEqual(digest(first), digest(again))
 
-    def test_the_paper_shows_every_target_at_every_aspect(self):
+    def test_the_published_recipe_shows_every_target_at_every_aspect(self):
         out = self.folder / "a"
         run("--out", out, "--recipe", "published", "--targets", "cube,cone", "--seabeds", "mud", "--aspects", "0:120:240",
             "--count", 8, "--size", 48)
@@ -212,13 +212,13 @@ class Plans(unittest.TestCase):
             self.assertEqual(len({view[:2] for view in views}), 1)
         self.assertEqual([view[2] % 360 for view in seen["1"]], [0, 120, 240])
         self.assertEqual(len({views[0][0] for views in seen.values()}), 4)
-        # Ten degrees apart, unless it is said otherwise.
+        # The default is every tenth degree.
         run("--out", self.folder / "b", "--recipe", "published", "--targets", "cube", "--seabeds", "mud", "--count", 3, "--size", 32)
         self.assertEqual([round(float(row["aspect_deg"])) % 360 for row in manifest(self.folder / "b")], [0, 10, 20])
         run("--out", self.folder / "c", "--recipe", "published", "--aspects", "random", "--count", 3, "--size", 32)
         self.assertEqual({row["target_id"] for row in manifest(self.folder / "c")}, {""})
 
-    def test_counts_by_class_are_kept_in_the_published_recipe(self):
+    def test_per_class_counts_are_exact_in_the_published_recipe(self):
         counts = {"cylinder": 5, "cube": 3, "sphere": 4}
         run("--recipe", "published", "--out", self.folder / "a", "--size", 32, "--aspects", "0:90:90", "--per-class",
             ",".join(f"{name}={count}" for name, count in counts.items()))
@@ -227,7 +227,7 @@ class Plans(unittest.TestCase):
         self.assertGreater(len({row["seabed"] for row in rows if row["class"] == "cylinder"}), 2)
         self.replay_of(self.folder / "a")
 
-    def test_the_published_table_is_a_plan_as_it_is(self):
+    def test_the_published_table_is_a_plan(self):
         # Number, group, number within it, shape, length, width, height, their mean, orientation, and a comma at the end.
         path = PUBLISHED / "target_table.csv"
         text = path.read_text() if path.exists() else "1,0,0,1,0.53,1.72,1.947,1.21,0,\n2,0,1,2,0.67,0.82,1.23,0.88,90,\n"
@@ -246,15 +246,15 @@ class Plans(unittest.TestCase):
         run("--out", self.folder / "b", "--plan", self.table("4,3,0.5,0.6,0.7,0.59,10,\n"), "--size", 32, "--count", 2)
         self.assertEqual({row["class"] for row in manifest(self.folder / "b")}, {"sphere"})
 
-    def test_a_table_that_is_no_plan_is_refused_with_line_column_and_value(self):
+    def test_a_malformed_plan_is_refused_with_line_column_and_value(self):
         head = "index,class,white,has_clutter\n"
         for text, *said in (
                 ("", "is empty"),
-                ("index,class\n", "no line below"),
-                ("index,white\n0,3\n", "line 1: names no column class"),
+                ("index,class\n", "no other line"),
+                ("index,white\n0,3\n", "line 1: has no column class"),
                 ("index,class,class\n0,ship,ship\n", "line 1: names the column 'class' twice"),
-                ("index;class\n0;ship\n", "separated by commas"),
-                ("1,2,3\n", "line 1", "3 numbers and no names"),
+                ("index;class\n0;ship\n", "separate cells by commas"),
+                ("1,2,3\n", "line 1", "3 numbers and no header"),
                 (head + "0,ship,4\n", "line 2", "column has_clutter is missing"),
                 (head + "0,ship,4,true,5\n", "line 2", "'5' is too many"),
                 (head + "\n0,ship,nan,true\n", "line 3: column white has 'nan', expected a number"),
@@ -293,13 +293,13 @@ class Plans(unittest.TestCase):
             message = refusal("--out", self.folder / "x", "--size", 32, "--plan", self.table(text))
             for words in ("t.csv", *said):
                 self.assertIn(words, message, text)
-            self.assertFalse((self.folder / "x").exists(), text)  # a plan that is mended needs no other folder
+            self.assertFalse((self.folder / "x").exists(), text)  # a refused plan leaves no folder
 
-    def test_options_that_a_plan_decides_are_refused(self):
+    def test_options_that_contradict_the_plan_are_refused(self):
         plan = ["--out", self.folder / "x", "--plan", self.table("index,class,seabed\n0,cube,sand\n")]
         self.assertIn("column index", refusal(*plan, "--aspects", "0:10:350"))
         self.assertIn("column seabed", refusal(*plan, "--seabeds", "mud"))
-        self.assertIn("does not go with --plan", refusal(*plan, "--per-class", "cube=3"))
+        self.assertIn("cannot be combined with --plan", refusal(*plan, "--per-class", "cube=3"))
         self.assertIn("are more than the 1 of the plan", refusal(*plan, "--count", 2))
         self.assertIn("does not exist", refusal("--out", self.folder / "x", "--plan", self.folder / "no.csv"))
         for aspects in "0:10", "0:0:350", "10:10:0", "a", "0:nan:9", "", "0,", "720":
@@ -321,8 +321,8 @@ class Plans(unittest.TestCase):
                     column = re.sub("_bytes$|_sha256$", "", column)
                     self.assertTrue(any(fnmatch.fnmatch(column, word) for word in words), f"{column} is not in docs/dataset.md")
 
-    def test_heights_come_from_a_png_of_16_bits(self):
-        # Waves lower than one step of 8 bits, with which they would be a plain.
+    def test_heights_are_read_from_a_16_bit_png(self):
+        # Waves lower than one step of 8 bits, which would quantize to a plane.
         ramp = png16(self.folder / "ramp.png", 64, 64, lambda x, y: 60 * (x // 3 % 2))
         plain = png16(self.folder / "plain.png", 64, 64, lambda x, y: 0)
         pictures = {}

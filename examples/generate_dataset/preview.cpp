@@ -4,7 +4,7 @@ namespace generator {
 
 namespace {
 
-/// JSON inside of a page: nothing in it ends the script.
+/// JSON for a <script> element: "<" is escaped, so that no string ends the element.
 std::string embedded(const json& value) {
     std::string text;
     for (const char c : value.dump(-1, ' ', true, json::error_handler_t::replace))
@@ -141,7 +141,7 @@ void preview_page::add(const json& record) {
     row.push_back(bottom != parameters.end() && bottom->is_string() ? *bottom : json(""));
     for (const std::string& name : names_) row.push_back(parameters.value(name, json()));
     rows_.push_back(embedded(row));
-    if (rows_.size() <= most_rows) return;
+    if (rows_.size() <= max_rows) return;
     step_ *= 2;
     for (std::size_t i = 0; 2 * i < rows_.size(); ++i) rows_[i] = std::move(rows_[2 * i]);
     rows_.resize((rows_.size() + 1) / 2);

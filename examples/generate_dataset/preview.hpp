@@ -1,4 +1,4 @@
-// preview.html: one page to look through a data set, without a server or a network.
+// preview.html: a page to browse a data set offline.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@ namespace generator {
 
 using json = nlohmann::ordered_json;
 
-/// Collects what the page shows. Of a large set, that is every second, fourth, ... image, so that a browser can hold
-/// it.
+/// Collects the images of the page. Of a large set it keeps every 2nd, 4th, 8th ... image, as many as a browser can
+/// hold.
 class preview_page {
   public:
     void add(const json& record);
     std::string text(const std::string& title) const;
 
   private:
-    static constexpr std::size_t most_rows = 20'000;
+    static constexpr std::size_t max_rows = 20'000;
     std::uint64_t images_ = 0, step_ = 1;
     std::vector<std::string> names_;  ///< of the parameters
     std::vector<std::string> rows_;

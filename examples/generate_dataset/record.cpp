@@ -15,10 +15,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view seal = R"(,"sha256":")", tail = "\"}\n";
-constexpr std::size_t sum_digits = 64;
+constexpr std::string_view checksum_prefix = R"(,"sha256":")", checksum_suffix = "\"}\n";
+constexpr std::size_t checksum_digits = 64;
 
-/// What is wrong with one file of a record.
+/// Why one file of a record is missing or altered; empty if it is not.
 std::optional<std::string> file_fault(const fs::path& root, const json& record, const json& entry, bool thorough) {
     const std::string name = entry.at("path").get<std::string>();
     const std::string path = (root / name).string();
@@ -53,33 +53,34 @@ json entry_of(const std::string& of, const file& f) {
     return {{"of", of}, {"path", f.path}, {"bytes", f.bytes.size()}, {"sha256", sha256(f.bytes)}};
 }
 
-std::string sealed(const json& record) {
-    // A name of a file may be no UTF-8.
+std::string record_text(const json& record) {
+    // File names need not be UTF-8.
     std::string text = record.dump(-1, ' ', false, json::error_handler_t::replace);
     text.pop_back();  // the closing brace
     const std::string sum = sha256(text);
-    text += seal;
+    text += checksum_prefix;
     text += sum;
-    text += tail;
+    text += checksum_suffix;
     return text;
 }
 
 json parse_record(const std::string& text, const std::string& name) {
-    const std::size_t end = seal.size() + sum_digits + tail.size();
-    const bool whole = text.size() > end && text.ends_with(tail) &&
-                       text.compare(text.size() - end, seal.size(), seal) == 0 &&
-                       text.compare(text.size() - end + seal.size(), sum_digits,
+    const std::size_t end = checksum_prefix.size() + checksum_digits + checksum_suffix.size();
+    const bool whole = text.size() > end && text.ends_with(checksum_suffix) &&
+                       text.compare(text.size() - end, checksum_prefix.size(), checksum_prefix) == 0 &&
+                       text.compare(text.size() - end + checksum_prefix.size(), checksum_digits,
                                     sha256(std::string_view(text).substr(0, text.size() - end))) == 0;
     json record = whole ? json::parse(text, nullptr, false) : json();
     if (!record.is_object())
-        throw insonify::io_error(name + ": is torn or changed; the command that made the image makes it again");
-    // A record names no path outside of its folder.
+        throw insonify::io_error(name + ": is truncated or altered; run the command again to repair it");
+    // A hostile record could name a path outside of its folder.
     for (const json& entry : record.contains("files") ? record["files"] : json::array()) {
         const bool named = entry.is_object() && entry.contains("path") && entry["path"].is_string();
         const std::string path = named ? entry["path"].get<std::string>() : "";
         if (!(path.starts_with("images/") || path.starts_with("masks/") || path.starts_with("values/")) ||
             path.find("..") != std::string::npos)
-            throw insonify::io_error(name + ": names the file '" + path + "', which is none of a data set; remove it");
+            throw insonify::io_error(name + ": names the file '" + path +
+                                     "', which is not a path of a data set; remove it");
     }
     return record;
 }
@@ -106,7 +107,7 @@ void for_each_record(const fs::path& root, const std::function<void(const std::s
             std::from_chars(name.data(), name.data() + name.size(), index);
             const std::string path = "records/" + block + "/" + name;
             if (path != record_path(index))
-                throw insonify::io_error((root / path).string() + ": is no record; remove it");
+                throw insonify::io_error((root / path).string() + ": is not a record; remove it");
             visit(path, index);
         }
 }

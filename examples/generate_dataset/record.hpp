@@ -3,8 +3,8 @@
 //     {"id":7,"files":[{"of":"image","path":...,"bytes":...,"sha256":...},...],"size":128,"annotations":[...],
 //      "parameters":{...},"sha256":"..."}
 //
-// The last member seals the record: it is the checksum of all that is before it. An image counts if its record is
-// whole; it is complete if its files are what the record says.
+// The last member is the checksum of the text before it. An image is complete if its record's checksum is right and its
+// files have the sizes and checksums that the record lists.
 #pragma once
 
 #include <filesystem>
@@ -19,24 +19,22 @@ namespace generator {
 
 using json = nlohmann::ordered_json;
 
-/// How a record names a file.
+/// A file's entry in a record.
 json entry_of(const std::string& of, const file& f);
 
-/// The text of a record's file.
-std::string sealed(const json& record);
+/// The record as text, with its checksum.
+std::string record_text(const json& record);
 
 /// @param name  of the file, for the error
-/// @throws io_error if the text is not a whole record
+/// @throws io_error if the record is truncated or altered
 json parse_record(const std::string& text, const std::string& name);
 
-/// What is wrong with an image: why its record or one of its files is missing or not what it was. Nothing if it is
-/// complete.
-/// @param thorough  decodes the files, too, and compares masks with annotations
+/// Why an image is incomplete: its record or one of its files is missing or altered. Empty if it is complete.
+/// @param thorough  also decodes the files and compares masks with annotations
 std::optional<std::string> fault_of(const std::filesystem::path& root, std::uint64_t index, bool thorough);
 
-/// Calls `visit` with the path, within the folder, of each record, by increasing id. Holds one block of names in
-/// memory.
-/// @throws io_error for a file that is no record by its name
+/// Calls `visit` with the relative path of each record, by increasing id. Holds the names of one block in memory.
+/// @throws io_error for a file whose name is not a record's
 void for_each_record(const std::filesystem::path& root,
                      const std::function<void(const std::string& path, std::uint64_t index)>& visit);
 

@@ -1,4 +1,4 @@
-// Masks as COCO writes them: run lengths.
+// Masks as COCO run lengths.
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -9,7 +9,7 @@
 
 namespace generator {
 
-/// Run lengths of a mask in COCO's order: down the columns, beginning with zeros. Nothing is set outside of the box.
+/// Run lengths of a mask in COCO's order: column by column, zeros first. Pixels outside of the box must be 0.
 inline std::vector<std::int64_t> run_lengths(const insonify::image<std::uint8_t>& mask, const insonify::rect& box) {
     std::vector<std::int64_t> runs;
     bool inside = false;

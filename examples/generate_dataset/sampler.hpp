@@ -1,8 +1,7 @@
-// The values of one image by name: drawn from the seed and the image's index, or given by a line of a plan.
+// The named values of one image: drawn from the seed and the image's index, or given by a line of a plan.
 //
-// A draw is spent whether a value is given or not, so that giving one value leaves the others what they were. What was
-// drawn is written in full precision to manifest.csv, whose lines are therefore lines of a plan that draw the same
-// image again.
+// A random number is consumed whether or not the value is given, so that giving one value does not change the others.
+// manifest.csv holds the values in full precision, so that its lines are a plan that draws the same images again.
 #pragma once
 
 #include <insonify/core/random.hpp>
@@ -21,18 +20,19 @@
 
 namespace generator {
 
-/// One of a list, and how often it is drawn relative to the others.
+/// An item of a list, and its weight among the others.
 struct weighted {
     std::string name;
     double weight = 1;
 };
 
+/// Draws values or takes them from a plan, and collects all of them.
 class sampler {
   public:
-    /// @param given  outlives the sampler; null: nothing is given
+    /// @param given  line of a plan, which must outlive the sampler; null without a plan
     sampler(const insonify::random_sequence& random, const plan_row* given) : random_(random), given_(given) {}
 
-    /// Draws from another sequence from here on. @returns the one before
+    /// Switches to another random sequence. @returns the previous one
     insonify::random_sequence draw_from(const insonify::random_sequence& other) {
         return std::exchange(random_, other);
     }
@@ -41,28 +41,28 @@ class sampler {
         const double drawn = random_.uniform(low, high);
         return keep(name, number_or(name, drawn));
     }
-    /// As many between 1 and 2 as between 2 and 4.
+    /// Uniform in the logarithm.
     double logarithmic(const std::string& name, double low, double high) {
         namespace numeric = insonify::numeric;
         const double drawn = low * numeric::exp(random_.uniform() * numeric::log(high / low));
         return keep(name, number_or(name, drawn));
     }
-    /// 0 with a probability, otherwise as `uniform`.
+    /// 0 with probability `none`, otherwise uniform.
     double uniform_or_0(const std::string& name, double none, double low, double high) {
         const bool is_none = random_.uniform() < none;
         const double drawn = random_.uniform(low, high);
         return keep(name, number_or(name, is_none ? 0.0 : drawn));
     }
-    /// What follows from other values, unless it is given.
+    /// A value computed from others, unless the plan gives it.
     double derived(const std::string& name, double value) { return keep(name, number_or(name, value)); }
-    /// Drawn without a name, for values that follow from it.
+    /// A uniform number that is not recorded; values are derived from it.
     double drawn(double low, double high) { return random_.uniform(low, high); }
-    /// A whole number in [low, high].
+    /// An integer in [low, high].
     int whole(const std::string& name, int low, int high) {
         const int drawn = low + static_cast<int>(random_.below(static_cast<std::uint32_t>(high - low + 1)));
         return static_cast<int>(keep(name, integer_or(name, drawn)));
     }
-    /// A whole number that follows from other values, unless it is given.
+    /// An integer computed from other values, unless the plan gives it.
     int derived_whole(const std::string& name, int value) {
         return static_cast<int>(keep(name, integer_or(name, value)));
     }
@@ -79,8 +79,8 @@ class sampler {
         return static_cast<std::uint32_t>(
             keep(name, given_ == nullptr ? drawn : given_->whole(name, drawn, 0, 0xFFFFFFFFu)));
     }
-    /// Names of weight 0 are given alone, and never drawn.
-    /// @param otherwise  a name that is not drawn but chosen elsewhere
+    /// A name from a list. Names of weight 0 are never drawn; a plan may give them.
+    /// @param otherwise  replaces the drawn name unless empty
     std::string choice(const std::string& name, const std::vector<weighted>& of, const std::string& otherwise = "") {
         double sum = 0, at = random_.uniform();
         for (const weighted& w : of) sum += w.weight;
@@ -103,28 +103,28 @@ class sampler {
         values_[name] = value;
         return value;
     }
-    /// A name that is given, or one that follows from elsewhere.
+    /// A name from the plan, or `otherwise`.
     std::string name_of(const std::string& name, const std::string& otherwise) {
         const std::string* const text = given(name);
         values_[name] = text == nullptr ? otherwise : *text;
         return values_[name].get<std::string>();
     }
-    /// Writes nothing for a value that has no meaning in this image.
+    /// Records null for a value without meaning in this image.
     void drop(const std::string& name) { values_[name] = nullptr; }
 
     const nlohmann::ordered_json& values() const { return values_; }
-    /// The lists that were chosen from.
+    /// The lists passed to `choice`, by name.
     const std::map<std::string, std::vector<std::string>>& choices() const { return choices_; }
 
     const std::string* given(const std::string& name) const { return given_ == nullptr ? nullptr : given_->find(name); }
 
-    /// @throws plan_error that names line, column and value, where the value is given
+    /// @throws plan_error that names line, column and value if the plan gives the value, else io_error
     [[noreturn]] void refuse(const std::string& name, const std::string& expected) const {
         if (given(name) != nullptr) given_->refuse(name, expected);
         throw insonify::io_error(name + " is not " + expected);
     }
 
-    /// A number that is given, or another one; neither is written.
+    /// A number from the plan, or `otherwise`; not recorded.
     double number_or(const std::string& name, double otherwise) const {
         if (given_ == nullptr) return otherwise;
         const limits within = limits_of(name);
@@ -150,7 +150,7 @@ class sampler {
     std::map<std::string, std::vector<std::string>> choices_;
 };
 
-/// The aspect that a plan or `--aspects` gives, degrees.
+/// The aspect in degrees, if a plan or `--aspects` gives one.
 inline std::optional<double> aspect_of(const sampler& s, const view_of_target& view) {
     if (s.given("aspect_deg") != nullptr) return s.number_or("aspect_deg", 0);
     if (!view.aspect && s.given("orientation_deg") == nullptr) return std::nullopt;

@@ -9,7 +9,7 @@ namespace generator {
 
 namespace {
 
-constexpr const char* usage = "write K/N with K from 0 to N-1, or N alone in a job array, and submit it as 0 to N-1";
+constexpr const char* usage = "write K/N with K from 0 to N-1, or N alone in a job array of tasks 0 to N-1";
 
 std::uint64_t number(const std::string& text, const std::string& where) {
     std::uint64_t value = 0;
@@ -19,15 +19,15 @@ std::uint64_t number(const std::string& text, const std::string& where) {
     return value;
 }
 
-/// The name and value of the variable that numbers this task of a job array.
-std::pair<std::string, std::string> of_array() {
+/// Name and value of the environment variable with the index of this job-array task.
+std::pair<std::string, std::string> job_array_index() {
     std::pair<std::string, std::string> found;
     for (const char* const name : {"SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"}) {
         const char* const value = std::getenv(name);
         if (value == nullptr || *value == '\0') continue;
         if (!found.first.empty() && found.second != value)
             throw std::invalid_argument(found.first + " is " + found.second + " and " + name + " is " + value +
-                                        ": which of them counts? Write K/N");
+                                        "; write K/N to choose one");
         found = {name, value};
     }
     return found;
@@ -45,10 +45,10 @@ shard parse_shard(const std::string& text) {
     if (slash != std::string::npos) {
         k = text.substr(0, slash);
     } else {
-        std::tie(where, k) = of_array();
+        std::tie(where, k) = job_array_index();
         if (where.empty())
             throw std::invalid_argument("'" + text +
-                                        "' names no K, and neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX is "
+                                        "' has no K, and neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX is "
                                         "set; " +
                                         usage);
     }

@@ -7,9 +7,9 @@ namespace generator {
 
 struct sonar_picture {
     in::labels labels;
-    in::image<float> values;  ///< what is shown, before 8 bits
+    in::image<float> values;  ///< before quantization to 8 bits
     in::image<std::uint8_t> gray;
-    facts known{};                  ///< of the first target, before the picture is turned
+    target_geometry geometry{};     ///< of the first target, before the picture is turned
     std::vector<in::pose> poses;    ///< of the targets
     std::vector<double> footprint;  ///< of each target on the bottom, pixels
     std::vector<bool> is_cut;       ///< by the chip's edge
@@ -193,7 +193,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
                                       in::horizontal_beam{static_cast<float>(p.beam)}, in::level_gain{}};
     auto heard = in::render(scene, rig, in::record_options<>{}.with(law).with(equation), ex);
     if (!scene.targets.empty() && !p.targets.empty())
-        out.known = facts_of(rig, scene.targets.front(), heard.labels.targets.front());
+        out.known = geometry_of(rig, scene.targets.front(), heard.labels.targets.front());
 
     heard = in::with_tone(std::move(heard), rig, p.tone, ex);
     grow(heard, p, pixel);

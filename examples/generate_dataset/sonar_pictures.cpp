@@ -1,4 +1,4 @@
-// Draws the images of the sonar recipe; pictures.cpp those of the published one.
+// Draws the images of the sonar recipe; pictures.cpp draws those of the published one.
 #include "sonar_pictures.hpp"
 
 #include "../common/png_bytes.hpp"
@@ -12,10 +12,10 @@ namespace generator {
 
 namespace {
 
-/// An image is drawn again if its target shows too little of itself.
-constexpr std::uint32_t most_attempts = 8;
+/// Limit of redraws of an image whose target shows less than --visible-share.
+constexpr std::uint32_t max_attempts = 8;
 
-in::image<std::uint8_t> any_of(const in::image<std::uint8_t>& a, const in::image<std::uint8_t>& b) {
+in::image<std::uint8_t> union_of(const in::image<std::uint8_t>& a, const in::image<std::uint8_t>& b) {
     in::image<std::uint8_t> sum = a;
     for (std::size_t i = 0; i < sum.size(); ++i) sum.pixels()[i] = std::max(a.pixels()[i], b.pixels()[i]);
     return sum;
@@ -23,7 +23,7 @@ in::image<std::uint8_t> any_of(const in::image<std::uint8_t>& a, const in::image
 
 }  // namespace
 
-known_columns known_to_sonar(const options& o) {
+known_columns columns_of_sonar_recipe(const options& o) {
     sampler s(numbers_of(o, 0, 0), nullptr);
     std::vector<in::mesh> shapes;
     sample_image(o, s, {object_kinds[0].name, "", "", {}}, shapes);
@@ -34,10 +34,10 @@ known_columns known_to_sonar(const options& o) {
 
 std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const view_of_target& view,
                                  const plan_row* given) {
-    thread_local in::context alone;  // lends the memory of an image to this thread's next
-    // A line that names the attempt is of an image that was drawn before.
-    const bool is_known = given != nullptr && given->find("attempt") != nullptr;
-    auto attempt = static_cast<std::uint32_t>(is_known ? given->whole("attempt", 0, 0, 1'000'000) : 0);
+    thread_local in::context memory;  // reused by the next image of this thread
+    // A line with an attempt comes from a manifest: draw that attempt.
+    const bool is_replay = given != nullptr && given->find("attempt") != nullptr;
+    auto attempt = static_cast<std::uint32_t>(is_replay ? given->whole("attempt", 0, 0, 1'000'000) : 0);
     sonar_plan p;
     sonar_picture d;
     json sampled;
@@ -46,12 +46,12 @@ std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const vi
         sampler s(numbers_of(o, index, attempt), given);
         std::vector<in::mesh> shapes;
         p = sample_image(o, s, view, shapes);
-        d = draw(o, p, shapes, alone);
+        d = draw(o, p, shapes, memory);
         sampled = s.values();
         shown = 1;
         for (std::size_t i = 0; i < p.targets.size(); ++i)
             shown = std::min(shown, static_cast<double>(d.labels.targets[i].area) / std::max(d.footprint[i], 1.0));
-        if (shown >= o.visible_share || is_known || attempt + 1 >= most_attempts) break;
+        if (shown >= o.visible_share || is_replay || attempt + 1 >= max_attempts) break;
     }
     if (shown < o.visible_share)
         std::fprintf(stderr, "image %llu: its target shows %.1f %% of its outline, less than --visible-share\n",
@@ -78,7 +78,7 @@ std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const vi
         add(labelled ? label.class_name : clutter_class, "target_mask", label.box, label.area, own);
         add("shadow", "shadow_mask", label.shadow_box, label.shadow_area, dark);
         if (labelled) {
-            target = any_of(target, own), shadow = any_of(shadow, dark);
+            target = union_of(target, own), shadow = union_of(shadow, dark);
             target_area += label.area, shadow_area += label.shadow_area;
         }
     }
@@ -103,20 +103,20 @@ std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const vi
     parameters["target_x_m"] = known(any ? d.poses[0].position.x : 0.0);
     parameters["target_y_m"] = known(any ? d.poses[0].position.y : 0.0);
     parameters["target_z_m"] = known(any ? d.poses[0].position.z : 0.0);
-    parameters["ground_range_m"] = known(d.known.ground_range);
-    parameters["slant_range_m"] = known(d.known.slant_range);
-    parameters["grazing_deg"] = known(in::numeric::to_degrees(d.known.grazing));
-    parameters["aspect_deg"] = known(in::numeric::to_degrees(d.known.aspect));
-    parameters["target_height_m"] = known(d.known.height);
-    parameters["shadow_m"] = known(d.known.shadow);
-    parameters["shadow_measured_m"] = known(d.known.shadow_measured);
-    parameters["shadow_is_cut"] = known(d.known.shadow_is_cut);
+    parameters["ground_range_m"] = known(d.geometry.ground_range);
+    parameters["slant_range_m"] = known(d.geometry.slant_range);
+    parameters["grazing_deg"] = known(in::numeric::to_degrees(d.geometry.grazing));
+    parameters["aspect_deg"] = known(in::numeric::to_degrees(d.geometry.aspect));
+    parameters["target_height_m"] = known(d.geometry.height);
+    parameters["shadow_m"] = known(d.geometry.shadow);
+    parameters["shadow_measured_m"] = known(d.geometry.shadow_measured);
+    parameters["shadow_is_cut"] = known(d.geometry.shadow_is_cut);
     parameters["target_is_cut"] = known(any && d.is_cut[0]);
     parameters["visible_share"] = known(shown);
     parameters["target_area_px"] = target_area;
     parameters["shadow_area_px"] = shadow_area;
     record["parameters"] = parameters;
-    files.push_back({record_path(index), sealed(record)});
+    files.push_back({record_path(index), record_text(record)});
     return files;
 }
 

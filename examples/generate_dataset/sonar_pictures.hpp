@@ -1,4 +1,4 @@
-// From an index to the files of one image of the sonar recipe.
+// The files of one image of the sonar recipe.
 #pragma once
 
 #include "layout.hpp"
@@ -9,13 +9,13 @@
 
 namespace generator {
 
-/// @param view   what a line of a plan leaves open
+/// @param view   target and seabed where the plan gives none
 /// @param given  a line of a plan, or null
-/// @throws insonify::io_error for a plan's value that can't be drawn
+/// @throws insonify::io_error for a value of the plan that can't be drawn
 std::vector<file> files_of_sonar(const options& o, std::uint64_t index, const view_of_target& view,
                                  const plan_row* given);
 
-/// What a plan may say of the images of this recipe.
-known_columns known_to_sonar(const options& o);
+/// The columns that plans of this recipe may have.
+known_columns columns_of_sonar_recipe(const options& o);
 
 }  // namespace generator

@@ -14,10 +14,10 @@
 #include <insonify/sonar/side_scan/sonar_equation.hpp>
 #include <insonify/sonar/side_scan/water_column.hpp>
 
-#include "facts.hpp"
 #include "objects.hpp"
 #include "options.hpp"
 #include "sampler.hpp"
+#include "target_geometry.hpp"
 #include "views.hpp"
 
 namespace generator {
@@ -76,7 +76,7 @@ namespace detail {
 /// Objects are at most so many pixels wide where nothing else decides the size of a chip.
 /// @param track  the direction of the sonar's track, radians
 inline placed_object sample_object(sampler& s, const std::string& prefix, const std::string& kind, bool used,
-                                   const placing& place, double track) {
+                                   const placement_range& place, double track) {
     const auto name = [&](const char* what) { return prefix + what; };
     const object_kind* const known = kind_named(kind);
     placed_object o{};
@@ -259,7 +259,8 @@ inline sonar_plan sample_image(const options& o, sampler& s, const view_of_targe
         const bool is_shared = used && i == 0 && !target_id.empty();
         in::random_sequence of_image(0);
         if (is_shared) of_image = s.draw_from(in::random_sequence(o.seed, 0x74617200u, target_key(target_id)));
-        placed_object t = detail::sample_object(s, prefix, kind, used, placing_of(o), p.rig_yaw + in::numeric::pi / 2);
+        placed_object t =
+            detail::sample_object(s, prefix, kind, used, placement_range_of(o), p.rig_yaw + in::numeric::pi / 2);
         if (is_shared) s.draw_from(of_image);
         if (!used) s.drop(prefix + "kind");
         if (used) p.targets.push_back(t), shapes.push_back(detail::sized(s, prefix, mesh_of(t.form), i == 0));

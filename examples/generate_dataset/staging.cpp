@@ -17,7 +17,7 @@ using insonify::detail::raise_io;
 
 namespace {
 
-/// Of this process among all that share the folder, on other machines too.
+/// A name unique among all processes that share the folder, across machines.
 std::string process_name() {
     std::string name;
 #if defined(__unix__) || defined(__APPLE__)
@@ -38,8 +38,8 @@ void sync_folder(const fs::path& folder) {
     if (handle < 0) raise_io(folder.string(), "can't open", errno);
     const int failed = ::fsync(handle) == 0 ? 0 : errno;
     ::close(handle);
-    // Some file systems sync no folders, and say EINVAL or EBADF.
-    if (failed == EIO || failed == ENOSPC || failed == EDQUOT) raise_io(folder.string(), "can't bring to disk", failed);
+    // File systems that cannot sync folders report EINVAL or EBADF.
+    if (failed == EIO || failed == ENOSPC || failed == EDQUOT) raise_io(folder.string(), "can't sync", failed);
 #else
     static_cast<void>(folder);
 #endif
@@ -95,14 +95,14 @@ bool staged_file::place() {
     return false;
 }
 
-staged_file::outcome staged_file::place_first() {
+staged_file::outcome staged_file::place_if_absent() {
 #if defined(__unix__) || defined(__APPLE__)
     errno = 0;
     if (::link(temporary_.c_str(), path_.c_str()) == 0) return outcome::placed;
-    if (errno == EEXIST) return outcome::taken;
+    if (errno == EEXIST) return outcome::exists;
 #endif
-    // A file system without hard links, or the temporary file is gone.
-    if (fs::exists(path_)) return outcome::taken;
+    // The file system has no hard links, or the temporary file is gone.
+    if (fs::exists(path_)) return outcome::exists;
     return place() ? outcome::placed : outcome::lost;
 }
 
@@ -110,11 +110,11 @@ staging::staging(const fs::path& root, const std::string& unit)
     : root_(root), folder_(root / ".partial" / unit), process_(process_name()) {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
-    fs::create_directories(folder_, ignored);  // where that fails, so does the first file, with the reason
+    fs::create_directories(folder_, ignored);  // a failure is reported by the first file
 }
 
 staging::~staging() {
-    std::error_code ignored;  // not empty while another process works there
+    std::error_code ignored;  // fails while another process has files there
     fs::remove(folder_, ignored);
     fs::remove(folder_.parent_path(), ignored);
 }
@@ -158,12 +158,12 @@ bool staging::put_group(const std::vector<file>& group) {
 
 void staging::put(const std::vector<std::vector<file>>& groups) {
     for (const std::vector<file>& group : groups)
-        until_kept([&] {
+        retry_lost([&] {
             if (!put_group(group)) throw lost_file((root_ / group.front().path).string());
         });
 }
 
-void staging::until_kept(const std::function<void()>& write) {
+void staging::retry_lost(const std::function<void()>& write) {
     for (int attempt = 1;; ++attempt) try {
             return write();
         } catch (const lost_file&) {
@@ -181,14 +181,14 @@ void staging::restore() {
         throw insonify::io_error(folder_.string() + ": can't make this folder: " + failed.message());
 }
 
-bool staging::put_first(const file& f) {
+bool staging::write_if_absent(const file& f) {
     const std::string path = (root_ / f.path).string();
     bool first = false;
-    until_kept([&] {
+    retry_lost([&] {
         staged_file staged(temporary_name(), path);
         staged.write(f.bytes);
         staged.finish();
-        const staged_file::outcome found = staged.place_first();
+        const staged_file::outcome found = staged.place_if_absent();
         if (found == staged_file::outcome::lost) throw lost_file(path);
         first = found == staged_file::outcome::placed;
     });

@@ -19,13 +19,13 @@ std::string class_of(const options& o, std::uint64_t i) {
 
 /// "ship 300, plane 300": exact, or scaled up from the first hundred thousand images.
 std::string classes_text(const options& o, const index_range& work) {
-    constexpr std::uint64_t most = 100'000;
-    const std::uint64_t looked_at = (std::min)(work.size(), most);
+    constexpr std::uint64_t limit = 100'000;
+    const std::uint64_t sampled = (std::min)(work.size(), limit);
     std::map<std::string, std::uint64_t> counts;
-    for (std::uint64_t i = 0; i < looked_at; ++i) ++counts[class_of(o, work.first + i)];
+    for (std::uint64_t i = 0; i < sampled; ++i) ++counts[class_of(o, work.first + i)];
     std::string text;
     for (const auto& [name, count] : counts) {
-        const double share = static_cast<double>(count) / static_cast<double>(looked_at);
+        const double share = static_cast<double>(count) / static_cast<double>(sampled);
         const auto all = static_cast<std::uint64_t>(share * static_cast<double>(work.size()) + 0.5);
         text += (text.empty() ? "" : ", ") + name + " " + std::to_string(all);
     }
@@ -55,12 +55,12 @@ std::string time_text(double seconds) {
 
 }  // namespace
 
-image_cost measured_cost(const options& o, const index_range& work, const stock& shared) {
+image_cost measured_cost(const options& o, const index_range& work, const shared_inputs& shared) {
     using clock = std::chrono::steady_clock;
     const auto start = clock::now();
     image_cost cost;
     const auto elapsed = [&] { return std::chrono::duration<double>(clock::now() - start).count(); };
-    double first = 0;  // which also brings in memory and tables that the others reuse
+    double first = 0;  // includes allocations and tables that later images reuse
     while (cost.images < 2 || (cost.images < 4 && elapsed() < 0.5)) {
         const std::uint64_t step = work.size() / 4;
         const std::uint64_t index = work.first + step * static_cast<std::uint64_t>(cost.images);
@@ -69,7 +69,7 @@ image_cost measured_cost(const options& o, const index_range& work, const stock&
     }
     cost.seconds = (elapsed() - first) / (cost.images - 1);
     cost.bytes /= cost.images;
-    // Tar files hold the same files again.
+    // Tar files hold a second copy.
     if (std::find(o.formats.begin(), o.formats.end(), "webdataset") != o.formats.end()) cost.bytes *= 2;
     return cost;
 }
@@ -84,7 +84,7 @@ std::string summary_of(const options& o, const index_range& work, const image_co
     const auto count = static_cast<double>(work.size());
     return text + "  about " + bytes_text(count * cost.bytes) + ", " + time_text(count * cost.seconds / threads) +
            " on " + std::to_string(threads) + (threads == 1 ? " thread" : " threads") +
-           ", less what is there already\n";
+           ", less for images that exist already\n";
 }
 
 std::string where_to_look(const options& o) {

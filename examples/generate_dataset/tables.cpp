@@ -12,9 +12,9 @@
 #include "checksum.hpp"
 #include "configuration.hpp"
 #include "csv.hpp"
-#include "pack.hpp"
 #include "preview.hpp"
 #include "record.hpp"
+#include "tar_writer.hpp"
 
 namespace generator {
 
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A table in the making, with the checksum of what was written.
+/// A table being written, with its checksum.
 class table {
   public:
     table(staging& into, std::string name) : into_(into), name_(std::move(name)), file_(into.open(name_)) {}
@@ -31,7 +31,7 @@ class table {
         file_.write(bytes);
         sum_.add(bytes);
     }
-    /// Puts the table in its place. @returns its line of SHA256SUMS
+    /// Moves the table into place. @returns its line of SHA256SUMS
     std::string close() {
         into_.put(file_, name_);
         return sum_.digits() + "  " + name_ + "\n";
@@ -70,16 +70,16 @@ std::string line_of(const json& record, bool names) {
 }
 
 /// The tar files of a set: one for each block of a thousand ids.
-class sample_packs {
+class webdataset_writer {
   public:
-    sample_packs(const fs::path& root, staging& into) : root_(root), into_(into) {}
+    webdataset_writer(const fs::path& root, staging& into) : root_(root), into_(into) {}
 
     void add(std::uint64_t index, const std::string& text, const json& record, std::size_t category) {
         if (block_ != block_of(index)) close();
         if (!tar_) {
             block_ = block_of(index);
             table_ = std::make_unique<table>(into_, "webdataset/" + block_ + ".tar");
-            tar_ = std::make_unique<tar_pack>([this](std::string_view bytes) { table_->write(bytes); });
+            tar_ = std::make_unique<tar_writer>([this](std::string_view bytes) { table_->write(bytes); });
         }
         const std::string id = id_of(index);
         bool image = true;
@@ -88,7 +88,7 @@ class sample_packs {
             const std::string bytes = insonify::read_file((root_ / path).string());
             if (sha256(bytes) != entry.at("sha256"))
                 throw insonify::io_error((root_ / path).string() + ": is damaged; run the command again");
-            // An extension is all that follows the first dot: 000000007.target_mask.png
+            // WebDataset splits names at the first dot: 000000007.target_mask.png
             const std::string extension = path.substr(path.rfind('.'));
             tar_->add(id + (image || extension != ".png" ? extension : "." + of + extension), bytes);
             if (image) tar_->add(id + ".cls", std::to_string(category));
@@ -96,7 +96,7 @@ class sample_packs {
         }
         tar_->add(id + ".json", text);
     }
-    /// Puts the last tar in its place. @returns lines of SHA256SUMS
+    /// Moves the last tar into place. @returns lines of SHA256SUMS
     std::string close() {
         if (tar_) {
             tar_->close();
@@ -111,7 +111,7 @@ class sample_packs {
     staging& into_;
     std::string block_, sums_;
     std::unique_ptr<table> table_;
-    std::unique_ptr<tar_pack> tar_;
+    std::unique_ptr<tar_writer> tar_;
 };
 
 std::uint64_t write_once(const fs::path& root, bool preview, staging& into) {
@@ -119,7 +119,7 @@ std::uint64_t write_once(const fs::path& root, bool preview, staging& into) {
     const auto formats = config.value("formats", std::vector<std::string>());
     const bool packs = std::find(formats.begin(), formats.end(), "webdataset") != formats.end();
     table coco(into, "annotations.json"), manifest(into, "manifest.csv"), readme(into, "README.md");
-    sample_packs samples(root, into);
+    webdataset_writer samples(root, into);
     data_card card;
     preview_page page;
     json categories = json::array();
@@ -131,7 +131,8 @@ std::uint64_t write_once(const fs::path& root, bool preview, staging& into) {
     for (const auto& name : config.at("categories").get<std::vector<std::string>>()) add_category(name, "target");
     add_category("shadow", "shadow");
 
-    // The images come first and the annotations after all of them, but each record is read once.
+    // COCO lists all images before all annotations: annotations go to a temporary file, so that each record is read
+    // once.
     staged_file annotations = into.open("annotations.json");
     std::uint64_t images = 0, annotation_id = 0;
     coco.write(R"({"info":{"description":"synthetic side-scan sonar"},"categories":)" + categories.dump() +
@@ -147,7 +148,7 @@ std::uint64_t write_once(const fs::path& root, bool preview, staging& into) {
         card.add(record);
         if (preview) page.add(record);
         if (packs) {
-            // As a target's category; an image without one is 0.
+            // The category of the target; 0 without one.
             const std::string image = record.at("files").at(0).at("path").get<std::string>();
             const auto category = category_ids.find(image.substr(7, image.find('/', 7) - 7));
             samples.add(index, text, record, category == category_ids.end() ? 0 : category->second);
@@ -181,7 +182,7 @@ std::uint64_t write_once(const fs::path& root, bool preview, staging& into) {
     sums += sha256(insonify::read_file((root / "config.json").string())) + "  config.json\n";
     sums += manifest.close();
     sums += samples.close();
-    // The page is for people: it is none of what a run has to leave behind.
+    // The page is optional and not listed in SHA256SUMS.
     if (preview) into.put({{{"preview.html", page.text(root.filename().string())}}});
     into.put({{{"SHA256SUMS", sums}}});
     return images;
@@ -191,7 +192,7 @@ std::uint64_t write_once(const fs::path& root, bool preview, staging& into) {
 
 std::uint64_t write_tables(const fs::path& root, bool preview, staging& into) {
     std::uint64_t images = 0;
-    into.until_kept([&] { images = write_once(root, preview, into); });
+    into.retry_lost([&] { images = write_once(root, preview, into); });
     return images;
 }
 

@@ -1,6 +1,5 @@
-// What is made of all records in a folder: annotations.json (COCO), manifest.csv, README.md, tar files of WebDataset
-// where the configuration says so, and SHA256SUMS of them. Written as a stream: a million images take the memory of a
-// hundred.
+// The tables of all records: annotations.json (COCO), manifest.csv, README.md, optionally tar files of WebDataset, and
+// SHA256SUMS. Records are streamed: a million images take as much memory as a hundred.
 #pragma once
 
 #include <string>
@@ -10,12 +9,12 @@
 
 namespace generator {
 
-/// @throws io_error if a record is torn, or a table can't be written
-/// @param preview  writes preview.html, too
-/// @returns how many images the tables list
+/// @param preview  also writes preview.html
+/// @returns number of images in the tables
+/// @throws io_error if a record is damaged, or a table can't be written
 std::uint64_t write_tables(const std::filesystem::path& root, bool preview, staging& into);
 
-/// What is wrong with the tables and config.json, by SHA256SUMS.
+/// Tables that are missing or contradict SHA256SUMS, one line each.
 std::vector<std::string> table_faults(const std::filesystem::path& root);
 
 }  // namespace generator

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Runs the generator as a user would, and worse: test.py <generate_dataset> <merge_dataset>
+"""End-to-end tests of the generator, with valid and hostile input: test.py <generate_dataset> <merge_dataset>
 
-INSONIFY_KILLS: how many runs are killed in the middle (8).
+INSONIFY_KILLS: number of runs that are killed midway (8).
 """
 
 import ast
@@ -31,7 +31,7 @@ SMALL = ["--recipe", "published", "--size", "96", "--count", "8", "--seed", "5",
 
 
 def with_recipe(options):
-    """Of the two recipes, most tests are of the published one, which has inputs and modes."""
+    """Options with `--recipe published` as the default: most tests need its inputs and modes."""
     return list(options) if "--recipe" in options else ["--recipe", "published", *options]
 
 
@@ -44,41 +44,16 @@ def run(*options, expect=0, program=GENERATOR, **environment):
 
 
 def refusal(*options):
-    """What a run says that is refused, with an exit code of 1 or 2, before it has made anything."""
+    """Output of a run that must be refused with exit code 1 or 2."""
     result = subprocess.run([GENERATOR, *map(str, with_recipe(options))], capture_output=True, text=True, timeout=20)
     assert result.returncode in (1, 2), result
     return result.stdout + result.stderr
 
 
 def digest(folder):
-    """What every file of a data set holds, by its path."""
+    """SHA-256 of every file of a data set, by path."""
     return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
             for path in sorted(pathlib.Path(folder).rglob("*")) if path.is_file() and path.name != ".lock"}
-
-
-def read_png(path):
-    """Gray samples of a PNG of 8 bits without interlacing."""
-    data = path.read_bytes()
-    at, packed = 8, b""
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
-        if kind == b"IHDR":
-            width, height = struct.unpack(">II", data[at + 8:at + 16])
-        if kind == b"IDAT":
-            packed += data[at + 8:at + 8 + size]
-        at += size + 12
-    raw = zlib.decompress(packed)
-    out, before = [], [0] * width
-    for y in range(height):
-        kind, line = raw[y * (width + 1)], list(raw[y * (width + 1) + 1:(y + 1) * (width + 1)])
-        for x in range(width):
-            left, corner = (line[x - 1], before[x - 1]) if x else (0, 0)
-            p = left + before[x] - corner
-            paeth = min((abs(p - left), 0, left), (abs(p - before[x]), 1, before[x]), (abs(p - corner), 2, corner))[2]
-            line[x] = (line[x] + (0, left, before[x], (left + before[x]) // 2, paeth)[kind]) & 255
-        out += line
-        before = line
-    return out
 
 
 def pgm(path, maxval=255, name="P5"):
@@ -90,7 +65,7 @@ def pgm(path, maxval=255, name="P5"):
 
 
 def read_png(data):
-    """Gray values of a PNG without filters, of 8 or 16 bits; each chunk's checksum is checked."""
+    """Gray values of an unfiltered PNG of 8 or 16 bits; verifies the checksum of each chunk."""
     assert data.startswith(b"\x89PNG\r\n\x1a\n")
     at, packed, kinds = 8, b"", []
     while at < len(data):
@@ -111,7 +86,7 @@ def read_png(data):
 
 
 def read_npy(data):
-    """Values of an array of float32 as NumPy's format 1.0 has it."""
+    """Values of a float32 array in NumPy's format 1.0."""
     assert data[:8] == b"\x93NUMPY\x01\x00"
     size, = struct.unpack("<H", data[8:10])
     header = ast.literal_eval(data[10:10 + size].decode("latin1"))
@@ -128,19 +103,19 @@ class Generator(unittest.TestCase):
         self.addCleanup(self.scratch.cleanup)
         self.folder = pathlib.Path(self.scratch.name)
 
-    def test_the_same_bytes_for_any_number_of_threads(self):
+    def test_bytes_do_not_depend_on_threads(self):
         for threads in 1, 2, 8:
             run("--out", self.folder / f"t{threads}", "--threads", threads, *SMALL)
         self.assertEqual(digest(self.folder / "t1"), digest(self.folder / "t2"))
         self.assertEqual(digest(self.folder / "t1"), digest(self.folder / "t8"))
 
-    def test_ranges_made_one_by_one_are_the_whole(self):
+    def test_ranges_made_separately_equal_one_run(self):
         run("--out", self.folder / "whole", *SMALL)
         for first, count in (5, 3), (0, 2), (2, 3):
             run("--out", self.folder / "parts", *SMALL, "--first", first, "--count", count)
         self.assertEqual(digest(self.folder / "whole"), digest(self.folder / "parts"))
 
-    def test_every_format_holds_the_same_picture(self):
+    def test_all_formats_hold_the_same_picture(self):
         out, formats = self.folder / "a", "webdataset,npy,png16,pfm"
         run("--out", out, *SMALL, "--format", formats, "--threads", 2)
         run("--out", self.folder / "b", *SMALL, "--format", formats, "--threads", 1)
@@ -159,7 +134,7 @@ class Generator(unittest.TestCase):
                 self.assertLessEqual(abs(value * 255 - eight), 0.5001)
                 self.assertLessEqual(abs(value * 65535 - sixteen), 0.51)
 
-    def test_a_tar_is_a_webdataset(self):
+    def test_tar_files_are_a_webdataset(self):
         out = self.folder / "a"
         options = ["--out", out, "--size", 16, "--count", 30, "--first", 985, "--format", "webdataset,npy"]
         run(*options)
@@ -170,7 +145,7 @@ class Generator(unittest.TestCase):
         for path in sorted((out / "webdataset").iterdir()):
             with tarfile.open(path, "r:") as tar:
                 members = tar.getmembers()
-                # A sample's members follow one another, as a reader of a stream needs it.
+                # Readers of a stream need the members of a sample next to one another.
                 self.assertEqual(len(members) % len(extensions), 0)
                 for at in range(0, len(members), len(extensions)):
                     sample = members[at:at + len(extensions)]
@@ -193,7 +168,7 @@ class Generator(unittest.TestCase):
         run(*options)
         self.assertIn(" 0 faults", run(*options, "--verify"))
 
-    def test_a_set_comes_with_a_card(self):
+    def test_a_set_has_a_readme(self):
         out = self.folder / "a"
         run("--out", out, *SMALL, "--reference", pgm(self.folder / "r|f.pgm"))
         card = (out / "README.md").read_text()
@@ -204,7 +179,7 @@ class Generator(unittest.TestCase):
             self.assertTrue((out / image).exists(), image)
         self.assertIn("README.md", (out / "SHA256SUMS").read_text())
 
-    def test_the_sonar_recipe_is_joined_from_shards(self):
+    def test_shards_of_the_sonar_recipe_are_joined(self):
         options = ["--recipe", "sonar", "--count", 6, "--size", 64]
         run("--out", self.folder / "whole", *options)
         for k in range(2):
@@ -213,7 +188,7 @@ class Generator(unittest.TestCase):
         (self.folder / "a" / "preview.html").unlink()
         self.assertEqual(digest(self.folder / "whole"), digest(self.folder / "a"))
 
-    def test_a_killed_run_goes_on_to_the_same_bytes(self):
+    def test_a_killed_run_continues_to_the_same_bytes(self):
         run("--out", self.folder / "whole", *SMALL)
         whole = digest(self.folder / "whole")
         chance, killed = random.Random(1), self.folder / "killed"
@@ -231,7 +206,7 @@ class Generator(unittest.TestCase):
                 self.assertEqual(whole, digest(killed))
                 shutil.rmtree(killed)
 
-    def test_an_interrupted_run_keeps_what_is_finished(self):
+    def test_an_interrupted_run_keeps_finished_images(self):
         options = ["--out", self.folder / "a", "--size", "256", "--count", "400"]
         process = subprocess.Popen([GENERATOR, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         while not list((self.folder / "a").rglob("records/*/*.json")) and process.poll() is None:
@@ -239,14 +214,14 @@ class Generator(unittest.TestCase):
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
-        self.assertIn("goes on from here", errors)
+        self.assertIn("continues from here", errors)
         listed = json.loads((self.folder / "a" / "annotations.json").read_text())["images"]
         self.assertGreater(len(listed), 0)
         self.assertLess(len(listed), 400)
         for image in listed:
             self.assertTrue((self.folder / "a" / image["file_name"]).exists())
 
-    def test_annotations_are_coco_that_adds_up(self):
+    def test_annotations_are_consistent_coco(self):
         run("--out", self.folder / "a", *SMALL)
         coco = json.loads((self.folder / "a" / "annotations.json").read_text())
         self.assertEqual([c["name"] for c in coco["categories"]], ["cylinder", "cube", "cone", "sphere", "shadow"])
@@ -278,7 +253,7 @@ class Generator(unittest.TestCase):
             "--heightmap-scale", 0.2)
         self.assertEqual(len(list((self.folder / "a" / "images" / "tetra").rglob("*.png"))), 2)
 
-    def test_a_mesh_that_shows_nothing_is_no_class(self):
+    def test_a_mesh_without_faces_or_area_is_refused(self):
         mesh = self.folder / "m.obj"
         for text, reason in (("# nothing\n", "has no face"), ("v 1 1 1\nv 1 1 1\nv 2 2 2\nf 1 2 3\n", "have no area")):
             mesh.write_text(text)
@@ -286,7 +261,7 @@ class Generator(unittest.TestCase):
         self.assertFalse((self.folder / "a").exists())
 
     def read_labels(self, folder):
-        """The manifest's rows, with the boxes of the target and of its shadow."""
+        """Rows of the manifest, with the boxes of target and shadow."""
         coco = json.loads((folder / "annotations.json").read_text())
         kinds = {c["id"]: c["supercategory"] for c in coco["categories"]}
         boxes = {(a["image_id"], kinds[a["category_id"]]): a["bbox"] for a in coco["annotations"]}
@@ -296,8 +271,8 @@ class Generator(unittest.TestCase):
             index = int(row["index"])
             yield values, boxes.get((index, "target")), boxes.get((index, "shadow"))
 
-    def test_labels_of_every_mode_say_what_closed_forms_say(self):
-        # A sphere that lies on level sand: r, and z, the height of its middle, are all there is to know.
+    def test_labels_of_every_mode_match_closed_forms(self):
+        # A sphere resting on level sand: the closed forms depend on its radius r and the height z of its centre.
         checked = {}
         for mode in "overhead", "ground_range", "slant_range":
             run("--out", self.folder / mode, "--mode", mode, "--chip", 6, "--pixels", 256, "--count", 12, "--seed", 2,
@@ -307,7 +282,7 @@ class Generator(unittest.TestCase):
                 pixel, r, z = v["metres_per_pixel"], v["target_size_m"] / 2, v["target_z_m"]
                 a, x, slant = v["altitude_m"], v["ground_range_m"], mode == "slant_range"
                 self.assertAlmostEqual(pixel, 6 / 256, places=3 if mode == "overhead" else 6)
-                if mode == "overhead":  # the light's ray that touches the sphere, and the camera's
+                if mode == "overhead":  # tangents of the sphere from the light and from the camera
                     grazing = math.radians(v["grazing_deg"])
                     tip = x + z / math.tan(grazing) + r / math.sin(grazing)
                     first = -a * math.tan(math.atan2(-x, a - z) + math.asin(r / math.hypot(x, a - z)))
@@ -315,7 +290,7 @@ class Generator(unittest.TestCase):
                     distance = math.hypot(x, a - z)
                     touching = math.atan2(a - z, x) - math.asin(r / distance)
                     tip = a / math.sin(touching) if slant else a / math.tan(touching)
-                    # In a map, the nearest point that is seen is that of the sphere's own side.
+                    # In ground range, the nearest visible point is on the side of the sphere.
                     first = distance - r if slant else x - r
                     self.assertAlmostEqual(v["grazing_deg"], math.degrees(math.atan2(a, x)), places=4)
                     self.assertAlmostEqual(v["slant_range_m"], math.hypot(a, x), places=4)
@@ -326,7 +301,7 @@ class Generator(unittest.TestCase):
                 self.assertAlmostEqual(target[0], 256 / 3, delta=40)
                 if v["shadow_is_cut"] == "true":
                     continue
-                # Sand is rough, by 4 mm: so many pixels more or less where its shadow ends.
+                # Sand is rough by 4 mm, which moves the end of the shadow by some pixels.
                 rough = 3 * 0.004 / math.tan(math.radians(v["grazing_deg"])) / pixel
                 end = (tip - v["left_edge_m"]) / pixel
                 self.assertAlmostEqual(shadow[0] + shadow[2], end, delta=1.5 + rough, msg=f"{mode} {v}")
@@ -335,7 +310,7 @@ class Generator(unittest.TestCase):
         for mode in "overhead", "ground_range", "slant_range":
             self.assertGreaterEqual(checked.get(mode, 0), 4, mode)
 
-    def test_every_mode_has_masks_and_the_same_bytes_for_any_number_of_threads(self):
+    def test_every_mode_has_masks_and_bytes_that_do_not_depend_on_threads(self):
         for mode in "ground_range", "slant_range":
             options = ["--mode", mode, "--pixels", 64, "--count", 6, "--seabeds", "mixed,rock"]
             run("--out", self.folder / f"{mode}1", "--threads", 1, *options)
@@ -347,7 +322,7 @@ class Generator(unittest.TestCase):
     def read_manifest(self, folder):
         return list(csv.DictReader((folder / "manifest.csv").read_text().splitlines()))
 
-    def test_a_dry_run_says_what_would_be_made_and_makes_nothing(self):
+    def test_a_dry_run_prints_a_summary_and_writes_nothing(self):
         out = self.folder / "a"
         text = run("--out", out, *SMALL, "--dry-run")
         self.assertIn("8 images of 96 x 96 pixels, recipe published, seed 5", text)
@@ -358,7 +333,7 @@ class Generator(unittest.TestCase):
         self.assertIn("4 images of 128 x 128 pixels", text)
         self.assertIn("classes: empty 4", text)
 
-    def test_the_sonar_recipe_makes_empty_images_and_labels_what_is_there(self):
+    def test_the_sonar_recipe_has_empty_images_and_labels_targets(self):
         out = self.folder / "a"
         options = ["--recipe", "sonar", "--pixels", 64, "--count", 24]
         run("--out", out, *options, "--threads", 1)
@@ -380,12 +355,12 @@ class Generator(unittest.TestCase):
                 self.assertIn(row["class"], found)
                 self.assertGreaterEqual(float(row["visible_share"]), 0.1)
                 self.assertIn(row["target_is_cut"], ("true", "false"))
-            # Whatever was sampled is in the row.
+            # Every sampled value is in the row.
             for column in ("sonar", "display", "looks", "noise_floor", "tone_drift_db", "survey_grazing_deg", "port", "beam_rad",
                            "feature_m", "first_range_m", "rig_yaw_rad", "noise_seed"):
                 self.assertNotEqual(row[column], "", column)
 
-    def test_counts_by_class_are_kept(self):
+    def test_per_class_counts_are_exact(self):
         counts = {"truncated_cone": 3, "empty": 2, "crate": 1}
         run("--recipe", "sonar", "--out", self.folder / "a", "--pixels", 32, "--visible-share", 0, "--per-class",
             ",".join(f"{name}={count}" for name, count in counts.items()))
@@ -393,7 +368,7 @@ class Generator(unittest.TestCase):
         self.assertEqual({name: [row["class"] for row in rows].count(name) for name in counts}, counts)
         self.assertIn("is not CLASS=COUNT", refusal("--recipe", "sonar", "--out", "x", "--per-class", "submarine=3"))
         self.assertIn("is not CLASS=COUNT", refusal("--recipe", "sonar", "--out", "x", "--per-class", "ship=0"))
-        self.assertIn("'ship' is there twice",
+        self.assertIn("'ship' appears twice",
                       refusal("--recipe", "sonar", "--out", "x", "--per-class", "ship=1,plane=1,ship=2"))
         self.assertIn("is not CLASS=COUNT", refusal("--out", "x", "--targets", "cube", "--per-class", "cone=3"))
 
@@ -412,15 +387,15 @@ class Generator(unittest.TestCase):
             dark[match] = self.gray_of_shadows(out)
         self.assertLess(dark["masked"], dark["whole"])
 
-    def test_shadows_stay_dark_where_there_are_many(self):
-        # Gray values of the reference from 0 to 255, each as often as any other: its darkest twentieth ends at 12.
+    def test_many_shadows_stay_dark(self):
+        # The reference has all gray values from 0 to 255 equally often: its darkest twentieth ends at 12.
         (self.folder / "ramp.pgm").write_bytes(b"P5 256 16 255\n" + bytes(range(256)) * 16)
         for seabed in "rock", "ripples":
             run("--out", self.folder / seabed, "--size", 96, "--count", 4, "--seabeds", seabed, "--noise", "none", "--chip", 8,
                 "--reference", self.folder / "ramp.pgm")
             self.assertLess(self.gray_of_shadows(self.folder / seabed), 10, seabed)
 
-    def test_targets_that_the_edge_cuts_are_marked(self):
+    def test_targets_cut_by_the_edge_are_marked(self):
         for mode in "overhead", "ground_range", "slant_range":
             out = self.folder / mode
             run("--out", out, "--mode", mode, "--place", "anywhere", "--chip", 4, "--size", 64, "--count", 24, "--seabeds", "sand",
@@ -431,7 +406,7 @@ class Generator(unittest.TestCase):
                 marks.add(values["target_is_cut"])
                 if values["target_is_cut"] == "false":
                     self.assertIsNotNone(target)
-                    # A whole target may end in the last pixel, and glints may spread by one.
+                    # A whole target may touch the last pixel, and glints may spread by one.
                     inner = target[0] > 0 and target[1] > 0 and target[0] + target[2] < 64 and target[1] + target[3] < 64
                     boxes.setdefault("whole", []).append(inner)
                 else:
@@ -441,19 +416,19 @@ class Generator(unittest.TestCase):
                 self.assertGreaterEqual(sum(right), 0.8 * len(right), f"{mode} {kind} {right}")
 
     def gray_of_shadows(self, folder):
-        """The mean gray of targets' shadows."""
+        """Mean gray value of the targets' shadows."""
         inside = []
         for picture in sorted((folder / "images").rglob("*.png")):
             mask = folder / "masks" / picture.parent.name / f"{picture.stem}_shadow.png"
             inside += [gray for gray, is_dark in zip(read_png(picture.read_bytes()), read_png(mask.read_bytes())) if is_dark]
         return sum(inside) / len(inside)
 
-    def test_options_come_from_a_file_too(self):
+    def test_options_from_a_config_file(self):
         (self.folder / "set.toml").write_text('size = 64\ncount = 2\nseed = 9\ntargets = ["cone"]\n')
         run("--config", self.folder / "set.toml", "--out", self.folder / "a")
         self.assertEqual(len(list((self.folder / "a" / "images" / "cone").rglob("*.png"))), 2)
 
-    def test_what_cannot_be_is_refused_with_a_reason(self):
+    def test_invalid_options_are_refused_with_a_reason(self):
         def refused(text, *options, expect=2):
             self.assertIn(text, run(*options, expect=expect))
         out = ["--out", self.folder / "a"]
@@ -466,7 +441,7 @@ class Generator(unittest.TestCase):
         refused("low is above high", *out, "--altitude", "6:4")
         refused("neither a number nor a range", *out, "--grazing", "steep")
         refused("must lie within", *out, "--grazing", "0")
-        refused("for the sonar's modes", *out, "--noise", "seabed")
+        refused("needs a side-scan mode", *out, "--noise", "seabed")
         refused("sideways", *out, "--mode", "sideways")
         refused("is not CLASS=FILE", *out, "--mesh", "wreck.obj")
         refused("--count: '-1' is not a whole number", *out, "--count", "-1")
@@ -480,27 +455,27 @@ class Generator(unittest.TestCase):
         refused("--chip: 10000 m from an --altitude", *out, "--chip", "10000", "--altitude", "0.01")
         refused("--distance: 1000 times an --altitude", *out, "--mode", "slant_range", "--distance", 1000, "--altitude",
                 "1000")
-        refused("is there twice", *out, "--targets", "cylinder,cylinder,cube")
+        refused("appears twice", *out, "--targets", "cylinder,cylinder,cube")
         for taken in "shadow", "cylinder", "Cube":
             refused(f"the class {taken} is taken", *out, "--mesh", f"{taken}=f.obj")
         refused("the class wreck is taken", *out, "--mesh", "wreck=f.obj", "--mesh", "wreck=g.obj")
         for name in 'a,b', 'a"b', "a/b", "", "..", "a b":
             refused("is not CLASS=FILE", *out, "--mesh", f"{name}=f.obj")
         refused("does not exist", *out, "--reference", self.folder / "nowhere")
-        refused("--out: this is no folder's name", "--out", "")
+        refused("--out: an empty name is not a folder", "--out", "")
         self.assertFalse((self.folder / "a").exists())
         (self.folder / "other").mkdir()
         (self.folder / "other" / "thesis.txt").write_text("mine")
         refused("is not empty", "--out", self.folder / "other", expect=1)
         run(*out, *SMALL)
         refused("seed was 5, is 6", *out, *SMALL, "--seed", "6", expect=1)
-        # The library's own words for an argument are put into options.
+        # The library's names of arguments are replaced by options.
         refused("pings in the beam (--beam, --chip, --size)", "--out", self.folder / "b", "--mode", "slant_range",
                 "--beam", 20, "--chip", 0.5, "--size", 4096, "--count", 1, expect=1)
 
-    def test_a_configuration_is_options_and_nothing_else(self):
+    def test_a_config_file_holds_only_options(self):
         config, out = self.folder / "set.toml", self.folder / "a"
-        for text, reason in ((b"size = 64\nfoo = 3\n", "line 2: 'foo' is no option"),
+        for text, reason in ((b"size = 64\nfoo = 3\n", "line 2: 'foo' is not an option"),
                              (b"[scene]\nsize = 64\n", "line 1: '[scene]' is a section"),
                              (b"size = 64\nhello\n", "line 2: 'hello' is not `option = value`"),
                              (b"\x7fELF\x02\x01\0\0\n", "line 1: this is not a text file"),
@@ -515,7 +490,7 @@ class Generator(unittest.TestCase):
         self.assertEqual(len(digest(out / "images")), 2)
 
     @unittest.skipUnless(hasattr(os, "mkfifo"), "needs pipes")
-    def test_what_has_no_end_is_no_input(self):
+    def test_folders_pipes_and_devices_are_refused_as_input(self):
         os.mkfifo(self.folder / "pipe")
         for path in self.folder / "pipe", "/dev/zero":
             for option in ("--reference", "--heightmap", "--config"):
@@ -530,7 +505,7 @@ class Generator(unittest.TestCase):
         self.assertIn("holds no PNG", refusal("--out", self.folder / "a", "--reference", self.folder / "empty"))
         self.assertFalse((self.folder / "a").exists())
 
-    def test_pictures_are_known_by_their_content(self):
+    def test_picture_formats_are_recognized_by_content(self):
         # 16 bits under a name that is not .pgm.
         images = set()
         for name in "x.pgm", "x.PGM", "x", "x.png":
@@ -544,16 +519,16 @@ class Generator(unittest.TestCase):
             b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR" + struct.pack(">IIBBBBBI", 1 << 30, 1 << 30, 8, 0, 0, 0, 0, 0))
         self.assertIn("more pixels than can be read",
                       refusal("--out", self.folder / "a", "--reference", self.folder / "bomb.png"))
-        # A chunk that claims 1.2 GB, which nobody should allocate, in a file of 86 bytes.
+        # A file of 86 bytes whose chunk claims 1.2 GB, which must not be allocated.
         torn = pathlib.Path(__file__).parents[2] / "tests" / "fuzz" / "corpus" / "picture" / "huge_chunk.png"
         self.assertIn("ends within a chunk", refusal("--out", self.folder / "a", "--reference", torn))
-        # A table of 257 symbols, the last of which stb_image 2.27 writes beyond an array.
+        # A Huffman table of 257 symbols, which makes stb_image 2.27 write beyond an array.
         torn = torn.with_name("huffman_symbols.jpg")
         self.assertIn("more than 256 symbols", refusal("--out", self.folder / "a", "--reference", torn))
         (self.folder / "not.png").write_text("hello")
         self.assertIn("is not a PNG", refusal("--out", self.folder / "a", "--reference", self.folder / "not.png"))
 
-    def test_heights_stay_within_what_a_float_can_square(self):
+    def test_heights_are_bounded(self):
         heights = b"".join(struct.pack("<f", 1e30) for _ in range(16))
         (self.folder / "map.pfm").write_bytes(b"Pf\n4 4\n-1.0\n" + heights)
         self.assertIn("--heightmap-scale", refusal("--out", self.folder / "a", "--heightmap", self.folder / "map.pfm"))
@@ -594,7 +569,7 @@ class Generator(unittest.TestCase):
             self.assertTrue(0.2 <= float(row["beam_deg"]) <= 0.5)
             self.assertTrue(0.003 <= float(row["noise_floor"]) <= 0.03)
             self.assertEqual(row["ripple_wavelength_m"] != "", row["seabed"] == "ripples")
-            # The rig's own position: at the target's distance, across the track and at most a chip along it.
+            # The rig is at the target's distance across the track, and at most a chip away along it.
             away = math.hypot(float(row["rig_x_m"]) - float(row["target_x_m"]),
                               float(row["rig_y_m"]) - float(row["target_y_m"]))
             self.assertAlmostEqual(away, float(row["ground_range_m"]), delta=3)
@@ -604,7 +579,7 @@ class Generator(unittest.TestCase):
             sum_, name = line.split()
             self.assertEqual(hashlib.sha256((out / name).read_bytes()).hexdigest(), sum_)
 
-    def test_a_folder_is_taken_whose_first_run_was_killed_at_once(self):
+    def test_a_folder_whose_first_run_was_killed_early_is_accepted(self):
         run("--out", self.folder / "whole", *SMALL)
         for leftover in "config.json.tmp0", ".partial/all/somewhere-1-0":
             out = self.folder / leftover.replace("/", "_")
@@ -613,7 +588,7 @@ class Generator(unittest.TestCase):
             run("--out", out, *SMALL)
             self.assertEqual(digest(self.folder / "whole"), digest(out))
 
-    def test_a_run_repairs_what_is_not_what_it_was(self):
+    def test_a_run_repairs_damaged_files(self):
         out, chance = self.folder / "a", random.Random(3)
         run("--out", out, *SMALL)
         whole = digest(out)
@@ -634,15 +609,15 @@ class Generator(unittest.TestCase):
         (out / "config.json").write_text("{")
         self.assertIn("config.json: is damaged", run("--out", out, *SMALL, expect=1))
 
-    def test_tables_name_a_record_that_is_torn(self):
+    def test_a_damaged_record_is_named(self):
         out = self.folder / "a"
         run("--out", out, *SMALL)
         for text in "{}", "", '{"id": 7', "null\n":
             (out / "records" / "000000" / "000000007.json").write_text(text)
-            self.assertRegex(run("--out", out, *SMALL, "--count", 4, expect=1), "000000007.json: is torn or changed")
+            self.assertRegex(run("--out", out, *SMALL, "--count", 4, expect=1), "000000007.json: is truncated or altered")
 
     def test_verify_compares_masks_with_annotations(self):
-        # A record that is whole, but not what the mask shows.
+        # A record with a valid checksum that contradicts the mask.
         out = self.folder / "a"
         run("--out", out, *SMALL)
         path = out / "records" / "000000" / "000000002.json"
@@ -669,21 +644,21 @@ class Generator(unittest.TestCase):
         config.write_text(config.read_text().replace('"version": "insonify ', '"version": "insonify 9'))
         self.assertRegex(run(*options, expect=1), r'version was "insonify 9[\d.]+", is "insonify \d')
 
-    def test_a_billion_images_are_planned_as_they_come(self):
+    def test_a_billion_images_start_at_once(self):
         process = subprocess.Popen([GENERATOR, "--out", self.folder / "a", "--size", "32", "--count", "1000000000"],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         while not list((self.folder / "a").rglob("records/*/*.json")) and process.poll() is None:
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
-        process.returncode = 130  # waited for here
+        process.returncode = 130  # already reaped
         _, status, usage = os.wait4(process.pid, 0)
         self.assertEqual(os.waitstatus_to_exitcode(status), 130)
         self.assertLess(usage.ru_maxrss, 300 << 10)
 
 
 @unittest.skipUnless(shutil.which("cc") and sys.platform == "linux", "needs a C compiler and a preloaded library")
-class Shimmed(unittest.TestCase):
-    """The generator on a system that refuses some of its calls."""
+class FailingCalls(unittest.TestCase):
+    """The generator on a system where some calls fail."""
 
     SHIM = r"""
 #define _GNU_SOURCE
@@ -742,22 +717,22 @@ int pthread_create(pthread_t* t, const pthread_attr_t* a, void* (*f)(void*), voi
         return run(*options, expect=expect, LD_PRELOAD=str(self.shim),
                    **{f"SHIM_{name.upper()}": str(value) for name, value in limits.items()})
 
-    def test_threads_that_cannot_be_started_are_done_without(self):
+    def test_runs_with_fewer_threads_if_some_cannot_start(self):
         for threads in 0, 3, 20:
             out = self.folder / str(threads)
             self.assertIn("--threads 64: the system started",
                           self.preloaded("--out", out, *SMALL, "--threads", 64, threads=threads))
             self.assertEqual(self.whole, digest(out))
 
-    def test_a_lock_that_fails_says_why(self):
-        self.assertIn("another generator is at work",
+    def test_a_failed_lock_is_reported_with_the_reason(self):
+        self.assertIn("another generator is running",
                       self.preloaded("--out", self.folder / "a", *SMALL, expect=1, lock=errno.EAGAIN))
         for reason in errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS:
             text = self.preloaded("--out", self.folder / str(reason), *SMALL, lock=reason)
-            self.assertIn(f"has no locks ({os.strerror(reason)})", text)
+            self.assertIn(f"no file locks here ({os.strerror(reason)})", text)
             self.assertEqual(self.whole, digest(self.folder / str(reason)))
 
-    def test_without_locks_the_same_runs_at_the_same_time_leave_the_same_bytes(self):
+    def test_concurrent_runs_without_locks_leave_the_same_bytes(self):
         environment = os.environ | {"LD_PRELOAD": str(self.shim), "SHIM_LOCK": str(errno.ENOLCK)}
         for round_ in range(max(4, KILLS // 4)):
             out = self.folder / str(round_)
@@ -769,11 +744,11 @@ int pthread_create(pthread_t* t, const pthread_attr_t* a, void* (*f)(void*), voi
             self.assertEqual(self.whole, digest(out))
 
     @unittest.skipIf(os.name != "posix" or os.geteuid() == 0, "needs a user whom permissions stop")
-    def test_a_folder_that_takes_no_file_is_named(self):
+    def test_a_read_only_folder_is_named(self):
         (self.folder / "a").mkdir(mode=0o500)
         self.assertIn("Permission denied", run("--out", self.folder / "a", *SMALL, expect=1))
 
-    def test_a_disk_that_fails_is_named_and_the_next_run_goes_on(self):
+    def test_a_failing_disk_is_named_and_the_next_run_continues(self):
         for calls in 0, 1, 5, 12, 30, 45:
             for limit, reason in (("syncs", errno.ENOSPC), ("renames", errno.EROFS)):
                 out = self.folder / f"{limit}{calls}"
@@ -792,7 +767,7 @@ class Shards(unittest.TestCase):
         run("--out", self.folder / "whole", *SMALL)
         self.whole = digest(self.folder / "whole")
 
-    def test_shards_that_write_to_one_folder_at_once_are_one_run(self):
+    def test_concurrent_shards_in_one_folder_equal_one_run(self):
         out = self.folder / "a"
         processes = [subprocess.Popen([GENERATOR, "--out", out, *SMALL, "--shard", f"{k}/3"], stdout=subprocess.DEVNULL)
                      for k in (2, 0, 1)]
@@ -802,7 +777,7 @@ class Shards(unittest.TestCase):
         self.assertEqual(self.whole, digest(out))
 
     @unittest.skipUnless(shutil.which("parallel"), "needs GNU parallel")
-    def test_the_line_for_gnu_parallel_in_the_documentation(self):
+    def test_the_documented_gnu_parallel_command(self):
         page = pathlib.Path(__file__).parents[2] / "docs" / "dataset.md"
         line = re.search(r"^parallel .*\n.*merge_dataset set$", page.read_text(), re.MULTILINE)[0]
         line = line.replace("--count 1000000", " ".join(SMALL)).replace("/64", "/4").replace("seq 0 63", "seq 0 3")
@@ -813,7 +788,7 @@ class Shards(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.whole, digest(self.folder / "set"))
 
-    def test_shards_in_folders_of_their_own_are_joined(self):
+    def test_shards_in_separate_folders_are_joined(self):
         for k in range(8):
             run("--out", self.folder / f"s{k}", *SMALL, "--shard", f"{k}/8")
             self.assertEqual(len(list((self.folder / f"s{k}" / "images").rglob("*.png"))), 1)
@@ -830,21 +805,21 @@ class Shards(unittest.TestCase):
         run(self.folder / "a", *folders, program=MERGE)
         self.assertEqual(self.whole, digest(self.folder / "a"))
 
-    def test_a_hostile_shard_writes_nothing_outside(self):
+    def test_a_hostile_shard_writes_nothing_outside_the_folder(self):
         run("--out", self.folder / "a", *SMALL)
         record = self.folder / "a" / "records" / "000000" / "000000000.json"
         (self.folder / "a" / "evil").write_text("evil")
         text = record.read_text()
         text = text[:text.rindex(',"sha256"')].replace(json.loads(text)["files"][0]["path"], "images/../evil")
         record.write_text(f'{text},"sha256":"{hashlib.sha256(text.encode()).hexdigest()}"}}\n')
-        self.assertIn("which is none of a data set",
+        self.assertIn("which is not a path of a data set",
                       run(self.folder / "joined", self.folder / "a", program=MERGE, expect=1))
         self.assertFalse((self.folder / "joined" / "evil").exists())
         for text in "{", "[]", "{}", '{"targets": 3, "meshes": []}':
             (self.folder / "a" / "config.json").write_text(text)
             self.assertIn("is damaged", run(self.folder / "a", program=MERGE, expect=1))
 
-    def test_the_number_of_a_shard_comes_from_the_job_array(self):
+    def test_the_shard_number_comes_from_the_job_array(self):
         out = ["--out", self.folder / "a", *SMALL, "--shard"]
         run(*out, "3", SLURM_ARRAY_TASK_ID="0")
         run(*out, "3", JOB_COMPLETION_INDEX="2")
@@ -854,20 +829,20 @@ class Shards(unittest.TestCase):
         self.assertIn("SLURM_ARRAY_TASK_ID is 3, but 3 shards count from 0 to 2",
                       run(*out, "3", expect=2, SLURM_ARRAY_TASK_ID="3"))
         self.assertIn("neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX is set", run(*out, "3", expect=2))
-        self.assertIn("which of them counts", run(*out, "3", expect=2, SLURM_ARRAY_TASK_ID="0", JOB_COMPLETION_INDEX="1"))
+        self.assertIn("to choose one", run(*out, "3", expect=2, SLURM_ARRAY_TASK_ID="0", JOB_COMPLETION_INDEX="1"))
         for text in "3/3", "-1/3", "1/0", "a/3", "1/", "/", "1.5/3", "0/9":
             self.assertIn("--shard: ", run(*out, text, expect=2))
 
-    def test_the_count_of_shards_is_pinned(self):
+    def test_the_number_of_shards_is_pinned(self):
         run("--out", self.folder / "a", *SMALL, "--shard", "0/3")
         self.assertIn("shards was 3, is 4", run("--out", self.folder / "a", *SMALL, "--shard", "0/4", expect=1))
         self.assertIn("count was 8, is 6",
                       run("--out", self.folder / "a", *SMALL, "--count", 6, "--shard", "0/3", expect=1))
-        self.assertIn("is made by shards", run("--out", self.folder / "a", *SMALL, expect=1))
+        self.assertIn("is made in shards", run("--out", self.folder / "a", *SMALL, expect=1))
         self.assertIn("seed was 5, is 6",
                       run("--out", self.folder / "a", *SMALL, "--seed", 6, "--shard", "1/3", expect=1))
 
-    def test_a_killed_shard_is_run_again(self):
+    def test_a_killed_shard_can_be_run_again(self):
         chance, out = random.Random(7), self.folder / "a"
         for k in range(3):
             for _ in range(max(1, KILLS // 3)):

@@ -1,4 +1,4 @@
-// Values of options: parsed strictly, refused with the option, the value and what to write instead.
+// Strict parsers of option values. Errors name the option, the value and the expected form.
 #pragma once
 
 #include <charconv>
@@ -10,7 +10,7 @@
 
 namespace generator {
 
-/// Digits alone, in [low, high]: -1, 1e3 and 10^12 are refused, not wrapped or cut off.
+/// Decimal digits, in [low, high]; -1, 1e3 and 10^12 are refused rather than wrapped or truncated.
 inline CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
     return CLI::Validator(
         [low, high](std::string& text) -> std::string {
@@ -35,7 +35,7 @@ inline CLI::Validator number(double low, double high) {
         "", "number");
 }
 
-/// `low:high`, or one number.
+/// Parses `low:high`, or one number.
 inline range parse_range(const std::string& name, const std::string& text) {
     const auto number = [&](const std::string& part) {
         double value = 0;
@@ -72,7 +72,7 @@ inline std::string class_of(const std::string& mesh) {
     return mesh.substr(0, mesh.find('='));
 }
 
-/// A class is a folder, a category and a cell of a table: the same name must not be two of them.
+/// Checks class names: each names a folder and a category, so it must be unique and plain.
 inline void check_classes(const options& o) {
     const auto lower = [](std::string text) {
         for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -81,7 +81,7 @@ inline void check_classes(const options& o) {
     std::vector<std::string> taken{"cylinder", "cube", "cone", "sphere", "shadow"};
     for (std::size_t i = 0; i < o.targets.size(); ++i)
         if (std::count(o.targets.begin(), o.targets.end(), o.targets[i]) > 1)
-            throw CLI::ValidationError("--targets", "'" + o.targets[i] + "' is there twice; name each class once");
+            throw CLI::ValidationError("--targets", "'" + o.targets[i] + "' appears twice; name each class once");
     for (const std::string& mesh : o.meshes) {
         const std::string name = class_of(mesh);
         const bool plain = name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
@@ -98,8 +98,8 @@ inline void check_classes(const options& o) {
     }
 }
 
-/// @throws CLI::ValidationError for a `--per-class` that is not CLASS=COUNT of a class that the set has, or has it
-/// twice
+/// Checks `--per-class`.
+/// @throws CLI::ValidationError unless each item is CLASS=COUNT with a class of the set, each class once
 inline void check_counts(const options& o) {
     std::vector<std::string> known = o.targets, counted;
     for (const std::string& mesh : o.meshes) known.push_back(class_of(mesh));
@@ -118,7 +118,7 @@ inline void check_counts(const options& o) {
             throw CLI::ValidationError(
                 "--per-class", "'" + text + "' is not CLASS=COUNT with a class of the recipe and a count from 1");
         if (std::find(counted.begin(), counted.end(), name) != counted.end())
-            throw CLI::ValidationError("--per-class", "'" + name + "' is there twice; name each class once");
+            throw CLI::ValidationError("--per-class", "'" + name + "' appears twice; name each class once");
         counted.push_back(name);
     }
 }

@@ -1,5 +1,5 @@
-// Which target an image shows, from which side, and on which seabed: of a plan's targets each at every aspect on every
-// seabed; without a plan, classes and seabeds take turns.
+// Assigns target, aspect and seabed to each image. With a plan, each target is shown at every aspect on every seabed;
+// without one, classes and seabeds take turns.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline std::vector<std::string> class_names(const options& o) {
     return names;
 }
 
-/// A class and how many images of it, of `--per-class`.
+/// An item of `--per-class`.
 struct class_count {
     std::string name;
     std::uint64_t count;
@@ -31,7 +31,7 @@ inline std::vector<class_count> class_counts(const options& o) {
     return counts;
 }
 
-/// What COCO's categories are, but for shadows.
+/// The COCO categories, without `shadow`.
 inline std::vector<std::string> category_names(const options& o) {
     std::vector<std::string> names = o.table ? o.table->classes() : o.is_sonar() ? o.targets : class_names(o);
     const auto add = [&](const std::string& name) {
@@ -45,29 +45,29 @@ inline std::vector<std::string> category_names(const options& o) {
 }
 
 struct view_of_target {
-    std::string class_name;        ///< empty: a plan's line names it
-    std::string seabed;            ///< empty: drawn, or named by a plan's line
+    std::string class_name;        ///< empty: named by a line of the plan
+    std::string seabed;            ///< empty: random, or named by a line of the plan
     std::string target_id;         ///< empty: no other image shows this target
     std::optional<double> aspect;  ///< degrees
 };
 
-/// Images that show the same target of a plan one after the other.
+/// Number of consecutive images that show the same target of a plan.
 inline std::uint64_t views_of_each(const options& o) {
     if (!o.table || o.table->has_ids()) return 1;
     return (std::max<std::uint64_t>)(o.aspects.size(), 1) * (std::max<std::uint64_t>)(o.seabeds.size(), 1);
 }
 
-/// The i-th image of a set has this id.
+/// The id of the i-th image of a set.
 inline std::uint64_t image_id(const options& o, std::uint64_t i) {
     return o.table && o.table->has_ids() ? o.table->id(static_cast<std::size_t>(i)) : i;
 }
 
-/// The line of the plan that the i-th image is of.
+/// The line of the plan for the i-th image.
 inline plan_row line_of_plan(const options& o, std::uint64_t i) {
     return o.table->row(static_cast<std::size_t>(i / views_of_each(o)));
 }
 
-/// How often a class was there before among images of `--per-class`, or among turns.
+/// The class of an image, and how many images of that class come before it.
 struct turn_of_class {
     std::size_t of_class;
     std::uint64_t before;
@@ -88,7 +88,7 @@ inline turn_of_class turn_at(const options& o, const std::vector<std::string>& c
     return {};
 }
 
-/// Of the i-th image of the published recipe.
+/// The i-th image of the published recipe.
 inline view_of_target view_of(const options& o, std::uint64_t i) {
     const std::uint64_t aspects = (std::max<std::uint64_t>)(o.aspects.size(), 1);
     const auto aspect = [&](std::uint64_t n) {
@@ -107,7 +107,7 @@ inline view_of_target view_of(const options& o, std::uint64_t i) {
     return v;
 }
 
-/// Of the i-th image of the sonar recipe: empty ones are spread evenly, targets take turns among the others.
+/// The i-th image of the sonar recipe: empty ones are spread evenly, targets take turns among the others.
 inline view_of_target view_of_sonar(const options& o, std::uint64_t i) {
     if (o.table) return view_of(o, i);
     if (!o.per_class.empty()) {
@@ -122,18 +122,18 @@ inline view_of_target view_of_sonar(const options& o, std::uint64_t i) {
     return {o.targets[(i - empties(i)) % o.targets.size()], "", "", {}};
 }
 
-/// Where pictures have their target, in pictures from the left and from the lower edge.
-struct placing {
+/// Ranges of a target's position in its image, as shares of the width from the left and of the height from below.
+struct placement_range {
     range across, along;
 };
-inline placing placing_of(const options& o) {
+inline placement_range placement_range_of(const options& o) {
     if (o.place == "anywhere") return {{0.03, 0.97}, {0.03, 0.97}};
-    // The long shadow has room to the right.
+    // Leaves room for the long shadow on the right.
     if (o.place == "third" || !o.is_sonar()) return {{0.28, 0.38}, {0.42, 0.58}};
     return {{0.28, 0.6}, {0.34, 0.66}};
 }
 
-/// Numbers a target by its name, so that lines of other targets change nothing of it (FNV-1a).
+/// Hashes a target's id (FNV-1a): its random numbers do not depend on other lines of the plan.
 inline std::uint64_t target_key(const std::string& id) {
     std::uint64_t key = 0xCBF29CE484222325u;
     for (const char c : id) key = (key ^ static_cast<unsigned char>(c)) * 0x100000001B3u;

@@ -1,4 +1,4 @@
-// Writes finished images while their thread draws the next ones.
+// Writes finished images in the background while their thread draws the next ones.
 #pragma once
 
 #include <future>
@@ -8,13 +8,13 @@
 
 namespace generator {
 
-/// Collects images, and writes some at a time: bringing files to disk is quicker for many than one by one.
+/// Collects images and writes them in batches: syncing many files at once is faster than one by one.
 class writer {
   public:
     explicit writer(staging& into) : into_(into) {}
 
-    /// @param files  of an image, the record last
-    /// @throws io_error if an image before this one can't be written
+    /// @param files  files of an image; the record is the last one
+    /// @throws io_error if an earlier image could not be written
     void add(std::vector<file> files) {
         for (const file& f : files) bytes_ += f.bytes.size();
         records_.push_back(std::move(files.back()));
@@ -23,7 +23,7 @@ class writer {
         if (records_.size() >= 16 || bytes_ >= 4 << 20) flush();
     }
 
-    /// Waits for what is being written, and writes the rest.
+    /// Waits for the batch in flight, then writes the rest.
     void finish() {
         flush();
         if (written_.valid()) written_.get();
@@ -39,7 +39,7 @@ class writer {
         files_.clear(), records_.clear(), bytes_ = 0;
         try {
             written_ = std::async(std::launch::async, write);
-        } catch (const std::system_error&) {  // no thread to be had
+        } catch (const std::system_error&) {  // no thread available
             write();
         }
     }

@@ -92,7 +92,7 @@ class artist {
 
   private:
     in::thread_pool& pool_;
-    generator::stock shared_;
+    generator::shared_inputs shared_;
     std::vector<generator::options> of_class_;
 };
 

@@ -7,7 +7,7 @@ import gdb
 
 
 class Picture:
-    """Size, and of small pictures the pixels, row by row."""
+    """Prints the size, and the pixels of small images row by row."""
 
     MOST = 64
 

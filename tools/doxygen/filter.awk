@@ -1,5 +1,5 @@
-# What Doxygen reads of a header: the inline namespaces of versions and tags become the group of the folder, so that names
-# read as they are used (insonify::render) and the reference is grouped by module.
+# Doxygen's input filter: replaces the inline namespaces by a group for the folder, so that names read as users write them
+# (insonify::render) and the reference is grouped by folder.
 FNR == 1 {
     module = FILENAME
     sub(/.*insonify\//, "", module)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Finds dead links: links.py <folder of HTML or Markdown>...
 
-Every relative link has to lead to a file, and its #fragment to an id of that file. Links to other sites are not tried.
-SVG files that are linked have to be well-formed: browsers show an error in place of one that is not.
+Each relative link must lead to a file, and its #fragment to an id in that file. Links to other sites are not checked.
+Linked SVG files must be well-formed, or browsers show an error in their place.
 """
 
 import html.parser
@@ -66,7 +66,7 @@ def main():
             elif to.suffix == ".svg" and (fault := malformed(to)):
                 dead.append(f"{path}: {link} ({fault})")
             elif parts.fragment == "nested-classes":
-                pass  # Doxygen links the list of private nested classes, and leaves it out
+                pass  # Doxygen links to its list of private nested classes without writing it
             elif parts.fragment and to.suffix in (".html", ".md"):
                 if urllib.parse.unquote(parts.fragment) not in page(to).ids:
                     dead.append(f"{path}: {link} (no such place)")

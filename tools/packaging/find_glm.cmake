@@ -1,5 +1,5 @@
-# Gives the target insonify::glm: GLM's header-only target where its package is installed, else a search for its headers.
-# Read by the build and by the installed package; without GLM there is no target, and the including file reports it.
+# Defines the target insonify::glm, from GLM's CMake package if installed, else from its headers. Included by the build and
+# by the installed package, which report an error if the target is missing.
 if(TARGET insonify::glm)
   return()
 endif()

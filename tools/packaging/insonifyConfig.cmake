@@ -1,4 +1,4 @@
-# The installed package: find_package(insonify) gives the targets insonify::insonify and insonify::compiled.
+# CMake package: find_package(insonify) defines the targets insonify::insonify and insonify::compiled.
 include(${CMAKE_CURRENT_LIST_DIR}/find_glm.cmake)
 if(TARGET insonify::glm)
   include(${CMAKE_CURRENT_LIST_DIR}/insonifyTargets.cmake)

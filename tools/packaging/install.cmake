@@ -1,4 +1,4 @@
-# Headers, the CMake package, the pkg-config file and the licence. The folders are GNU's, and can be set as usual
+# Installs headers, the CMake package, the pkg-config file and the licence into the GNUInstallDirs folders
 # (CMAKE_INSTALL_INCLUDEDIR, CMAKE_INSTALL_DATADIR, ...).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -10,7 +10,7 @@ install(TARGETS insonify EXPORT insonifyTargets)
 install(EXPORT insonifyTargets NAMESPACE insonify:: DESTINATION ${package_dir})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-# Nothing in the package depends on the machine that built it. While the major version is 0, a minor one may break.
+# The package does not depend on the architecture. While the major version is 0, a minor version may break.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/insonifyConfigVersion.cmake COMPATIBILITY SameMinorVersion
                                  ARCH_INDEPENDENT)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/insonify.pc.in ${PROJECT_BINARY_DIR}/insonify.pc @ONLY)

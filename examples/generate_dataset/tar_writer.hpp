@@ -8,11 +8,11 @@
 
 namespace generator {
 
-/// A tar in the making. The same members are the same bytes: times, owners and modes are constant.
-class tar_pack {
+/// Writes a tar file. Times, owners and modes are constant, so that equal members give equal bytes.
+class tar_writer {
   public:
-    /// @param write  takes the tar's bytes
-    explicit tar_pack(std::function<void(std::string_view)> write);
+    /// @param write  receives the bytes of the tar
+    explicit tar_writer(std::function<void(std::string_view)> write);
     /// @throws io_error
     void add(const std::string& name, std::string_view bytes);
     /// Writes the end of the tar.

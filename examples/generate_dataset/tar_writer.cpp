@@ -1,4 +1,4 @@
-#include "pack.hpp"
+#include "tar_writer.hpp"
 
 #include <exception>
 
@@ -7,9 +7,9 @@
 
 namespace generator {
 
-struct tar_pack::state {
+struct tar_writer::state {
     std::function<void(std::string_view)> write;
-    std::exception_ptr failed;  ///< of `write`, through libarchive, which is C
+    std::exception_ptr failed;  ///< thrown by `write`, carried past libarchive's C code
     archive* tar = archive_write_new();
     archive_entry* entry = archive_entry_new();
 
@@ -19,11 +19,11 @@ struct tar_pack::state {
     }
     void check(bool done) {
         if (failed) std::rethrow_exception(failed);
-        if (!done) throw insonify::io_error(std::string("can't pack a tar: ") + archive_error_string(tar));
+        if (!done) throw insonify::io_error(std::string("can't write a tar: ") + archive_error_string(tar));
     }
 };
 
-tar_pack::tar_pack(std::function<void(std::string_view)> write) : state_(std::make_shared<state>()) {
+tar_writer::tar_writer(std::function<void(std::string_view)> write) : state_(std::make_shared<state>()) {
     state& s = *state_;
     s.write = std::move(write);
     if (s.tar == nullptr || s.entry == nullptr) throw std::bad_alloc();
@@ -41,7 +41,7 @@ tar_pack::tar_pack(std::function<void(std::string_view)> write) : state_(std::ma
             archive_write_open(s.tar, &s, nullptr, pass, nullptr) == ARCHIVE_OK);
 }
 
-void tar_pack::add(const std::string& name, std::string_view bytes) {
+void tar_writer::add(const std::string& name, std::string_view bytes) {
     state& s = *state_;
     archive_entry_clear(s.entry);
     archive_entry_set_pathname(s.entry, name.c_str());
@@ -54,7 +54,7 @@ void tar_pack::add(const std::string& name, std::string_view bytes) {
     s.check(archive_write_finish_entry(s.tar) == ARCHIVE_OK);
 }
 
-void tar_pack::close() {
+void tar_writer::close() {
     state_->check(archive_write_close(state_->tar) == ARCHIVE_OK);
 }
 

@@ -1,4 +1,4 @@
-// What all images of a data set share: meshes, heightmap and references.
+// The files that every image of a data set is drawn from: meshes, heightmap and references.
 #pragma once
 
 #include <insonify/filter/poisson.hpp>
@@ -18,11 +18,11 @@ namespace generator {
 
 namespace in = insonify;
 
-/// What all images share: meshes, heightmap and references, read once.
-class stock {
+/// Meshes, heightmap and references, read once and shared by all images.
+class shared_inputs {
   public:
     /// @throws io_error for a file that can't be read
-    explicit stock(const options& o) {
+    explicit shared_inputs(const options& o) {
         input_reader reader(o.input_limit);
         for (const std::string& mesh : o.meshes) {
             const std::size_t equals = mesh.find('=');
@@ -45,23 +45,23 @@ class stock {
         if (o.table) reader.add("--plan", o.table->name(), o.table->text());
         inputs_ = std::move(reader).list();
         drawn_references_ = references_.size();
-        // What the demonstration matches with is there for plans of it, too.
+        // A plan made from a demonstration names its synthetic reference.
         const bool demo_alone = references_.empty() && o.demo;
         if (demo_alone || (o.table && o.table->has("reference_name"))) {
             names_.push_back("made_up");
-            references_.push_back(in::distribution_of(made_up_reference()));
+            references_.push_back(in::distribution_of(synthetic_reference()));
             if (demo_alone) drawn_references_ = 1;
         }
     }
 
-    /// How many references there are to choose from.
+    /// Number of references that images choose from at random.
     std::size_t references() const { return drawn_references_; }
     const in::distribution& reference(std::size_t i) const { return references_[i]; }
     const std::string& reference_name(std::size_t i) const { return names_[i]; }
     const in::seabed::heightfield& heightmap() const { return heightmap_; }
     const std::vector<input>& inputs() const { return inputs_; }
 
-    /// A reference by its name, that with the number if there are several.
+    /// A reference by its name; the number decides between files of the same name.
     std::optional<std::size_t> find_reference(const std::string& name, int number) const {
         const auto n = static_cast<std::size_t>(number);
         if (number >= 0 && n < names_.size() && names_[n] == name) return n;
@@ -70,7 +70,7 @@ class stock {
         return static_cast<std::size_t>(found - names_.begin());
     }
 
-    /// The mesh of a class, its middle at the origin, its largest extent 1.
+    /// The mesh of a class, centred at the origin, its largest extent 1.
     const in::mesh& unit_mesh(const std::string& class_name) const { return meshes_.at(class_name); }
     glm::dvec3 extents_of_mesh(const std::string& class_name) const { return in::bounds(unit_mesh(class_name)).size(); }
 
@@ -83,7 +83,7 @@ class stock {
         return false;
     }
 
-    /// Turned so that z is up, moved to its middle, and scaled to a largest extent of 1.
+    /// Rotates z up, centres the mesh and scales its largest extent to 1.
     static in::mesh upright(in::mesh m, bool y_up) {
         if (y_up) m = in::transformed(std::move(m), in::to_world({.roll = in::literals::operator""_deg(90ull)}));
         const in::bounding_box box = in::bounds(m);
@@ -111,8 +111,10 @@ class stock {
         throw in::io_error("--reference " + path + ": holds no finite value");
     }
 
-    /// Gray values as a sonar's: Rayleigh amplitudes around a quarter of full scale.
-    static in::image<float> made_up_reference() { return in::image<float>(256, 256, 0.25f) | in::rayleigh{.seed = 1}; }
+    /// Gray values like those of a sonar: Rayleigh amplitudes, a quarter of full scale on average.
+    static in::image<float> synthetic_reference() {
+        return in::image<float>(256, 256, 0.25f) | in::rayleigh{.seed = 1};
+    }
 
     std::map<std::string, in::mesh> meshes_;
     in::seabed::heightfield heightmap_;
