@@ -193,7 +193,7 @@ sonar_picture record_chip(const options& o, const sonar_plan& p, const std::vect
                                       in::horizontal_beam{static_cast<float>(p.beam)}, in::level_gain{}};
     auto heard = in::render(scene, rig, in::record_options<>{}.with(law).with(equation), ex);
     if (!scene.targets.empty() && !p.targets.empty())
-        out.known = geometry_of(rig, scene.targets.front(), heard.labels.targets.front());
+        out.geometry = geometry_of(rig, scene.targets.front(), heard.labels.targets.front());
 
     heard = in::with_tone(std::move(heard), rig, p.tone, ex);
     grow(heard, p, pixel);

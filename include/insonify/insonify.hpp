@@ -71,17 +71,20 @@
 #include <insonify/core/simd/elementary.hpp>
 #include <insonify/core/simd/lanes.hpp>
 #include <insonify/core/simd/random_lanes.hpp>
+#include <insonify/core/simd/transpose.hpp>
 #include <insonify/filter/poisson.hpp>
 #include <insonify/geometry/bounds.hpp>
 #include <insonify/geometry/normals.hpp>
 #include <insonify/geometry/obj.hpp>
 #include <insonify/geometry/objects/aeroplane.hpp>
+#include <insonify/geometry/objects/aeroplane_parameters.hpp>
 #include <insonify/geometry/objects/boulder.hpp>
 #include <insonify/geometry/objects/compound.hpp>
 #include <insonify/geometry/objects/crate.hpp>
 #include <insonify/geometry/objects/creases.hpp>
 #include <insonify/geometry/objects/footprint.hpp>
 #include <insonify/geometry/objects/hull.hpp>
+#include <insonify/geometry/objects/hull_parameters.hpp>
 #include <insonify/geometry/objects/lobster_pot.hpp>
 #include <insonify/geometry/objects/open_pipe.hpp>
 #include <insonify/geometry/objects/truncated_cone.hpp>
@@ -90,6 +93,7 @@
 #include <insonify/geometry/regular_grid.hpp>
 #include <insonify/geometry/revolution.hpp>
 #include <insonify/geometry/topology.hpp>
+#include <insonify/geometry/triangulate.hpp>
 #include <insonify/io/manifest.hpp>
 #include <insonify/raster/draw.hpp>
 #include <insonify/raster/fragment_lanes.hpp>
@@ -106,6 +110,7 @@
 #include <insonify/seabed/mixed.hpp>
 #include <insonify/seabed/moat.hpp>
 #include <insonify/seabed/models.hpp>
+#include <insonify/seabed/normals.hpp>
 #include <insonify/seabed/sample.hpp>
 #include <insonify/seabed/sculpt.hpp>
 #include <insonify/seabed/tessellate.hpp>

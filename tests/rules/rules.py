@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Reads every header as text and reports each line that breaks a rule of the house: rules.py <include folder>."""
+"""Reads every header as text and reports each line that breaks a rule: rules.py <include folder>."""
 
 import pathlib
 import re
 import sys
 
-# Which folder may include which, directly; what those may include is allowed too. "" holds config and version.
+# Which folder may include which, directly; their own includes are allowed, too. "" is the top folder.
 MAY_INCLUDE = {
     "": [],
     "core": [""],
@@ -21,7 +21,7 @@ MAY_INCLUDE = {
 }
 
 UMBRELLA = "insonify.hpp"
-COLLECTIONS = {UMBRELLA, "compiled.hpp", "testing.hpp"}  # include from below, and hold nothing themselves
+COLLECTIONS = {UMBRELLA, "compiled.hpp", "testing.hpp"}  # headers that only include others
 NOT_IN_UMBRELLA = COLLECTIONS - {"compiled.hpp"} | {
     "io/png.hpp", "core/thread_pool.hpp", "testing/compare.hpp", "testing/golden.hpp", "testing/catch2.hpp",
 }
@@ -31,18 +31,18 @@ BANNED_HEADERS = {
 }
 BANNED_UNLESS = {"thread": "core/thread_pool.hpp"}
 
-# Macros of other people's headers, and functions whose last bit (or meaning) depends on the machine (or on a macro).
+# Macros of system headers, and functions whose last bit or meaning depends on the machine or on a macro.
 BANNED_NAMES = {
-    r"\b(near|far|small|interface|IN|OUT|ERROR|DOMAIN|OVERFLOW)\b": "is a macro in somebody's headers",
-    r"\b(min|max)\b(?!\))": "is a macro in somebody's headers: write (std::min)(a, b)",
+    r"\b(near|far|small|interface|IN|OUT|ERROR|DOMAIN|OVERFLOW)\b": "is a macro in some system headers",
+    r"\b(min|max)\b(?!\))": "is a macro in some system headers: write (std::min)(a, b)",
     r"\b(?:std|glm)::(?:a?(?:sin|cos|tan)h?|atan2|exp2?|expm1|log(?:2|10|1p)?|pow|hypot|cbrt|erfc?|[tl]gamma)\b":
         "differs between C libraries: use insonify::numeric",
     r"\bglm::(?:dot|cross|length|distance|normalize|determinant|inverse|mix|reflect)\b":
-        "may be compiled with fused multiply-add: use insonify::numeric",
-    r"\bglm::(?:perspective|ortho|frustum|lookAt)\w*\b": "changes its meaning with the user's macros",
+        "may be compiled to fused multiply-add: use insonify::numeric",
+    r"\bglm::(?:perspective|ortho|frustum|lookAt)\w*\b": "depends on macros of the user",
 }
 
-# Headers that compute nothing with floats; all others forbid fused multiply-add.
+# Headers without floating-point arithmetic; all others forbid fused multiply-add.
 NO_ARITHMETIC = {
     UMBRELLA, "compiled.hpp", "fwd.hpp", "version.hpp", "config.hpp", "core/error.hpp", "core/executor.hpp", "core/detail/filled.hpp",
     "core/image.hpp", "core/image_view.hpp", "core/detail/int128.hpp", "core/detail/portable.hpp", "core/context.hpp", "core/detail/block_pool.hpp",
@@ -51,21 +51,21 @@ NO_ARITHMETIC = {
     "testing.hpp", "testing/catch2.hpp", "testing/golden.hpp",
 }
 
-MOST_LINES = 400
+MAX_LINES = 400
 
 
 def allowed_from(folder):
-    """The folders that `folder` may include: itself, and all that lies beneath it."""
+    """The folders that `folder` may include, directly or not, and itself."""
     return {folder}.union(*map(allowed_from, MAY_INCLUDE[folder]))
 
 
 def folder_of(header):
-    """The folder below insonify/ that a header belongs to; those inside it follow its rules."""
+    """The top-level folder of a header; its subfolders follow the same rules."""
     return header.partition("/")[0] if "/" in header else ""
 
 
 def code_of(text):
-    """The text without comments and string literals; the lines stay where they are."""
+    """The text without comments and string literals, with the same line numbers."""
     pattern = r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"'
     return re.sub(pattern, lambda m: "\n" * m[0].count("\n"), text, flags=re.S)
 
@@ -90,13 +90,13 @@ def line_faults(header, line):
         for name in re.finditer(pattern, line):
             yield f"{name[0]} {reason}"
     if re.search(r"(?<!using )\bnamespace insonify\b(?! \{$|$)", line):
-        yield "open the namespace as insonify, then inline INSONIFY_ABI"
+        yield "write `namespace insonify {` and `inline namespace INSONIFY_ABI {` on two lines"
 
 
 def faults(header, path):
     data = path.read_bytes()
     if folder_of(header) not in MAY_INCLUDE:
-        yield 1, f"the house has no folder {folder_of(header)}"
+        yield 1, f"unknown folder {folder_of(header)}"
         return
     for number, line in enumerate(data.split(b"\n"), 1):
         if not line.isascii():
@@ -104,25 +104,25 @@ def faults(header, path):
     text = data.decode("ascii", "replace")
     lines = text.splitlines()
     if not re.match(r"// \S", lines[0]):
-        yield 1, "the first line says what the file is for"
+        yield 1, "the first line must be a comment on the purpose of the file"
     if "#pragma once" not in lines:
         yield 1, "no #pragma once"
     brackets = [line for line in lines if re.fullmatch("INSONIFY_ARITHMETIC_(BEGIN|END)", line)]
     if brackets != ([] if header in NO_ARITHMETIC else ["INSONIFY_ARITHMETIC_BEGIN", "INSONIFY_ARITHMETIC_END"]):
-        yield len(lines), "INSONIFY_ARITHMETIC_BEGIN and _END stand around whatever computes with floats, and only there"
+        yield len(lines), "INSONIFY_ARITHMETIC_BEGIN and _END must enclose floating-point arithmetic, and nothing else"
     opened = [i for i, line in enumerate(lines) if line == "namespace insonify {"]
     if any(not lines[i + 1].startswith("inline namespace INSONIFY_ABI {") for i in opened):
-        yield opened[0] + 1, "inline namespace INSONIFY_ABI follows"
+        yield opened[0] + 1, "`inline namespace INSONIFY_ABI {` must follow"
     spaces = []  # open namespaces
     for number, line in enumerate(lines, 1):
         if re.match(r"\}  // namespace", line):
             spaces.pop()
         elif space := re.match(r"(?:inline )?namespace (.+) \{$", line):
             if any(re.search("FLAGS|ONCE", outer) for outer in spaces):
-                yield number, "INSONIFY_FLAGS and INSONIFY_ONCE are the innermost namespaces"
+                yield number, "INSONIFY_FLAGS and INSONIFY_ONCE must be the innermost namespaces"
             spaces.append(space[1])
-    if len(lines) > MOST_LINES:
-        yield len(lines), f"{len(lines)} lines, at most {MOST_LINES}: one concept per file"
+    if len(lines) > MAX_LINES:
+        yield len(lines), f"{len(lines)} lines, at most {MAX_LINES}: one concept per file"
     for number, (line, code) in enumerate(zip(lines, code_of(text).splitlines()), 1):
         yield from ((number, fault) for fault in line_faults(header, line if "#include" in line else code))
 

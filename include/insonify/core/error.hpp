@@ -54,6 +54,14 @@ std::string to_text(Number value) {
     }
 }
 
+/// A word of the input for an error message, at most 40 characters of it.
+inline std::string quoted(std::string_view word) {
+    std::string text(1, '\'');
+    text += word.substr(0, 40);
+    text += word.size() > 40 ? "...'" : "'";
+    return text;
+}
+
 template <arithmetic Number>
 [[noreturn]] void refuse(std::string_view argument, Number value, std::string_view expected) {
     raise(invalid_input(std::string(argument) + " is " + to_text(value) + ", expected " + std::string(expected)));

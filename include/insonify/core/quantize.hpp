@@ -19,6 +19,10 @@ inline namespace INSONIFY_ABI {
 template <class T>
 concept pixel_code = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t>;
 
+/// Pixel types with histograms: floats in [0, 1] and codes.
+template <class T>
+concept countable_pixel = std::same_as<T, float> || pixel_code<T>;
+
 inline namespace INSONIFY_FLAGS {
 
 /// The code nearest to `value`, 1 being the largest code; ties go up, values outside [0, 1] to the end they passed,

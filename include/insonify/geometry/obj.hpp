@@ -5,9 +5,9 @@
 
 #include <insonify/core/linear.hpp>
 #include <insonify/core/numeric.hpp>
-#include <insonify/geometry/detail/triangulate.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/geometry/normals.hpp>
+#include <insonify/geometry/triangulate.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -122,12 +122,6 @@ class obj_reader {
         if (text.size() < 5 || text.find_first_of("\r\n#") != text.npos) return false;
         const std::string_view ending = text.substr(text.size() - 4);
         return ending == ".obj" || ending == ".OBJ";
-    }
-    static std::string quoted(std::string_view word) {
-        std::string text(1, '\'');
-        text += word.substr(0, 40);
-        text += word.size() > 40 ? "...'" : "'";
-        return text;
     }
 
     // Elements.

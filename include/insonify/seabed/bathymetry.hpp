@@ -59,7 +59,7 @@ class survey_reader {
             fail((at_ < text_.size() ? "the line ends before " : "the text ends before ") + std::string(what));
         double value = 0;
         if (insonify::detail::parse_number(digits, value) != insonify::detail::number_text::fine)
-            fail(quoted(digits) + " is not a number, expected " + what);
+            fail(insonify::detail::quoted(digits) + " is not a number, expected " + what);
         return value;
     }
     double finite(const char* what) {
@@ -86,9 +86,6 @@ class survey_reader {
         return text_[at] == '\n' || (text_[at] == '\r' && text_.substr(at + 1, 1) != "\n");
     }
     static bool is_blank(char c) { return (c >= '\t' && c <= '\r') || c == ' ' || c == ',' || c == ';'; }
-    static std::string quoted(std::string_view word) {
-        return "'" + std::string(word.substr(0, 40)) + (word.size() > 40 ? "...'" : "'");
-    }
 
     std::string_view text_, name_;
     std::size_t at_ = 0, line_ = 1;

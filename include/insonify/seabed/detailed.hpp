@@ -79,7 +79,7 @@ class detailed_sampler {
     }
 
     const heightfield* field_;
-    power_law_noise surface_;
+    detail::power_law_noise surface_;
 };
 
 }  // namespace INSONIFY_FLAGS

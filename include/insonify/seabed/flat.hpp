@@ -43,7 +43,7 @@ class flat_sampler {
     height_range range() const { return {-surface_.upper_bound(), surface_.upper_bound()}; }
 
   private:
-    power_law_noise surface_;
+    detail::power_law_noise surface_;
 };
 
 }  // namespace INSONIFY_FLAGS

@@ -71,7 +71,7 @@ class mud_sampler {
     }
 
   private:
-    power_law_noise surface_;
+    detail::power_law_noise surface_;
     detail::round_marks marks_;
     detail::trawl_furrows trawls_;
 };

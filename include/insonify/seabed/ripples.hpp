@@ -75,7 +75,7 @@ class ripples_sampler {
 
   private:
     detail::ripple_train first_, second_;
-    power_law_noise surface_;
+    detail::power_law_noise surface_;
 };
 
 }  // namespace INSONIFY_FLAGS

@@ -54,7 +54,7 @@ class rock_sampler {
         detail::require(r.steepness > 0 && r.steepness < 1e6f, "rock.steepness", r.steepness, "a slope above 0");
         double cell = static_cast<double>(r.outcrop) / 2;
         for (std::uint32_t k = 0; k < 3; ++k, cell /= 2) {
-            outcrops_.push_back(gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
+            outcrops_.push_back(detail::gradient_noise(cell, {r.seed, detail::stream::outcrops, k}));
         }
         // Blocks of half the size are 2^sizes times as many, in four times as many cells.
         const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
@@ -96,7 +96,7 @@ class rock_sampler {
         // Where a noise exceeds a threshold, the bottom steps up to the top of an outcrop over a steep face.
         detail::stretch_values weights{}, tops;
         float amplitude = 1;
-        for (const gradient_noise& octave : outcrops_) {
+        for (const detail::gradient_noise& octave : outcrops_) {
             octave.template add<N>(part, amplitude * octave.carried_by(part), weights.data());
             amplitude *= 0.5f;
         }
@@ -129,9 +129,9 @@ class rock_sampler {
         }
     }
 
-    std::vector<gradient_noise> outcrops_;
+    std::vector<detail::gradient_noise> outcrops_;
     std::vector<detail::block_layer> blocks_;
-    power_law_noise surface_;
+    detail::power_law_noise surface_;
     float relief_;
 };
 

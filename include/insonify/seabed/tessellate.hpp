@@ -3,8 +3,8 @@
 
 #include <insonify/core/executor.hpp>
 #include <insonify/geometry/mesh.hpp>
-#include <insonify/seabed/detail/normals.hpp>
 #include <insonify/seabed/heightfield.hpp>
+#include <insonify/seabed/normals.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 

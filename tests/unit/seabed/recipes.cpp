@@ -136,7 +136,7 @@ struct raise_blocks {
 TEST_CASE("Every instruction set gives the same bits, for dense and for sparse samples") {
     using namespace sb::detail;
     const double origin = GENERATE(0.0, -10000000.0), spacing = GENERATE(0.001, 0.03, 5.3);
-    const sb::power_law_noise noise({.rms = 0.1f, .longest = 2}, 3, stream::sand);
+    const sb::detail::power_law_noise noise({.rms = 0.1f, .longest = 2}, 3, stream::sand);
     const ripple_train train({.wavelength = 0.5f, .direction = 0.7f}, 3, stream::ripples, "ripples");
     const round_marks marks(1.5, 0.9f, 0.5f, 0.1f, 0.2f, {3, stream::mounds});
     const trawl_furrows furrows({.density = 0.3f}, 3);
@@ -208,7 +208,7 @@ TEST_CASE("Gradient noise has mean 0, variance 1 and the slope that its integral
     }
     CHECK(mean == Approx(0).margin(0.02));
     CHECK(square == Approx(1).epsilon(0.02));
-    CHECK(2 * slope == Approx(static_cast<double>(sb::gradient_noise::mean_square_slope)).epsilon(0.02));
+    CHECK(2 * slope == Approx(static_cast<double>(sb::detail::gradient_noise::mean_square_slope)).epsilon(0.02));
 }
 
 TEST_CASE("The spectrum of a roughness falls with its exponent, and its rms is the parameter's") {

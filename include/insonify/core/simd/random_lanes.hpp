@@ -7,6 +7,7 @@
 
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/elementary.hpp>
+#include <insonify/core/simd/transpose.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 

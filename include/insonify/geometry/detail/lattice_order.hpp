@@ -19,10 +19,11 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace detail::inline INSONIFY_FLAGS {
 
-/// The lattice of which a triangle is half a cell.
+/// The lattice of cells one of which a triangle halves.
 class triangle_lattice {
   public:
-    /// Of a cell's three edges the longest is its diagonal. The first step goes mostly along x, both upwards.
+    /// The longest edge is the diagonal of a cell. The first axis is the one closer to x; both point to larger
+    /// coordinates.
     static std::optional<triangle_lattice> of(const mesh& m) {
         if (m.triangles.size() < 2) return std::nullopt;
         glm::dvec2 corner[3];
@@ -48,14 +49,14 @@ class triangle_lattice {
         return l;
     }
 
-    /// The steps of a vertex from the triangle's right angle, if it lies within a quarter of one.
+    /// Column and row of a vertex, from the triangle's right angle; none if it is more than a quarter of a step off.
     std::optional<glm::ivec2> steps(const mesh& m, std::uint32_t vertex) const {
         const glm::dvec2 off = place(m, vertex) - origin_;
         const glm::dvec2 at{x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y};
-        constexpr double farthest = 1 << 24;
+        constexpr double limit = 1 << 24;
         glm::ivec2 whole;
         for (int axis = 0; axis < 2; ++axis) {
-            if (!(numeric::abs(at[axis]) < farthest)) return std::nullopt;
+            if (!(numeric::abs(at[axis]) < limit)) return std::nullopt;
             whole[axis] = static_cast<int>(numeric::floor_to_int(at[axis] + 0.5));
             if (numeric::abs(at[axis] - whole[axis]) > 0.25) return std::nullopt;
         }
@@ -70,66 +71,91 @@ class triangle_lattice {
     glm::dvec2 origin_{0}, right_{0}, up_{0}, x_of_{0}, y_of_{0};
 };
 
+/// The vertices of a mesh as points of a lattice.
+struct lattice_vertices {
+    std::vector<glm::ivec2> at;  ///< column and row of each vertex
+    glm::ivec2 lowest{0}, highest{0};
+
+    std::size_t columns() const { return static_cast<std::size_t>(highest.x - lowest.x + 1); }
+    std::size_t rows() const { return static_cast<std::size_t>(highest.y - lowest.y + 1); }
+    /// Index of a point in a lattice of so many columns, row by row.
+    std::size_t index(const glm::ivec2& p, std::size_t width) const {
+        return static_cast<std::size_t>(p.y - lowest.y) * width + static_cast<std::size_t>(p.x - lowest.x);
+    }
+
+    static std::optional<lattice_vertices> of(const mesh& m, const triangle_lattice& lattice) {
+        lattice_vertices v;
+        v.at.reserve(m.positions.size());
+        for (std::uint32_t i = 0; i < m.positions.size(); ++i) {
+            const auto steps = lattice.steps(m, i);
+            if (!steps) return std::nullopt;
+            v.at.push_back(*steps);
+            v.lowest = {(std::min)(v.lowest.x, steps->x), (std::min)(v.lowest.y, steps->y)};
+            v.highest = {(std::max)(v.highest.x, steps->x), (std::max)(v.highest.y, steps->y)};
+        }
+        return v;
+    }
+
+    /// The vertex at each point, row by row; none if a point has two.
+    std::optional<std::vector<std::uint32_t>> by_point() const {
+        constexpr std::uint32_t none = 0xFFFFFFFFu;
+        std::vector<std::uint32_t> vertices(at.size(), none);
+        for (std::uint32_t v = 0; v < at.size(); ++v) {
+            std::uint32_t& vertex = vertices[index(at[v], columns())];
+            if (vertex != none) return std::nullopt;
+            vertex = v;
+        }
+        return vertices;
+    }
+};
+
+/// Whether all cells are cut from the lower left to the upper right corner; none if the triangles are not the halves of
+/// all cells, cut the same way and counter-clockwise.
+inline std::optional<bool> rising_diagonals(const mesh& m, const lattice_vertices& v) {
+    std::vector<bool> found(m.triangles.size(), false);
+    std::optional<bool> is_rising;
+    for (const glm::uvec3& t : m.triangles) {
+        const glm::ivec2 a = v.at[t.x], b = v.at[t.y], c = v.at[t.z];
+        const glm::ivec2 corner{(std::min)((std::min)(a.x, b.x), c.x), (std::min)((std::min)(a.y, b.y), c.y)};
+        const glm::ivec2 ab = b - a, ac = c - a;
+        if (ab.x * ac.y - ab.y * ac.x != 1) return std::nullopt;
+        // With the corners of a cell numbered x + 2 y, a triangle lacks 1 or 2 if its diagonal rises, else 0 or 3.
+        int missing_corner = 6;
+        for (const glm::ivec2& p : {a, b, c}) {
+            if (p.x > corner.x + 1 || p.y > corner.y + 1) return std::nullopt;
+            missing_corner -= (p.x - corner.x) + 2 * (p.y - corner.y);
+        }
+        const bool rises = missing_corner == 1 || missing_corner == 2;
+        if (is_rising.value_or(rises) != rises) return std::nullopt;
+        is_rising = rises;
+        const std::size_t half = 2 * v.index(corner, v.columns() - 1) + (missing_corner < 2 ? 1 : 0);
+        if (found[half]) return std::nullopt;
+        found[half] = true;
+    }
+    return is_rising;
+}
+
 /// Renumbers a mesh that is a whole lattice of cells, each cut the same way into two triangles that are
 /// counter-clockwise seen from +z: vertices row by row, triangles cell by cell. Any other mesh stays as it is.
-/// @returns whether it was one
+/// @returns whether the mesh is such a lattice
 inline bool order_by_lattice(mesh& m) {
     const auto lattice = triangle_lattice::of(m);
     if (!lattice) return false;
-    std::vector<glm::ivec2> at(m.positions.size());
-    glm::ivec2 lowest(0), highest(0);
-    for (std::uint32_t v = 0; v < at.size(); ++v) {
-        const auto steps = lattice->steps(m, v);
-        if (!steps) return false;
-        at[v] = *steps;
-        lowest = {(std::min)(lowest.x, at[v].x), (std::min)(lowest.y, at[v].y)};
-        highest = {(std::max)(highest.x, at[v].x), (std::max)(highest.y, at[v].y)};
-    }
-    const auto columns = static_cast<std::size_t>(highest.x - lowest.x + 1),
-               rows = static_cast<std::size_t>(highest.y - lowest.y + 1);
-    if (columns * rows != at.size() || m.triangles.size() != 2 * (columns - 1) * (rows - 1)) return false;
-
-    constexpr std::uint32_t none = 0xFFFFFFFFu;
-    std::vector<std::uint32_t> vertex_at(at.size(), none);
-    const auto number_of = [&](const glm::ivec2& p) {
-        return static_cast<std::size_t>(p.y - lowest.y) * columns + static_cast<std::size_t>(p.x - lowest.x);
-    };
-    for (std::uint32_t v = 0; v < at.size(); ++v) {
-        std::uint32_t& to = vertex_at[number_of(at[v])];
-        if (to != none) return false;
-        to = v;
-    }
-
-    // Each triangle leaves one corner of its cell out; with a cell's corners numbered x + 2 y, the diagonals leave out
-    // 1 and 2, or 0 and 3.
-    std::vector<bool> is_there(m.triangles.size(), false);
-    std::optional<bool> is_rising;
-    for (const glm::uvec3& t : m.triangles) {
-        const glm::ivec2 a = at[t.x], b = at[t.y], c = at[t.z];
-        const glm::ivec2 corner{(std::min)((std::min)(a.x, b.x), c.x), (std::min)((std::min)(a.y, b.y), c.y)};
-        const glm::ivec2 ab = b - a, ac = c - a;
-        if (ab.x * ac.y - ab.y * ac.x != 1) return false;
-        int left_out = 6;
-        for (const glm::ivec2& p : {a, b, c}) {
-            if (p.x > corner.x + 1 || p.y > corner.y + 1) return false;
-            left_out -= (p.x - corner.x) + 2 * (p.y - corner.y);
-        }
-        const bool rises = left_out == 1 || left_out == 2;
-        if (is_rising.value_or(rises) != rises) return false;
-        is_rising = rises;
-        const std::size_t cell = static_cast<std::size_t>(corner.y - lowest.y) * (columns - 1) +
-                                 static_cast<std::size_t>(corner.x - lowest.x);
-        const std::size_t slot = 2 * cell + (left_out < 2 ? 1 : 0);
-        if (is_there[slot]) return false;
-        is_there[slot] = true;
-    }
+    const auto v = lattice_vertices::of(m, *lattice);
+    if (!v) return false;
+    const std::size_t columns = v->columns(), rows = v->rows();
+    if (columns * rows != v->at.size() || m.triangles.size() != 2 * (columns - 1) * (rows - 1)) return false;
+    const auto vertices = v->by_point();
+    if (!vertices) return false;
+    const auto is_rising = rising_diagonals(m, *v);
+    if (!is_rising) return false;
 
     mesh ordered;
     ordered.positions.reserve(m.positions.size());
     ordered.normals.reserve(m.normals.size());
-    for (const std::uint32_t v : vertex_at) {
-        ordered.positions.push_back(m.positions[v]);
-        if (!m.normals.empty()) ordered.normals.push_back(m.normals[v]);
+    for (const std::uint32_t i : *vertices) {
+        ordered.positions.push_back(m.positions[i]);
+        if (!m.normals.empty()) ordered.normals.push_back(m.normals[i]);
     }
     ordered.triangles.reserve(m.triangles.size());
     for (std::size_t y = 0; y + 1 < rows; ++y)

@@ -1,6 +1,7 @@
 // Shades the visible pixels of a tile: one by one in double, or over SIMD lanes in float.
 #pragma once
 
+#include <insonify/core/simd/transpose.hpp>
 #include <insonify/raster/detail/assembly.hpp>
 #include <insonify/raster/detail/tile.hpp>
 #include <insonify/raster/fragment_lanes.hpp>

@@ -5,6 +5,7 @@
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/raster/detail/binning.hpp>
 #include <insonify/raster/detail/fill.hpp>
+#include <insonify/raster/detail/small_fill.hpp>
 #include <insonify/raster/detail/vertices.hpp>
 
 #include <algorithm>

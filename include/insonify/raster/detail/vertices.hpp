@@ -3,6 +3,7 @@
 
 #include <insonify/core/detail/uninitialized.hpp>
 #include <insonify/core/simd/lanes.hpp>
+#include <insonify/core/simd/transpose.hpp>
 #include <insonify/geometry/mesh.hpp>
 #include <insonify/raster/detail/clip.hpp>
 #include <insonify/raster/detail/small_setup.hpp>

@@ -1,4 +1,4 @@
-// World-fixed lattices: cell coordinates of positions, and random bits by cell.
+// World-fixed lattices: coordinates of positions on a lattice, and random bits for each cell.
 //
 // Random draws are keyed by lattice cell, so that a position has the same relief in any grid, tile or order of
 // evaluation. Cells are computed in double and only fractions of a cell in float: precision at 10^7 m from the origin
@@ -10,12 +10,9 @@
 
 #include <insonify/core/numeric.hpp>
 #include <insonify/core/random.hpp>
-#include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/elementary.hpp>
 #include <insonify/core/simd/lanes.hpp>
-#include <insonify/seabed/model.hpp>
 
-#include <array>
 #include <cstdint>
 
 INSONIFY_ARITHMETIC_BEGIN
@@ -24,7 +21,6 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace seabed::detail::inline INSONIFY_FLAGS {
 
-using insonify::detail::dispatch;
 using insonify::detail::lanes;
 
 /// Random streams: every layer of every model has its own.
@@ -124,173 +120,6 @@ struct lattice_coordinate {
     explicit lattice_coordinate(double cells)
         : cell(numeric::floor_to_int(cells)), fraction(static_cast<float>(cells - static_cast<double>(cell))) {}
 };
-
-/// The part of a row that is processed at a time: its positions, padded with the last to whole vectors.
-struct stretch {
-    static constexpr std::size_t padded = chunk;  // which is a multiple of every lane count
-
-    double y, spacing;
-    double grid_spacing;                       ///< see scanline
-    std::size_t count;                         ///< at least 1
-    alignas(32) std::array<double, padded> x;  ///< rising
-
-    stretch(const scanline& line, std::size_t samples)
-        : y(line.y), spacing(line.spacing), grid_spacing(line.grid_spacing), count(samples) {
-        // The positions of line.x(i); four independent sums hide the latency of the additions.
-        auto number = static_cast<double>(line.first);
-        for (std::size_t i = 0; i < whole(); i += 4, number += 4) {
-            x[i] = line.origin + line.spacing * number;
-            x[i + 1] = line.origin + line.spacing * (number + 1);
-            x[i + 2] = line.origin + line.spacing * (number + 2);
-            x[i + 3] = line.origin + line.spacing * (number + 3);
-        }
-        for (std::size_t i = count; i < whole(); ++i) x[i] = x[count - 1];
-    }
-    /// The count rounded up to whole vectors.
-    std::size_t whole() const { return (count + 15) & ~std::size_t{15}; }
-    double last() const { return x[count - 1]; }
-
-    /// The samples that may lie in [low, high], rounded outwards to whole vectors.
-    struct range {
-        std::size_t begin, end;
-    };
-    range within(double low, double high) const {
-        const double n = static_cast<double>(count), per_metre = 1 / (std::max)(spacing, 1e-9);
-        const double first = (low - x[0]) * per_metre - 1, past = (high - x[0]) * per_metre + 2;
-        if (first >= n || past <= 0) return {0, 0};
-        const auto begin = first > 0 ? static_cast<std::size_t>(first) : 0;
-        const auto end = past < n ? static_cast<std::size_t>(past) : count;
-        return {begin & ~std::size_t{15}, (end + 15) & ~std::size_t{15}};
-    }
-};
-
-/// A float for each position of a stretch.
-struct alignas(32) stretch_values : std::array<float, stretch::padded> {};
-
-/// Cuts a row into stretches, calls `fill(stretch, values)` for each, which writes or adds to whole vectors of values
-/// that begin at 0, and copies them out.
-template <class Fill>
-void by_stretches(const scanline& line, std::span<float> heights, Fill&& fill) {
-    for (std::size_t i = 0; i < heights.size(); i += chunk) {
-        const stretch part(line.from(i), (std::min)(chunk, heights.size() - i));
-        stretch_values values{};
-        fill(part, values);
-        std::copy_n(values.begin(), part.count, heights.begin() + static_cast<std::ptrdiff_t>(i));
-    }
-}
-
-/// Kernel that calls `model.add_lanes<N>(part, values)`: adds a model's relief along a stretch to its values.
-template <class Model>
-struct relief_kernel {
-    static constexpr int widest = 16;
-
-    const Model& model;
-    const stretch& part;
-    float* values;
-
-    template <int N>
-    INSONIFY_INLINE void run() const {
-        model.template add_lanes<N>(part, values);
-    }
-};
-
-template <class Model>
-void add_relief(const Model& model, const stretch& part, stretch_values& values, isa level) {
-    dispatch(relief_kernel<Model>{model, part, values.data()}, level);
-}
-
-/// Concatenates two halves.
-template <int N, class Whole, class Half>
-INSONIFY_INLINE void join(Whole& into, const Half& low, const Half& high) {
-#if INSONIFY_SIMD
-    [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
-        into = __builtin_shufflevector(low, high, I...);
-    }
-    (std::make_integer_sequence<int, N>{});
-#else
-    static_cast<void>(high);
-    into = low;
-#endif
-}
-
-/// N positions on a lattice: fractions within their cells, in [0, 1], and indices of the cells, counted from `first`.
-template <int N>
-INSONIFY_INLINE void locate(lanes<float, N>& across, lanes<std::int32_t, N>& cell, const double* x, double frequency,
-                            double offset, double first) {
-    if constexpr (N == 1) {
-        double floor;
-        const double u = *x * frequency + offset;
-        insonify::detail::floor_lanes<1>(floor, u);
-        cell = static_cast<std::int32_t>(floor - first);
-        across = static_cast<float>(u - floor);
-    } else {
-        constexpr int half = N / 2;
-        lanes<float, half> part[2];
-        lanes<std::int32_t, half> index[2];
-        for (int k = 0; k < 2; ++k) {
-            lanes<double, half> u, floor;
-            insonify::detail::load(u, x + k * half);
-            u = u * frequency + offset;
-            insonify::detail::floor_lanes<half>(floor, u);
-            insonify::detail::convert(index[k], lanes<double, half>(floor - first));
-            insonify::detail::convert(part[k], lanes<double, half>(u - floor));
-        }
-        join<N>(across, part[0], part[1]);
-        join<N>(cell, index[0], index[1]);
-    }
-}
-
-/// x[i] frequency + offset for N positions, rounded to float: the sum has to be small.
-template <int N>
-INSONIFY_INLINE void offsets(lanes<float, N>& into, const double* x, double frequency, double offset) {
-    if constexpr (N == 1) {
-        into = static_cast<float>(*x * frequency + offset);
-    } else {
-        constexpr int half = N / 2;
-        lanes<float, half> part[2];
-        for (int k = 0; k < 2; ++k) {
-            lanes<double, half> u;
-            insonify::detail::load(u, x + k * half);
-            u = u * frequency + offset;
-            insonify::detail::convert(part[k], u);
-        }
-        join<N>(into, part[0], part[1]);
-    }
-}
-
-/// Perlin's quintic: from 0 to 1, first and second derivatives 0 at both ends.
-template <class T>
-INSONIFY_INLINE constexpr void fade(T& into, const T& t) {
-    into = t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
-}
-constexpr float fade(float t) {
-    return t * t * t * (t * (t * 6 - 15) + 10);
-}
-/// Catmull-Rom interpolation from the second (t = 0) to the third (t = 1) of four values.
-template <class T>
-INSONIFY_INLINE void catmull_rom(T& into, const T (&p)[4], const T& t) {
-    const T b = 0.5f * (p[2] - p[0]), c = p[0] - 2.5f * p[1] + 2.0f * p[2] - 0.5f * p[3],
-            d = 0.5f * (p[3] - p[0]) + 1.5f * (p[1] - p[2]);
-    into = p[1] + t * (b + t * (c + t * d));
-}
-constexpr float mix(float a, float b, float t) {
-    return a + t * (b - a);
-}
-[[nodiscard]] constexpr float clamp01(float t) {
-    return t < 0 ? 0 : t > 1 ? 1 : t;
-}
-/// (1 - r^2)^2: 1 in the middle; its value and slope are 0 from a distance of 1 on.
-template <class T>
-constexpr T brush(T r) {
-    const T inside = r * r < 1 ? 1 - r * r : T(0);
-    return inside * inside;
-}
-template <class Lanes>
-INSONIFY_INLINE void clamp_lanes(Lanes& t) {
-    const Lanes zero{}, one = zero + 1.0f;
-    t = t > 0.0f ? t : zero;
-    t = t < 1.0f ? t : one;
-}
 
 }  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI

@@ -6,7 +6,9 @@
 // Based on: Ken Perlin. Improving Noise. SIGGRAPH, 2002 (gradients on a lattice, quintic fade).
 #pragma once
 
-#include <insonify/seabed/detail/lattice.hpp>
+#include <insonify/core/simd/transpose.hpp>
+#include <insonify/seabed/detail/interpolation.hpp>
+#include <insonify/seabed/detail/stretch.hpp>
 #include <insonify/seabed/roughness.hpp>
 
 #include <vector>
@@ -15,7 +17,7 @@ INSONIFY_ARITHMETIC_BEGIN
 
 namespace insonify {
 inline namespace INSONIFY_ABI {
-namespace seabed::inline INSONIFY_FLAGS {
+namespace seabed::detail::inline INSONIFY_FLAGS {
 
 /// Gradient noise: mean 0, variance 1, twice differentiable, waves of about one to three cells.
 class gradient_noise {
@@ -30,17 +32,16 @@ class gradient_noise {
     static constexpr float mean_square_slope = 16.767904f;
 
     /// @param cell  metres, > 0
-    gradient_noise(double cell, detail::cell_hash hash) : lattice_(detail::lattice::shifted(cell, hash)), hash_(hash) {}
+    gradient_noise(double cell, cell_hash hash) : lattice_(lattice::shifted(cell, hash)), hash_(hash) {}
 
     /// The fraction of the amplitude that the stretch's grid can carry; a cell is about half a wavelength.
-    float carried_by(const detail::stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
+    float carried_by(const stretch& part) const { return carried(2 / lattice_.frequency, part.grid_spacing); }
 
     /// Adds `amplitude` times the noise along a stretch to its values.
     template <int N>
-    INSONIFY_INLINE void add(const detail::stretch& part, float amplitude, float* values) const {
-        const detail::lattice_coordinate v(lattice_.v(part.y));
-        const line_of_cells line{hash_[v.cell], hash_[v.cell + 1], v.fraction, detail::fade(v.fraction),
-                                 amplitude * gain};
+    INSONIFY_INLINE void add(const stretch& part, float amplitude, float* values) const {
+        const lattice_coordinate v(lattice_.v(part.y));
+        const line_of_cells line{hash_[v.cell], hash_[v.cell + 1], v.fraction, fade(v.fraction), amplitude * gain};
         const std::int64_t first = numeric::floor_to_int(lattice_.u(part.x[0]));
         const std::int64_t last = numeric::floor_to_int(lattice_.u(part.x[part.whole() - 1])) + 1;
         const bool dense = last - first < table_size;
@@ -59,8 +60,7 @@ class gradient_noise {
                         corner, [&](int k) INSONIFY_INLINE_LAMBDA { return &from[lane(cell, k)].height; });
             };
             if (dense) {
-                detail::locate<N>(across, cell, &part.x[i], lattice_.frequency, lattice_.offset_x,
-                                  static_cast<double>(first));
+                locate<N>(across, cell, &part.x[i], lattice_.frequency, lattice_.offset_x, static_cast<double>(first));
                 const std::int32_t begin = lane(cell, 0);
                 if (begin == lane(cell, N - 1)) {
                     const float* const both = &sides[begin].height;
@@ -71,7 +71,7 @@ class gradient_noise {
             } else {
                 // Samples are so far apart that each has its own columns.
                 for (int k = 0; k < N; ++k) {
-                    const detail::lattice_coordinate u(lattice_.u(part.x[i + static_cast<std::size_t>(k)]));
+                    const lattice_coordinate u(lattice_.u(part.x[i + static_cast<std::size_t>(k)]));
                     line.template tabulate<1>(sides + 2 * k, static_cast<std::uint32_t>(u.cell), 1);
                     insonify::detail::set_lane(across, k, u.fraction);
                     insonify::detail::set_lane(cell, k, 2 * k);
@@ -80,7 +80,7 @@ class gradient_noise {
             }
             const lanes<float, N> left = corner[0] + corner[1] * across,
                                   right = corner[2] + corner[3] * (across - 1.0f);
-            detail::fade(weight, across);
+            fade(weight, across);
             insonify::detail::load(sum, values + i);
             sum = sum + (left + weight * (right - left));
             insonify::detail::store(values + i, sum);
@@ -100,7 +100,7 @@ class gradient_noise {
     static constexpr std::int64_t table_size = 512;  // columns; samples of wider rows lie in cells of their own
 
     struct line_of_cells {
-        detail::cell_hash::row below, above;
+        cell_hash::row below, above;
         float up, rise, gain;  // the row's fraction within its cells, the fade of it, and the scale
 
         template <int N>
@@ -116,7 +116,7 @@ class gradient_noise {
 
         /// Both components in [-1, 1), from 16 bits each.
         template <int N>
-        INSONIFY_INLINE static void gradient(lanes<float, N>& x, lanes<float, N>& y, const detail::cell_hash::row& row,
+        INSONIFY_INLINE static void gradient(lanes<float, N>& x, lanes<float, N>& y, const cell_hash::row& row,
                                              const words<N>& column) {
             using ints = lanes<std::int32_t, N>;
             words<N> bits;
@@ -142,20 +142,20 @@ class gradient_noise {
         }
     };
 
-    detail::lattice lattice_;
-    detail::cell_hash hash_;
+    lattice lattice_;
+    cell_hash hash_;
 };
 
 /// Octaves of gradient noise, cells halved from one to the next, that make up a `roughness`.
 class power_law_noise {
   public:
     /// @throws invalid_input for parameters out of the ranges above
-    power_law_noise(const roughness& r, std::uint64_t seed, detail::stream purpose, std::uint32_t layer = 0) {
-        detail::require(r.rms >= 0 && r.rms < 1e6f, "roughness.rms", r.rms, "metres, at least 0");
-        detail::require(r.longest > 0 && r.longest < 1e6f, "roughness.longest", r.longest, "metres above 0");
-        detail::require(r.shortest >= 1e-4f && r.shortest <= r.longest, "roughness.shortest", r.shortest,
-                        "metres from 1e-4 to roughness.longest");
-        detail::require(r.exponent >= 2 && r.exponent <= 4, "roughness.exponent", r.exponent, "2 to 4");
+    power_law_noise(const roughness& r, std::uint64_t seed, stream purpose, std::uint32_t layer = 0) {
+        require(r.rms >= 0 && r.rms < 1e6f, "roughness.rms", r.rms, "metres, at least 0");
+        require(r.longest > 0 && r.longest < 1e6f, "roughness.longest", r.longest, "metres above 0");
+        require(r.shortest >= 1e-4f && r.shortest <= r.longest, "roughness.shortest", r.shortest,
+                "metres from 1e-4 to roughness.longest");
+        require(r.exponent >= 2 && r.exponent <= 4, "roughness.exponent", r.exponent, "2 to 4");
         if (r.rms == 0) return;
 
         // An octave spreads its variance over an area of the wave number plane four times that of the one before, so
@@ -177,8 +177,8 @@ class power_law_noise {
     }
 
     /// Adds the relief along a stretch to its values, metres.
-    void add(const detail::stretch& part, detail::stretch_values& values, isa level = best_isa()) const {
-        if (!octaves_.empty()) detail::add_relief(*this, part, values, level);
+    void add(const stretch& part, stretch_values& values, isa level = best_isa()) const {
+        if (!octaves_.empty()) add_relief(*this, part, values, level);
     }
 
     /// Upper bound of the relief's absolute value, metres.
@@ -192,14 +192,14 @@ class power_law_noise {
     double rms_slope() const { return slope_; }
 
   private:
-    friend detail::relief_kernel<power_law_noise>;
+    friend relief_kernel<power_law_noise>;
 
     struct octave {
         gradient_noise noise;
         float amplitude;
     };
     template <int N>
-    INSONIFY_INLINE void add_lanes(const detail::stretch& part, float* values) const {
+    INSONIFY_INLINE void add_lanes(const stretch& part, float* values) const {
         for (const octave& o : octaves_) {
             const float kept = o.noise.carried_by(part);
             if (kept == 0) break;  // finer octaves are not carried either
@@ -210,7 +210,7 @@ class power_law_noise {
     double slope_ = 0;
 };
 
-}  // namespace seabed::inline INSONIFY_FLAGS
+}  // namespace seabed::detail::inline INSONIFY_FLAGS
 }  // namespace INSONIFY_ABI
 }  // namespace insonify
 

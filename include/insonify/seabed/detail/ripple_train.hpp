@@ -14,7 +14,9 @@
 #pragma once
 
 #include <insonify/core/simd/elementary.hpp>
-#include <insonify/seabed/detail/lattice.hpp>
+#include <insonify/core/simd/transpose.hpp>
+#include <insonify/seabed/detail/interpolation.hpp>
+#include <insonify/seabed/detail/stretch.hpp>
 #include <insonify/seabed/ripple_system.hpp>
 
 #include <array>

@@ -1,7 +1,8 @@
 // Randomly scattered features, at most one per lattice cell: finds those that a row crosses, and adds round ones.
 #pragma once
 
-#include <insonify/seabed/detail/lattice.hpp>
+#include <insonify/seabed/detail/interpolation.hpp>
+#include <insonify/seabed/detail/stretch.hpp>
 
 INSONIFY_ARITHMETIC_BEGIN
 

@@ -4,8 +4,9 @@
 // The spoil lies in a low berm on either side.
 #pragma once
 
-#include <insonify/seabed/detail/lattice.hpp>
+#include <insonify/seabed/detail/interpolation.hpp>
 #include <insonify/seabed/detail/ripple_train.hpp>
+#include <insonify/seabed/detail/stretch.hpp>
 #include <insonify/seabed/trawl_marks.hpp>
 
 #include <vector>

@@ -4,6 +4,7 @@
 
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
+#include <insonify/core/simd/transpose.hpp>
 #include <insonify/geometry/detail/indices.hpp>
 #include <insonify/raster/detail/binning.hpp>
 #include <insonify/shadow/detail/light_planes.hpp>

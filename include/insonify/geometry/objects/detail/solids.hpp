@@ -36,6 +36,9 @@ inline void require_thickness(const char* name, float metres, float object_size)
     require(metres >= 1e-4f * object_size && metres <= object_size, name, metres,
             "at least 1/10000 of the object's size, at most that size");
 }
+inline void require_range(const char* name, float value, float low, float high, const char* expected) {
+    require(value >= low && value <= high, name, value, expected);
+}
 inline void require_share(const char* name, float value) {
     require(value >= 0 && value <= 1, name, value, "0 to 1");
 }

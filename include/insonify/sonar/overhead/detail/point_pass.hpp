@@ -10,6 +10,7 @@
 
 #include <insonify/core/simd/dispatch.hpp>
 #include <insonify/core/simd/lanes.hpp>
+#include <insonify/core/simd/transpose.hpp>
 #include <insonify/shadow/policy.hpp>
 #include <insonify/sonar/overhead/detail/shading.hpp>
 

@@ -1,0 +1,105 @@
+// Loads rows of two, three or four values and transposes them into lanes.
+#pragma once
+
+#include <insonify/core/simd/lanes.hpp>
+
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+INSONIFY_ARITHMETIC_BEGIN
+
+namespace insonify {
+inline namespace INSONIFY_ABI {
+namespace detail::inline INSONIFY_FLAGS {
+
+/// Gathers pairs of adjacent 32-bit values: lane k of `first` and of `second` are the two values at from(k).
+template <int N, class Lanes, class From>
+INSONIFY_INLINE void gather_pairs(Lanes& first, Lanes& second, const From& from) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        // Pairs 0 1 4 5 ... and 2 3 6 7 ...: so both shuffles stay within sixteen bytes, where they are cheap.
+        constexpr int half = N / 2, run = half < 2 ? half : 2;
+        lanes<std::int64_t, half> low, high;
+        const auto pair = [&](int k) INSONIFY_INLINE_LAMBDA {
+            std::int64_t bits;
+            std::memcpy(&bits, from(k), sizeof bits);
+            return bits;
+        };
+        gather<half>(low, [&](int k) INSONIFY_INLINE_LAMBDA { return pair(k / run * 2 * run + k % run); });
+        gather<half>(high, [&](int k) INSONIFY_INLINE_LAMBDA { return pair((k / run * 2 + 1) * run + k % run); });
+        [&]<int... I>(std::integer_sequence<int, I...>) INSONIFY_INLINE_LAMBDA {
+            constexpr auto at = [](int k) { return k / run % 2 * N + k / (2 * run) * 2 * run + k % run * 2; };
+            first = __builtin_shufflevector(Lanes(low), Lanes(high), at(I)...);
+            second = __builtin_shufflevector(Lanes(low), Lanes(high), (at(I) + 1)...);
+        }
+        (std::make_integer_sequence<int, N>{});
+    } else
+#endif
+    {
+        std::memcpy(&first, from(0), sizeof first);
+        std::memcpy(&second, from(0) + 1, sizeof second);
+    }
+}
+
+#if INSONIFY_SIMD
+/// Loads four values from each of N / 4 addresses.
+template <int N, class From>
+INSONIFY_INLINE void load_fours(lanes<float, N>& into, const From& from) {
+    if constexpr (N == 4) {
+        load(into, from(0));
+    } else {
+        lanes<float, N / 2> low, high;
+        load_fours<N / 2>(low, from);
+        load_fours<N / 2>(high, [&](int i) { return from(N / 8 + i); });
+        shuffle<N>(into, low, high, [](int i) { return i; });
+    }
+}
+
+/// Within every four lanes, lane i of row[k] becomes lane k of into[i]; for N of 4, 8 or 16.
+template <int N>
+INSONIFY_INLINE void transpose_fours(lanes<float, N>* into, const lanes<float, N> (&row)[4]) {
+    lanes<float, N> low[2], high[2];
+    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
+        const auto &a = row[2 * k], &b = row[2 * k + 1];
+        shuffle<N>(low[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2; });
+        shuffle<N>(high[k], a, b, [](int i) { return i % 2 * N + i / 4 * 4 + i % 4 / 2 + 2; });
+    });
+    unroll<2>([&](int k) INSONIFY_INLINE_LAMBDA {
+        const auto &a = k == 0 ? low[0] : high[0], &b = k == 0 ? low[1] : high[1];
+        shuffle<N>(into[2 * k], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2; });
+        shuffle<N>(into[2 * k + 1], a, b, [](int i) { return i % 4 / 2 * N + i / 4 * 4 + i % 2 + 2; });
+    });
+}
+
+/// Transposes four consecutive rows of three floats.
+INSONIFY_INLINE void transpose_threes(lanes<float, 4> (&into)[3], const float* rows) {
+    lanes<float, 4> a, b, c;  // xyzx yzxy zxyz
+    load(a, rows), load(b, rows + 4), load(c, rows + 8);
+    const lanes<float, 4> xy = __builtin_shufflevector(b, c, 2, 5, 3, 6),
+                          yz = __builtin_shufflevector(a, b, 1, 4, 2, 5);
+    into[0] = __builtin_shufflevector(a, xy, 0, 3, 4, 5);
+    into[1] = __builtin_shufflevector(yz, xy, 0, 1, 6, 7);
+    into[2] = __builtin_shufflevector(yz, c, 2, 3, 4, 7);
+}
+#endif
+
+/// Transposes N rows of four floats: lane k of into[i] is rows(k)[i]; N is 1, 4, 8 or 16.
+template <int N, class Rows>
+INSONIFY_INLINE void transpose(lanes<float, N>* into, const Rows& rows) {
+#if INSONIFY_SIMD
+    if constexpr (N > 1) {
+        // Groups of four lanes are transposed independently.
+        lanes<float, N> row[4];
+        unroll<4>([&](int k) INSONIFY_INLINE_LAMBDA { load_fours<N>(row[k], [&](int i) { return rows(k + 4 * i); }); });
+        transpose_fours<N>(into, row);
+    } else
+#endif
+        std::memcpy(into, rows(0), 4 * sizeof(float));
+}
+
+}  // namespace detail::inline INSONIFY_FLAGS
+}  // namespace INSONIFY_ABI
+}  // namespace insonify
+
+INSONIFY_ARITHMETIC_END
