@@ -1,6 +1,9 @@
 // Counter-based random numbers: a number is a pure function of (seed, stream, counter).
 //
-// Noise counted by pixel or world cell does not depend on tiling, cropping, threads or the order of frames.
+// Noise counted by pixel or world cell does not depend on tiling, cropping, threads or the order of frames:
+//
+//     const philox_key key = stream_key(seed, 17);                                     // 17: any number of your own
+//     const double u = uniform_open(philox4x32({x, y, frame, 0}, key)[0]);  // x, y, frame: std::uint32_t
 //
 // Based on: John K. Salmon, Mark A. Moraes, Ron O. Dror, David E. Shaw. Parallel Random Numbers: As Easy as 1, 2, 3.
 // SC11, 2011 (Philox4x32-10; checked against the known answers of Random123).
@@ -17,7 +20,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
-/// What random words are a function of, beside the key.
+/// Input of philox4x32 beside the key: pixel, cell or sample numbers.
 using philox_counter = std::array<std::uint32_t, 4>;
 /// The key of a stream of random words, from `stream_key`.
 using philox_key = std::array<std::uint32_t, 2>;
@@ -39,7 +42,7 @@ constexpr philox_counter philox4x32(philox_counter counter, philox_key key) {
 
 /// The key of a stream: draws of different streams are independent under one seed.
 constexpr philox_key stream_key(std::uint64_t seed, std::uint32_t stream) {
-    // A whole block is spent on mixing, so that neighbouring seeds and streams share no key word.
+    // Mixed by a whole block, so that adjacent seeds and streams share no key word.
     const philox_counter mixed = philox4x32(
         {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), stream, 0x696E736Fu}, {0, 0});
     return {mixed[0], mixed[1]};

@@ -1,8 +1,16 @@
-// What a shadow policy is: casters and a light go in, points are tested, and each comes back with its share of the
-// light and the caster that blocks it.
+// The concept of a shadow policy: from casters and a light it builds an occlusion, which computes for any batch of
+// points the share of the light that arrives and the caster that blocks it.
 //
-// A policy is a plain value that builds a structure for one light; the structure answers for any number of batches of
-// points. The built-in policies (map, pcf, exact, penumbra) are models of these concepts, and so are those of users.
+// The built-in policies (map, pcf, exact, penumbra) are models of these concepts, as are those of users:
+//
+//     struct my_policy {
+//         my_occlusion build(std::span<const shadow::caster> casters, const shadow::any_light& light,
+//                            const shadow::point_bounds& bounds, auto& executor) const;
+//     };
+//     render(scene, rig, render_options<my_policy>{});
+//
+// Parallel light is a shadow::directional_light; shadow::light_frame (light.hpp) has its direction as a vector. Casters
+// are the targets in the order of the scene, then the seabed, in the frame of the light.
 #pragma once
 
 #include <insonify/core/detail/uninitialized.hpp>
@@ -23,14 +31,14 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow {
 
-/// Where there is no caster, no mesh or no triangle.
+/// Stands for no caster, no mesh or no triangle.
 inline constexpr std::uint32_t invalid_id = 0xFFFFFFFFu;
 
-/// Which triangles of a caster a test may leave out, because others block the same points.
+/// Triangles of a caster that a test may skip, because others block the same points.
 enum class skip {
     nothing,         ///< both sides of all triangles block
-    facing,          ///< those whose front the light meets: the mesh is closed, and no point lies inside of it
-    facing_its_own,  ///< the same for points on the caster itself: it is a heightfield, lit and seen from above
+    facing,          ///< front faces towards the light: the mesh is closed, and no point lies inside
+    facing_its_own,  ///< the same, for points on the caster itself: a heightfield, lit and seen from above
 };
 
 /// A mesh that blocks light, in the frame in which the light is described. Both sides of its triangles block.
@@ -40,30 +48,30 @@ struct caster {
     affine placement;  ///< from the mesh's frame to the light's
     bounding_box box;  ///< around the mesh, in its own frame
     skip may_skip = skip::nothing;
-    const regular_grid* grid = nullptr;  ///< on which the vertices lie, see shared_mesh; or null
+    const regular_grid* grid = nullptr;  ///< lattice of the vertices, see shared_mesh; or null
 };
 
 /// Points to test, as arrays of equal length.
 struct points {
     std::span<const double> x, y, z;          ///< metres
-    std::span<const std::uint32_t> mesh;      ///< number of the caster that a point lies on, or invalid_id
+    std::span<const std::uint32_t> mesh;      ///< index of the caster that a point lies on, or invalid_id
     std::span<const std::uint32_t> triangle;  ///< of that caster; it does not block its own points
-    std::uint32_t casters = invalid_id;       ///< casters numbered below this matter; others need not be tested
-    bool face_light = true;                   ///< their own facets do; else only the caster's name matters
+    std::uint32_t casters = invalid_id;       ///< only casters with a lower index are tested
+    bool face_light = true;                   ///< facets of the points face the light; if not, only `caster` is used
 
     INSONIFY_MEMBER std::size_t size() const { return x.size(); }
     INSONIFY_MEMBER glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-/// What becomes of points, as arrays of the same length as theirs.
+/// Results for points, as arrays of the same length.
 struct shares {
     std::span<float> lit;             ///< fraction of the light that arrives, 0 to 1
-    std::span<std::uint32_t> caster;  ///< lowest number of a caster that blocks the light's centre, or invalid_id
+    std::span<std::uint32_t> caster;  ///< lowest index of the casters that block the light's centre, or invalid_id
 
     INSONIFY_MEMBER std::size_t size() const { return lit.size(); }
 };
 
-/// Where points will be tested, and how. `level` changes no answer.
+/// Region of the points that will be tested. `level` does not change results.
 struct point_bounds {
     bounding_box box;        ///< around all of them
     double spacing = 0;      ///< metres from one to the next on level ground; 0 if unknown
@@ -72,8 +80,8 @@ struct point_bounds {
 
 inline namespace INSONIFY_FLAGS {
 
-/// Normal of the facet that point i lies on, of any length, in the frame of the light; 0 if it lies on none. Its sign
-/// is that of the triangle's order, whichever side is seen.
+/// Normal of the facet that point i lies on, of any length, in the frame of the light; 0 if it lies on none. The sign
+/// follows from the order of the vertices.
 inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, std::size_t i) {
     if (at.mesh[i] >= casters.size() || at.triangle[i] == invalid_id) return glm::dvec3(0);
     const caster& c = casters[at.mesh[i]];
@@ -86,15 +94,15 @@ inline glm::dvec3 facet_of(std::span<const caster> casters, const points& at, st
 /// A light of any kind.
 using any_light = std::variant<directional_light, point_light>;
 
-/// `structure.test(points, shares)` fills in all shares; it may be called for several batches at the same time.
+/// `structure.test(points, shares)` sets all shares. It is called for several batches at the same time.
 template <class S>
 concept occlusion = requires(const S& structure, const points& at, const shares& into) {
     structure.test(at, into);
 };
 
-/// `policy.build(casters, light, bounds, executor)` gives an occlusion. All points that it will be asked about lie
-/// within `bounds`; the casters' meshes outlive it. Surfaces that face away from the light are dark under every policy:
-/// that is decided before, from the facet, and such a point is only tested for the name of its caster.
+/// `policy.build(casters, light, bounds, executor)` returns an occlusion. All points to test lie within `bounds`; the
+/// casters' meshes outlive it. Surfaces that face away from the light are dark under every policy: their points are
+/// tested only for the caster.
 template <class P>
 concept casting_policy = requires(const P& policy, std::span<const caster> casters, const any_light& light,
                                   const point_bounds& bounds, serial_executor& ex) {
@@ -105,7 +113,7 @@ class exact_occlusion;
 
 }  // namespace INSONIFY_FLAGS
 
-/// Hard shadows, exact for every point: the default. See exact.hpp, which makes it a model of casting_policy.
+/// Hard shadows, exact for every point: the default. exact.hpp defines its `build`.
 struct exact {
     /// See casting_policy.
     template <executor E>
@@ -122,7 +130,7 @@ concept policy = std::same_as<P, none> || casting_policy<P>;
 
 inline namespace INSONIFY_FLAGS {
 
-/// Radius of the light over its distance: 0, unless a policy has a `light_radius()`.
+/// Radius of the light over its distance: `light_radius()` of the policy, or 0.
 template <policy P>
 double radius_of(const P& p) {
     if constexpr (requires { p.light_radius(); })
@@ -133,9 +141,9 @@ double radius_of(const P& p) {
 
 }  // namespace INSONIFY_FLAGS
 
-/// Occlusion that gains from seeing all points of a picture at once. `structure.screen(points, shares)` answers what
-/// can be told of points one by one and leaves `unknown` where it cannot; `structure.test(batches, shares, executor)`
-/// answers the rest, of all batches together.
+/// An occlusion that is faster for all points of a picture at once. `structure.screen(points, shares)` decides points
+/// that a cheap test can decide and sets the others to `unknown`; `structure.test(batches, shares, executor)` decides
+/// those, all batches together.
 template <class S>
 concept collective_occlusion = occlusion<S> &&
     requires(const S& structure, const points& at, const shares& into, std::span<const points> all_at,
@@ -145,11 +153,11 @@ concept collective_occlusion = occlusion<S> &&
 };
 inline constexpr float unknown = -1;  ///< in shares::lit, between screening and testing
 
-/// What may be known of a triangle or a point beforehand.
+/// Result of a test that may leave a triangle or a point undecided.
 enum class known : std::uint8_t { lit, dark, nothing };
 
-/// Collective occlusion that knows whole triangles: `structure.known_triangles(caster, eye, executor)` has an answer
-/// for each triangle of a caster as the camera sees it, or none at all.
+/// A collective occlusion that decides whole triangles: `structure.known_triangles(caster, eye, executor)` returns a
+/// result for each triangle of a caster as seen by the camera, or an empty vector.
 template <class S>
 concept triangle_occlusion = collective_occlusion<S> &&
     requires(const S& structure, std::uint32_t caster, const glm::dvec3& eye, serial_executor& ex) {
