@@ -1,17 +1,18 @@
-// Hard shadows without a map: every point is tested against every triangle that can block its light.
+// Exact hard shadows: each point is tested against each triangle that can block its light.
 //
-// Casters and points meet on a plane that the light's rays cross upright (detail/light_planes.hpp). The plane is cut
-// into tiles; casters' triangles are noted in the tiles that they touch when the structure is built, points are sorted
-// into the tiles' cells when they are tested, and each triangle walks over the points under it
-// (detail/occlusion_kernel.hpp). The cost is linear in both, and there is no resolution and no bias.
+// Casters and points are projected along the light's rays onto a plane (detail/light_planes.hpp), which is cut into
+// tiles (detail/tiled_plane.hpp). `build` bins triangles into the tiles that they touch; `test` sorts points into the
+// cells of a tile, and each triangle is tested against the points under it (detail/occlusion_kernel.hpp). The cost is
+// linear in triangles and points, and there is no resolution and no bias.
 //
-// Every answer is that of one rule in doubles (detail/blocking.hpp), whatever the mesh: open, closed,
-// self-intersecting, inside out. Triangles are left out where a proof allows it (shadow::skip).
+// Every result is decided by one test in doubles (detail/blocking.hpp), for any mesh: open, closed, self-intersecting
+// or inside out. Triangles are skipped only where that provably changes nothing (shadow::skip).
 #pragma once
 
 #include <insonify/shadow/detail/blocking.hpp>
 #include <insonify/shadow/detail/grid_caster.hpp>
 #include <insonify/shadow/detail/occlusion_kernel.hpp>
+#include <insonify/shadow/detail/tiled_plane.hpp>
 
 #include <array>
 #include <optional>
@@ -35,38 +36,16 @@ class exact_occlusion {
           level_(where.level),
           rays_(light, reach_of(where.box)),
           grids_(casters.size()) {
-        const bounding_box& bounds = where.box;
         if (const auto* point = std::get_if<point_light>(&light)) near_light_ = *point;
         std::size_t triangles = 0;
         for (const caster& c : casters_) triangles += c.mesh.triangles.size();
-        if (triangles == 0 || bounds.empty()) return;
-        int side = 16;  // narrow tiles, so that a small caster leaves others' tiles alone
+        if (triangles == 0 || where.box.empty()) return;
+        int side = 16;  // small tiles, so that a small caster leaves others' tiles alone
         while (side < 64 && static_cast<std::size_t>(side * side) * 1024 < triangles) side *= 2;
-        const double reach = reach_of(bounds);
-        if (const auto* parallel = std::get_if<directional_light>(&light)) {
-            const light_frame frame(*parallel);
-            for (std::size_t i = 0; i < casters_.size(); ++i)
-                if (is_swept(casters_[i])) grids_[i].emplace(casters_[i], frame, level_, ex);
-            const detail::light_plane plane(frame);
-            glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
-            for (int i = 0; i < 8; ++i) {
-                const glm::dvec3 at = plane(bounds.corner(i));
-                lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
-                upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
-            }
-            add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach * (1 + frame.cot_elevation()), 0, ex);
-        } else {
-            const auto& point = std::get<point_light>(light);
-            for (int i = 0; i < 6; ++i) {
-                const detail::light_plane plane(point, i);
-                if (!detail::is_seen(plane, bounds)) {
-                    planes_.emplace_back();
-                    continue;
-                }
-                const auto [lower, upper] = detail::seen_part(plane, bounds);
-                add_plane(plane, {lower, upper - lower, side, side}, 0x1p-40, 0x1p-20 * reach, ex);
-            }
-        }
+        if (const auto* parallel = std::get_if<directional_light>(&light))
+            add_parallel_plane(light_frame(*parallel), where.box, side, ex);
+        else
+            add_point_planes(std::get<point_light>(light), where.box, side, ex);
     }
 
     /// See collective_occlusion.
@@ -76,7 +55,7 @@ class exact_occlusion {
         if (near_light_) return std::fill(into.lit.begin(), into.lit.end(), unknown);
         const plane_state& state = planes_.front();
         for (std::size_t i = 0; i < at.size(); ++i) {
-            const std::uint32_t occupant = state.occupant[tile_of(state, state.plane(at[i]))];
+            const std::uint32_t occupant = state.occupant[state.tile_of(state.plane(at[i]))];
             into.lit[i] = unknown;
             if (occupant == no_caster || (occupant != several_casters && occupant >= at.casters)) {
                 into.lit[i] = 1;
@@ -88,8 +67,8 @@ class exact_occlusion {
         }
     }
 
-    /// What is known of whole triangles of a caster as a camera sees them: an answer for each, or none at all.
-    /// @param eye  the camera
+    /// See triangle_occlusion.
+    /// @param eye  position of the camera
     template <executor E>
     insonify::detail::uninitialized_vector<known> known_triangles(std::uint32_t caster, const glm::dvec3& eye,
                                                                   E& ex) const {
@@ -98,7 +77,7 @@ class exact_occlusion {
         const detail::lit_grid& grid = grids_[caster]->grid();
         const detail::horizon_triangles triangles = grids_[caster]->triangles(eye);
         insonify::detail::uninitialized_vector<known> answers(c.mesh.triangles.size(), insonify::detail::memory_of(ex));
-        // Where others may cast, too, points decide.
+        // Triangles that other casters may shade are left to the test of points.
         std::vector<std::pair<glm::dvec2, glm::dvec2>> shared;
         const plane_state& plane = planes_.front();
         const detail::ray_feet feet(plane.plane, c.placement, grid);
@@ -122,8 +101,8 @@ class exact_occlusion {
         serial_executor serial;
         std::vector<points> parts;
         std::vector<shares> results;
-        for (std::size_t first = 0; first < at.size(); first += most_points) {
-            const std::size_t count = (std::min)(most_points, at.size() - first);
+        for (std::size_t first = 0; first < at.size(); first += max_points) {
+            const std::size_t count = (std::min)(max_points, at.size() - first);
             parts.push_back({at.x.subspan(first, count), at.y.subspan(first, count), at.z.subspan(first, count),
                              at.mesh.subspan(first, count), at.triangle.subspan(first, count), at.casters,
                              at.face_light});
@@ -132,10 +111,10 @@ class exact_occlusion {
         test(std::span<const points>(parts), std::span<const shares>(results), serial);
     }
 
-    /// The same for many batches of at most 2^16 points each, all of them at once.
+    /// The same for many batches of at most 2^16 points each.
     template <executor E>
     void test(std::span<const points> at, std::span<const shares> into, E& ex) const {
-        // A run of batches sorts its points by tile; then each tile collects its own from all runs.
+        // Each run of batches sorts its points by tile; then each tile collects its points from all runs.
         const std::size_t grain = (std::max)(std::size_t{8}, (at.size() + 127) / 128);
         std::vector<sorted_points> runs((at.size() + grain - 1) / grain);
         std::size_t count = 0;
@@ -166,18 +145,11 @@ class exact_occlusion {
     }
 
   private:
-    static constexpr std::size_t most_points = 65536;
-    static constexpr std::uint32_t no_caster = invalid_id, several_casters = invalid_id - 1;
+    static constexpr std::size_t max_points = 65536;
+    static constexpr std::uint32_t no_caster = detail::tiled_plane::no_caster,
+                                   several_casters = detail::tiled_plane::several_casters;
 
-    struct plane_state {
-        detail::light_plane plane;
-        detail::plane_tiles tiles;
-        float error = 0;  ///< of coordinates on it
-        std::vector<detail::plane_caster> casters;
-        glm::dvec2 scale{};                     ///< tiles a unit
-        std::vector<std::uint32_t> occupant{};  ///< of each tile: the caster whose triangles alone touch it,
-                                                ///< or one of the following
-    };
+    using plane_state = detail::tiled_plane;
     using receivers_of = insonify::detail::uninitialized_vector<detail::receiver>;
     /// Points of a run of batches by tile.
     struct sorted_points {
@@ -190,13 +162,13 @@ class exact_occlusion {
         }
     };
 
-    /// No coordinate of a point is larger. Casters may reach farther; what they block does not.
+    /// Upper bound of the absolute coordinates of points. Casters may reach farther.
     static double reach_of(const bounding_box& bounds) {
         double reach = 0;
         for (int i = 0; i < 3 && !bounds.empty(); ++i) reach = (std::max)({reach, -bounds.lower[i], bounds.upper[i]});
         return reach;
     }
-    /// Whether a caster needs no list of its triangles under parallel light.
+    /// Whether a caster is a grid that needs no list of triangles under parallel light.
     static bool is_swept(const caster& c) { return c.grid != nullptr && c.may_skip == skip::facing_its_own; }
     /// Whether caster `number` blocks the light of a point.
     bool is_blocked_by_grid(std::uint32_t number, const points& at, std::size_t i) const {
@@ -213,6 +185,30 @@ class exact_occlusion {
         const auto corner = [&](int j) { return transform_point(c.placement, glm::dvec3(c.mesh.positions[t[j]])); };
         return rays_.are_blocked(corner(0), corner(1), corner(2), p);
     }
+    /// Grids, and the plane across the rays of parallel light.
+    template <executor E>
+    void add_parallel_plane(const light_frame& frame, const bounding_box& bounds, int side, E& ex) {
+        for (std::size_t i = 0; i < casters_.size(); ++i)
+            if (is_swept(casters_[i])) grids_[i].emplace(casters_[i], frame, level_, ex);
+        const detail::light_plane plane(frame);
+        const auto [lower, upper] = detail::extent_on(plane, [&](int i) { return bounds.corner(i); });
+        add_plane(plane, {lower, upper - lower, side, side}, 0x1p-44 * reach_of(bounds) * (1 + frame.cot_elevation()),
+                  0, ex);
+    }
+    /// The six sides of a cube around a point light.
+    template <executor E>
+    void add_point_planes(const point_light& light, const bounding_box& bounds, int side, E& ex) {
+        for (int i = 0; i < 6; ++i) {
+            const detail::light_plane plane(light, i);
+            if (!detail::is_seen(plane, bounds)) {
+                planes_.emplace_back();
+                continue;
+            }
+            const auto [lower, upper] = detail::seen_part(plane, bounds);
+            add_plane(plane, {lower, upper - lower, side, side}, 0x1p-40, 0x1p-20 * reach_of(bounds), ex);
+        }
+    }
+    /// Bins the casters' triangles into the tiles of a plane.
     template <executor E>
     void add_plane(const detail::light_plane& plane, detail::plane_tiles tiles, double error, double least_depth,
                    E& ex) {
@@ -221,24 +217,20 @@ class exact_occlusion {
         tiles.size += 2 * margin;
         plane_state state{plane, tiles, static_cast<float>(error), {}, 1.0 / tiles.tile(), {}};
         state.occupant.assign(tiles.count(), no_caster);
-        const auto occupy = [&](std::size_t tile, std::size_t i) {
-            std::uint32_t& occupant = state.occupant[tile];
-            occupant = occupant == no_caster ? static_cast<std::uint32_t>(i) : several_casters;
-        };
         for (std::size_t i = 0; i < casters_.size(); ++i) {
             const caster& c = casters_[i];
             if (grids_[i]) {
                 state.casters.emplace_back();
-                const auto [first, last] = tiles_under(c, state);
+                const auto [first, last] = state.tiles_under(c);
                 for (int row = first.y; row <= last.y; ++row)
                     for (int column = first.x; column <= last.x; ++column)
-                        occupy(static_cast<std::size_t>(row * tiles.columns + column), i);
+                        state.occupy(static_cast<std::size_t>(row * tiles.columns + column), i);
                 continue;
             }
             insonify::detail::require_indices(c.mesh, ex);
             const auto& built = state.casters.emplace_back(c, plane, tiles, least_depth, level_, ex);
             for (std::size_t tile = 0; tile < tiles.count(); ++tile)
-                if (!built.bin(tile).empty()) occupy(tile, i);
+                if (!built.bin(tile).empty()) state.occupy(tile, i);
         }
         planes_.push_back(std::move(state));
     }
@@ -248,7 +240,7 @@ class exact_occlusion {
         for (const plane_state& p : planes_) count += p.casters.empty() ? 0 : p.tiles.count();
         return count;
     }
-    /// The plane of a tile, and its number there.
+    /// The plane of a tile, and the number of the tile on that plane.
     std::pair<const plane_state*, std::size_t> plane_of(std::size_t tile) const {
         for (const plane_state& p : planes_) {
             if (p.casters.empty()) continue;
@@ -258,7 +250,7 @@ class exact_occlusion {
         return {nullptr, 0};
     }
 
-    /// Puts the points of some batches where they belong among all, by tile; those that nothing lies above are lit.
+    /// Sorts the points of some batches by tile into `all`. Points without a caster on their tile are lit.
     void sort(std::span<const points> at, std::span<const shares> into, std::size_t first, std::size_t last,
               receivers_of& all, sorted_points& out, const insonify::detail::shared_pool& memory) const {
         std::array<std::size_t, 6> plane_start{};
@@ -267,15 +259,15 @@ class exact_occlusion {
             plane_start[i] = tiles;
             tiles += planes_[i].casters.empty() ? 0 : planes_[i].tiles.count();
         }
-        std::size_t most = 0, count = 0;
+        std::size_t total = 0, count = 0;
         for (std::size_t part = first; part < last; ++part) {
             std::fill(into[part].lit.begin(), into[part].lit.end(), 1.0f);
             std::fill(into[part].caster.begin(), into[part].caster.end(), invalid_id);
-            most += at[part].size();
+            total += at[part].size();
         }
         if (tiles == 0) return;
-        receivers_of found(most, memory);
-        insonify::detail::uninitialized_vector<std::uint32_t> keys(most, memory);
+        receivers_of found(total, memory);
+        insonify::detail::uninitialized_vector<std::uint32_t> keys(total, memory);
         out.starts.assign(tiles + 1, 0);
         for (std::size_t part = first; part < last; ++part) {
             const points& some = at[part];
@@ -288,7 +280,7 @@ class exact_occlusion {
                 glm::dvec3 seen = state.plane(p);
                 if (near_light_) seen = detail::light_plane::seen(seen);
                 const glm::dvec2 from = glm::dvec2(seen) - state.tiles.lower;
-                const std::size_t tile = tile_of(state, seen);
+                const std::size_t tile = state.tile_of(seen);
                 const std::uint32_t occupant = state.occupant[tile];
                 if (occupant == no_caster || (occupant != several_casters && occupant >= some.casters)) continue;
                 found[count] = {static_cast<float>(from.x),
@@ -307,29 +299,6 @@ class exact_occlusion {
         std::vector<std::uint32_t> next(out.starts.begin(), out.starts.end() - 1);
         for (std::size_t i = 0; i < count; ++i) all[out.first + next[keys[i]]++] = found[i];
     }
-    static std::size_t tile_of(const plane_state& state, const glm::dvec3& seen) {
-        const int column = hold((seen.x - state.tiles.lower.x) * state.scale.x, state.tiles.columns),
-                  row = hold((seen.y - state.tiles.lower.y) * state.scale.y, state.tiles.rows);
-        return static_cast<std::size_t>(row * state.tiles.columns + column);
-    }
-    /// The first and the last tile that a caster's box may be over, as columns and rows.
-    static std::pair<glm::ivec2, glm::ivec2> tiles_under(const caster& c, const plane_state& state) {
-        glm::dvec2 lower(std::numeric_limits<double>::infinity()), upper = -lower;
-        for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 at = state.plane(transform_point(c.placement, c.box.corner(i)));
-            lower = {(std::min)(lower.x, at.x), (std::min)(lower.y, at.y)};
-            upper = {(std::max)(upper.x, at.x), (std::max)(upper.y, at.y)};
-        }
-        // A little more than rounding can tell.
-        const auto tile = [&](const glm::dvec2& at, double beside) {
-            const glm::dvec2 in_tiles = (at - state.tiles.lower) * state.scale;
-            return glm::ivec2(hold(in_tiles.x + beside, state.tiles.columns),
-                              hold(in_tiles.y + beside, state.tiles.rows));
-        };
-        return {tile(lower, -0x1p-10), tile(upper, 0x1p-10)};
-    }
-    static int hold(double at, int count) { return static_cast<int>((std::min)((std::max)(0.0, at), count - 1.0)); }
-
     void test_tile(std::size_t tile_number, std::span<const detail::receiver> all, detail::receiver_cells& cells,
                    std::span<const points> at, std::span<const shares> into) const {
         const auto [state, tile] = plane_of(tile_number);
