@@ -1,13 +1,14 @@
-// Parallel light over a regular grid: for each cell, proved bounds on how far the surface before it blocks the light.
+// Bounds on the horizon of a regular grid under parallel light: how high the surface towards the light rises over each
+// cell.
 //
-// In a grid's own steps, all points of a ray share u = X + drop z: where it meets z = 0. A point is dark if the surface
-// up the light from it has a larger u somewhere on its ray. Strips one row wide run with the light, so no ray leaves
-// its strip. Along a strip the sweep carries the largest value that every ray of it must have met (the least of the
-// vertices around the strip where it crosses a column), and the largest that any may have met. What lies below the one
-// is dark, above the other lit; the few points between them are left to an exact test.
+// In grid steps, all points of a ray have the same u = X + drop z, the X at which the ray meets z = 0. A point is in
+// shadow if the surface has a larger u somewhere on its ray towards the light. Strips one row wide run along the light,
+// so that no ray leaves its strip. Along each strip the kernel carries two bounds: a lower bound of the largest u on
+// every ray (the minimum over the vertices around the strip at each column), and an upper bound (the maximum). Points
+// below the lower bound are dark, points above the upper bound lit; the few in between are left to an exact test.
 //
-// Where all triangles around a strip face the light, u rises along every ray, and what a ray has met there is below any
-// later point of the same rise. So such columns are left out of the upper bound, and a lit slope never doubts itself.
+// Where all triangles around a strip face the light, u increases along each ray, so that they cannot shade a later
+// point of the same slope. Such columns are left out of the upper bound, or points on lit slopes would be undecided.
 //
 // Based on: Nelson L. Max. Horizon Mapping: Shadows for Bump-Mapped Surfaces. 1988
 #pragma once
@@ -28,21 +29,21 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
-/// A grid as the light crosses it: X counts its vertices along the axis that the light follows most, Y those across,
-/// both turned so that the light goes towards larger ones, by `slope` of Y for each of X.
+/// A grid with axes along the light: X counts vertices along the axis closer to the light's direction, Y across it.
+/// Light travels towards larger X and Y, by `slope` steps of Y per step of X.
 struct lit_grid {
     int columns = 0, rows = 0;  ///< vertices along X, and along Y
     bool is_rising = true;      ///< cells are cut from (X, Y) to (X + 1, Y + 1), or else from (X, Y + 1) to (X + 1, Y)
     double slope = 0;           ///< in [0, 1]
-    double drop = 0;            ///< columns that the light passes while it sinks by 1 m
-    std::ptrdiff_t first = 0, along = 1, across = 1;  ///< number of vertex (0, 0) in the mesh, and steps to the next
+    double drop = 0;            ///< columns that light crosses per metre of descent
+    std::ptrdiff_t first = 0, along = 1, across = 1;  ///< index of vertex (0, 0) in the mesh, and strides
     std::ptrdiff_t pitch = 1;                         ///< vertices from one row of the mesh to the next
-    std::ptrdiff_t first_cell = 0, cell_along = 1, cell_across = 1;  ///< the same of cells, numbered like vertices
+    std::ptrdiff_t first_cell = 0, cell_along = 1, cell_across = 1;  ///< the same for cells
     glm::dvec2 x_of, y_of;  ///< X = dot(x_of, p - origin), Y alike, in the mesh's frame
     glm::dvec2 origin{0};
 
     lit_grid() = default;
-    /// @param travel  where the light goes, in the mesh's frame: down
+    /// @param travel  direction in which light travels, in the mesh's frame; downwards
     lit_grid(const regular_grid& grid, const glm::dvec3& travel)
         : columns(grid.columns),
           rows(grid.rows),
@@ -81,7 +82,7 @@ struct lit_grid {
         cell_along = cell_steps(along);
         cell_across = cell_steps(across);
     }
-    /// (X, Y) of a place in the mesh's frame.
+    /// (X, Y) of a position in the mesh's frame.
     INSONIFY_INLINE glm::dvec2 steps(const glm::dvec2& p) const {
         const double dx = p.x - origin.x, dy = p.y - origin.y;
         return {x_of.x * dx + x_of.y * dy, y_of.x * dx + y_of.y * dy};
@@ -96,10 +97,10 @@ struct lit_grid {
     }
 };
 
-/// u of a grid's vertices, column by column, with nothing around them.
+/// u of a grid's vertices, column by column, padded with minus infinity.
 struct grid_heights {
     static constexpr float nothing = -std::numeric_limits<float>::infinity();
-    static constexpr int around = 4;  ///< rows of nothing on either side
+    static constexpr int around = 4;  ///< rows of padding on either side
 
     int pitch = 0;
     insonify::detail::uninitialized_vector<float> u;
@@ -109,7 +110,7 @@ struct grid_heights {
     grid_heights(const mesh_view& m, const lit_grid& grid, E& ex)
         : pitch(grid.rows + 2 * around),
           u(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(pitch), insonify::detail::memory_of(ex)) {
-        // In squares, so that both the mesh and what is made of it are read and written in runs.
+        // In square blocks, so that both reads and writes are contiguous.
         constexpr int square = 32;
         const auto drop = static_cast<float>(grid.drop);
         const auto runs = static_cast<std::size_t>((grid.columns + square - 1) / square);
@@ -150,13 +151,13 @@ struct grid_heights {
     float* column(int x) { return u.data() + static_cast<std::ptrdiff_t>(x) * pitch + around; }
 };
 
-/// What is known of the u that a ray has met before a point in a column and strip.
+/// Bounds of the largest u that rays of a strip meet before a column.
 struct horizon_bound {
     float met;       ///< at least
     float may_meet;  ///< at most
 };
 
-/// Carries bounds along some strips.
+/// Computes the bounds of some strips.
 struct horizon_kernel {
     const lit_grid& grid;
     const grid_heights& heights;
@@ -195,7 +196,7 @@ struct horizon_kernel {
             });
             // Every ray of the strip meets the column between rows `row` and `row + 2`.
             met = lowest > met ? lowest : met;
-            // What lies before this column counts unless it rises all the way.
+            // The columns before count unless u increases all along them.
             may_meet = was_rising ? may_meet : floats(highest > may_meet ? highest : may_meet);
             ints rises = ints{} - 1;
             unroll<3>([&](int i) INSONIFY_INLINE_LAMBDA {
@@ -209,13 +210,13 @@ struct horizon_kernel {
                     lower = (b - a) + slope * (c - a);
                     upper = (d - c) + slope * (d - b);
                 }
-                // Beside the grid there is nothing that could fall.
+                // Cells outside of the grid do not shade.
                 const ints is_cell = ints(a > grid_heights::nothing) & ints(b > grid_heights::nothing) &
                                      ints(c > grid_heights::nothing) & ints(d > grid_heights::nothing);
                 const ints up = ints(lower > margin) & ints(upper > margin);
                 rises = rises & ints(up | ints(is_cell == 0));
             });
-            // Where it does not rise, what lies in these cells counts for the points in them and after.
+            // Where u does not increase, these cells may shade points in them and after.
             floats next = highest;
             unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA { next = ahead[i] > next ? ahead[i] : next; });
             may_meet = rises ? may_meet : floats(next > may_meet ? next : may_meet);
@@ -229,7 +230,7 @@ struct horizon_kernel {
     template <int N>
     INSONIFY_INLINE void read(insonify::detail::lanes<float, N> (&into)[4], int x, int row) const {
         using namespace insonify::detail;
-        // Strips that run beside the grid read nothing.
+        // Strips beside the grid read the padding value.
         const float* const column = heights.column(x);
         const int low = -grid_heights::around, high = grid.rows + grid_heights::around - 4;
         unroll<4>([&](int i) INSONIFY_INLINE_LAMBDA {
@@ -244,11 +245,11 @@ struct horizon_kernel {
     }
 };
 
-/// Which of a heightfield's own points are lit, dark, or left to an exact test.
+/// Decides points on a heightfield: lit, dark, or left to an exact test.
 class horizon_bounds {
   public:
     /// @param m       the mesh, on the lattice
-    /// @param travel  where the light goes, in the mesh's frame: down
+    /// @param travel  direction in which light travels, in the mesh's frame; downwards
     template <executor E>
     horizon_bounds(const mesh_view& m, const regular_grid& lattice, const glm::dvec3& travel, isa level, E& ex)
         : grid_(lattice, travel), heights_(m, grid_, ex), off_(lattice.off) {
@@ -285,15 +286,15 @@ class horizon_bounds {
 
     const lit_grid& grid() const { return grid_; }
     const grid_heights& heights() const { return heights_; }
-    /// By which u may be off, in columns.
+    /// Error bound of u, in columns.
     double margin() const { return margin_; }
-    /// By which vertices may lie beside the lattice, in steps.
+    /// Distance bound of vertices from the lattice, in steps.
     double off() const { return off_; }
     bool has_strip(int strip) const { return strip >= 0 && strip < strips_; }
     /// Strip number `strip` of a column holds the points with floor(Y - slope X) = strip + first_strip().
     int first_strip() const { return first_strip_; }
     horizon_bound bound(int column, int strip) const { return {met(column)[strip], may_meet(column)[strip]}; }
-    /// By strip.
+    /// Bounds of a column, by strip.
     const float* met(int column) const { return bounds_.data() + static_cast<std::ptrdiff_t>(column) * 2 * strips_; }
     const float* may_meet(int column) const { return met(column) + strips_; }
 

@@ -1,9 +1,9 @@
-// Whole triangles of a regular grid that are in the light or in the dark, by the bounds of their horizon.
+// Decides whole triangles of a regular grid, lit or dark, by the bounds of their horizon.
 //
-// Within a cell, u (horizon_bounds.hpp) lies between its values at the corners, and so a triangle whose largest u is
-// below what every ray of its strips has met is dark in all its points; one whose least u is above what any may have
-// met is lit. Pixels that show such a triangle need no point. That holds for its upper side; it is the one that the
-// camera sees if the camera lies above the triangle's plane.
+// Within a cell, u (horizon_bounds.hpp) lies between its values at the corners. A triangle is dark if its largest u is
+// below the lower bounds of its strips, and lit if its least u is above the upper bounds. Pixels that show such a
+// triangle need no test of their point. This holds for the upper side, which the camera sees if it is above the
+// triangle's plane.
 #pragma once
 
 #include <insonify/shadow/detail/horizon_bounds.hpp>
@@ -18,7 +18,7 @@ namespace insonify {
 inline namespace INSONIFY_ABI {
 namespace shadow::detail::inline INSONIFY_FLAGS {
 
-/// Where the ray at a point of a light's plane meets the plane z = 0 of a mesh, in the steps of its grid.
+/// Maps points of a light's plane to where their rays meet the plane z = 0 of a mesh, in grid steps.
 class ray_feet {
   public:
     ray_feet(const light_plane& plane, const affine& placement, const lit_grid& grid) {
@@ -35,7 +35,7 @@ class ray_feet {
         return grid_->steps({x_of_.x * off.x + x_of_.y * off.y, y_of_.x * off.x + y_of_.y * off.y});
     }
 
-    /// Bounds of those of a rectangle's points.
+    /// Bounds of the images of a rectangle.
     std::pair<glm::dvec2, glm::dvec2> of(const glm::dvec2& corner, const glm::dvec2& size) const {
         glm::dvec2 lower = (*this)(corner), upper = lower;
         for (const glm::dvec2& other : {glm::dvec2(size.x, 0), glm::dvec2(0, size.y), size}) {
@@ -51,7 +51,7 @@ class ray_feet {
     const lit_grid* grid_ = nullptr;
 };
 
-/// Answers for all triangles of one grid, seen by one camera.
+/// Decides all triangles of one grid, seen by one camera.
 class horizon_triangles {
   public:
     /// @param m    the mesh, of which `horizon` is
@@ -79,7 +79,7 @@ class horizon_triangles {
                           static_cast<std::ptrdiff_t>(t.y) != opposite && static_cast<std::ptrdiff_t>(t.z) != opposite;
     }
 
-    /// Writes the answers of some columns of cells, by triangle.
+    /// Writes the results of some columns of cells, by triangle.
     void find(int first_column, int last_column, known* into, isa level) const {
         for (int left = first_column; left < last_column; left += square)
             for (int bottom = 0; bottom < grid_.rows - 1; bottom += square) {
@@ -120,14 +120,14 @@ class horizon_triangles {
     }
 
   private:
-    static constexpr int square = 32;  ///< cells, so that what is read and what is written stays in the cache
+    static constexpr int square = 32;  ///< cells of a block, which stays in the cache
 
-    /// Answers for a square's cells, the two of each side by side.
+    /// Results for the cells of a block, both triangles of a cell side by side.
     struct answers {
         known of[square][square][2];  ///< by row, then column
     };
 
-    /// A square's answers as they lie in the mesh.
+    /// The results of a block in the order of the mesh.
     void write(const answers& found, int left, int bottom, int right, int top, known* into) const {
         for (int y = bottom; y < top; ++y) {
             const auto& row = found.of[y - bottom];
@@ -208,7 +208,7 @@ class horizon_triangles {
     struct triangle_lanes {
         using floats = insonify::detail::lanes<float, N>;
         using ints = insonify::detail::lanes<std::int32_t, N>;
-        floats met, may_meet;  ///< surely below the one is dark, above the other lit
+        floats met, may_meet;  ///< bounds: dark below the first, lit above the second
         floats eye;            ///< what the plane has to pass below at the camera
         floats dy;             ///< from the cell to the camera
         float dx, slope, enough;

@@ -1,10 +1,9 @@
-// Whether a heightfield on a regular grid blocks the light of one point: a walk up the light along the point's ray.
+// Shadow test of one point against a heightfield on a regular grid, by a walk along the point's ray towards the light.
 //
-// In the grid's own steps a ray of the light is a straight line across cells. Along it the surface's u
-// (horizon_bounds.hpp) is piecewise linear, with its ends on the edges that the line crosses, and the ray is blocked if
-// u rises above the point's own somewhere before it. The walk passes over blocks of cells whose highest vertex lies
-// below, and ends where the horizon's bounds tell the rest. Where u comes closer to the point's than its error, the
-// triangles of that column are tested in doubles.
+// In grid steps a ray is a straight line across cells. The surface's u (horizon_bounds.hpp) is piecewise linear along
+// it, with vertices at the edges that the line crosses, and the ray is blocked if u exceeds the point's u. The walk
+// skips blocks of cells whose largest u is below it, and ends where the bounds of the horizon decide. Where u is within
+// its error of the point's, the triangles of that column are tested in doubles.
 #pragma once
 
 #include <insonify/shadow/detail/horizon_bounds.hpp>
@@ -83,10 +82,10 @@ class block_heights {
     insonify::detail::uninitialized_vector<float> highest_;
 };
 
-/// Walks along one ray.
+/// The walk along one ray.
 class horizon_walk {
   public:
-    /// @param p  where the ray begins, in the mesh's frame
+    /// @param p  origin of the ray, in the mesh's frame
     horizon_walk(const horizon_bounds& horizon, const block_heights& blocks, const glm::dvec3& p)
         : horizon_(horizon),
           blocks_(blocks),
@@ -96,8 +95,8 @@ class horizon_walk {
           u_(x_ + grid_.drop * p.z),
           beside_(2 * horizon.off() + 0x1p-30 * grid_.columns) {}
 
-    /// Whether the surface blocks the ray. Expects a point on the surface where that faces the light.
-    /// @param decide  decide(triangle): whether it does, in doubles; not for the triangle of the point
+    /// Whether the surface blocks the ray of a point on it, where it faces the light.
+    /// @param decide  decide(triangle): test of a triangle in doubles; false for the triangle of the point
     template <class Decide>
     bool leads_from_surface(const Decide& decide) const {
         return walk(true, decide);
@@ -114,7 +113,7 @@ class horizon_walk {
     /// u on the edges that the ray crosses in one column of cells.
     struct crossing {
         double lowest = -nothing, highest = nothing;
-        double surely = nothing;  ///< the highest of those that lie before the point without doubt
+        double surely = nothing;  ///< the largest u that certainly lies before the point
     };
 
     double row_at(double column) const { return w_ + grid_.slope * column; }
@@ -122,7 +121,7 @@ class horizon_walk {
         return static_cast<int>((std::min)((std::max)(y, 0.0), static_cast<double>(grid_.rows - 2)));
     }
 
-    /// Whether the point lies over the surface, farther off than u may be.
+    /// Whether the point is above the surface by more than the error of u.
     bool lies_above() const {
         const double y = row_at(x_);
         if (!(x_ >= beside_ && x_ <= grid_.columns - 1 - beside_ && y >= beside_ && y <= grid_.rows - 1 - beside_))
@@ -149,7 +148,7 @@ class horizon_walk {
         if (!(x_ + beside_ >= 0)) return false;  // before the conversion: a vertex may lie 1e38 m away
         int column = static_cast<int>((std::min)(x_ + beside_, static_cast<double>(grid_.columns - 2)));
         for (bool is_first = true; column >= 0; --column, is_first = false) {
-            // The ray passes these rows of cells here.
+            // Rows of cells that the ray crosses in this column.
             const double low = row_at(column), high = low + grid_.slope;
             if (high < -beside_ || column + 1 + grid_.drop * greatest < doubt) return false;
             if (!is_first && is_above) {
@@ -182,7 +181,7 @@ class horizon_walk {
         return false;
     }
 
-    /// What the bounds of a column tell of all that lies before it, if the ray has been followed down to its end.
+    /// Decides by the bounds of a column, once the ray has been followed down to it.
     known known_before(int column) const {
         const int strip = static_cast<int>(w_ - horizon_.first_strip());
         if (!horizon_.has_strip(strip)) return known::nothing;
@@ -191,7 +190,7 @@ class horizon_walk {
         return u_ > static_cast<double>(b.may_meet) + horizon_.margin() ? known::lit : known::nothing;
     }
 
-    /// @param limit  where the point lies, in columns from this one
+    /// @param limit  position of the point, in columns from this one
     crossing cross(int column, double limit) const {
         const double slope = grid_.slope, low = row_at(column), high = low + slope;
         const int row = held_row(low);
@@ -209,7 +208,7 @@ class horizon_walk {
             met.highest = (std::max)(met.highest, u);
             if (s <= limit - beside_) met.surely = (std::max)(met.surely, u);
         };
-        if (high <= 0 || low >= grid_.rows - 1) {  // along the border, by a hair
+        if (high <= 0 || low >= grid_.rows - 1) {  // along the border
             add(0, a, c, high <= 0 ? 0 : 1);
             add(1, b, d, high <= 0 ? 0 : 1);
             return met;
@@ -219,7 +218,7 @@ class horizon_walk {
         if (start >= 0)
             add(0, a, c, start);
         else
-            add(-start / slope, a, b, -start / slope);  // it comes in over the border
+            add(-start / slope, a, b, -start / slope);  // it enters over the border
         if (stays)
             add(1, b, d, end);
         else
