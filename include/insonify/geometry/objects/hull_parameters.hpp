@@ -10,6 +10,7 @@ INSONIFY_ARITHMETIC_BEGIN
 namespace insonify {
 inline namespace INSONIFY_ABI {
 
+/// Form of the stern: rounded above the rudder, or a flat transom.
 enum class stern_type : std::uint8_t { cruiser, transom };
 
 /// A ship standing upright on z = 0 with its keel, bow towards +x, midships at the origin: an open shell of plating on
