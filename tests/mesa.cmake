@@ -1,4 +1,4 @@
-# Mesa's software renderer: the target `test_mesa`, where EGL and OpenGL ES are installed.
+# Defines the target `test_mesa`, Mesa's software renderer, if EGL and OpenGL ES are installed.
 include_guard(GLOBAL)
 find_library(INSONIFY_EGL EGL)
 find_library(INSONIFY_GLES GLESv2)
@@ -10,5 +10,5 @@ if(INSONIFY_EGL AND INSONIFY_GLES AND INSONIFY_GLES_INCLUDE_DIR)
   target_include_directories(test_mesa SYSTEM INTERFACE ${INSONIFY_GLES_INCLUDE_DIR})
   target_link_libraries(test_mesa INTERFACE ${INSONIFY_EGL} ${INSONIFY_GLES})
 else()
-  message(STATUS "Without EGL and OpenGL ES (Debian: libegl-dev libgles-dev libgl1-mesa-dri): llvmpipe is not compared with.")
+  message(STATUS "EGL or OpenGL ES not found (Debian: libegl-dev libgles-dev libgl1-mesa-dri): pictures are not compared with llvmpipe.")
 endif()

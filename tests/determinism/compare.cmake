@@ -1,4 +1,4 @@
-# Runs `program` and compares what it prints with the file `golden`.
+# Runs `program` and compares its output with the file `golden`.
 execute_process(COMMAND ${program} OUTPUT_VARIABLE printed ERROR_VARIABLE complaint RESULT_VARIABLE result)
 file(READ ${golden} expected)
 if(NOT result EQUAL 0 OR NOT printed STREQUAL expected)

@@ -1,5 +1,5 @@
-# Gives the target insonify::compiled, the compiled form: a static library of the one unit that compiles what draws, built
-# when something links it, by optimized code whatever the build type. Read by the build and by the installed package.
+# Defines the target insonify::compiled, the compiled form: a static library, built when a target links it and optimized in
+# every build type. Included by the build and by the installed package.
 get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
 if(TARGET insonify_compiled OR NOT CXX IN_LIST languages)
   return()
