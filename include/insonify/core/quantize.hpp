@@ -71,7 +71,7 @@ INSONIFY_INLINE void store_codes(Code* to, const lanes<std::int32_t, N>& code) {
 /// quantize, several pixels at a time.
 template <class Code>
 struct quantize_kernel {
-    static constexpr int widest = 16;
+    static constexpr int avx512_lanes = 16;
 
     const float* from;
     Code* to;

@@ -206,8 +206,8 @@ inline heightfield parse_xyz(std::string_view text, double spacing, float scale 
     const std::int64_t width = (std::max)(right - left + 1, std::int64_t{2}),
                        height = (std::max)(high - low + 1, std::int64_t{2});
     // Bounds the memory that two distant soundings may cost.
-    const double most = (std::min)(1024.0 * static_cast<double>(soundings.size()), 67108864.0);
-    if (static_cast<double>(width) * static_cast<double>(height) > most)
+    const double max_vertices = (std::min)(1024.0 * static_cast<double>(soundings.size()), 67108864.0);
+    if (static_cast<double>(width) * static_cast<double>(height) > max_vertices)
         in.fail("the soundings are too far apart, more than 1024 vertices for each or 2^26: take a larger spacing");
 
     heightfield field{.heights = image<float>(static_cast<int>(width), static_cast<int>(height)),

@@ -189,8 +189,8 @@ inline float height_after(const heap& e, const glm::dvec2& p, float height) {
 }
 
 /// The range of heights after an edit, for heights in a given range before it.
-inline height_range added(const height_range& ground, double least, double most) {
-    return {ground.lowest + (std::min)(1.00001 * least, 0.0), ground.highest + (std::max)(1.00001 * most, 0.0)};
+inline height_range added(const height_range& ground, double lowest, double highest) {
+    return {ground.lowest + (std::min)(1.00001 * lowest, 0.0), ground.highest + (std::max)(1.00001 * highest, 0.0)};
 }
 inline height_range including(const height_range& ground, double to) {
     return merge(ground, {to, to});

@@ -58,17 +58,17 @@ class rock_sampler {
         }
         // Blocks of half the size are 2^sizes times as many, in four times as many cells.
         const float ratio = static_cast<float>(numeric::pow(2, static_cast<double>(r.sizes) - 2));
-        float share = 1, height = 0.8f * r.relief, most = 1;
+        float share = 1, height = 0.8f * r.relief, largest = 1;
         float size = r.block;
         std::vector<float> shares;
         for (; shares.empty() || size >= r.smallest; size /= 2, share *= ratio) {
             shares.push_back(share);
-            most = (std::max)(most, share);
+            largest = (std::max)(largest, share);
         }
         size = r.block;
         for (std::uint32_t k = 0; k < shares.size(); ++k, size /= 2, height /= 2) {
             blocks_.push_back({static_cast<double>(size),
-                               r.fracture * shares[k] / most,
+                               r.fracture * shares[k] / largest,
                                height,
                                r.steepness,
                                {r.seed, detail::stream::blocks, k}});

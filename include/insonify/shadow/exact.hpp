@@ -210,8 +210,7 @@ class exact_occlusion {
     }
     /// Bins the casters' triangles into the tiles of a plane.
     template <executor E>
-    void add_plane(const detail::light_plane& plane, detail::plane_tiles tiles, double error, double least_depth,
-                   E& ex) {
+    void add_plane(const detail::light_plane& plane, detail::plane_tiles tiles, double error, double min_depth, E& ex) {
         const double margin = error + 0x1p-20 * (std::max)(tiles.size.x, tiles.size.y) + 1e-30;
         tiles.lower -= margin;
         tiles.size += 2 * margin;
@@ -228,7 +227,7 @@ class exact_occlusion {
                 continue;
             }
             insonify::detail::require_indices(c.mesh, ex);
-            const auto& built = state.casters.emplace_back(c, plane, tiles, least_depth, level_, ex);
+            const auto& built = state.casters.emplace_back(c, plane, tiles, min_depth, level_, ex);
             for (std::size_t tile = 0; tile < tiles.count(); ++tile)
                 if (!built.bin(tile).empty()) state.occupy(tile, i);
         }

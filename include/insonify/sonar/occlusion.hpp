@@ -64,7 +64,7 @@ class scene_occlusion {
     template <executor_argument E = serial_executor>
     point_light_shares test(std::span<const glm::dvec3> at, E&& ex = {}) const {
         point_light_shares all{std::vector<float>(at.size()), std::vector<std::uint16_t>(at.size())};
-        bulk_ranges(ex, at.size(), most_points, [&](std::size_t first, std::size_t last) {
+        bulk_ranges(ex, at.size(), max_points, [&](std::size_t first, std::size_t last) {
             const std::size_t count = last - first;
             std::vector<double> x(count), y(count), z(count);
             for (std::size_t i = 0; i < count; ++i) {
@@ -77,14 +77,13 @@ class scene_occlusion {
             built_.test(shadow::points{x, y, z, none, none},
                         shadow::shares{std::span(all.lit).subspan(first, count), caster});
             for (std::size_t i = 0; i < count; ++i)
-                if (caster[i] != shadow::invalid_id)
-                    all.shadow[first + i] = detail::name_of_caster(caster[i], targets_);
+                if (caster[i] != shadow::invalid_id) all.shadow[first + i] = detail::shadow_label(caster[i], targets_);
         });
         return all;
     }
 
   private:
-    static constexpr std::size_t most_points = 16384;
+    static constexpr std::size_t max_points = 16384;
 
     struct placed {
         shared_mesh shape;

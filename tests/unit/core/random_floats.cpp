@@ -21,7 +21,7 @@ struct draws {
     std::vector<float> normals, symmetric, units, logarithms;
 };
 struct all_draws_kernel {
-    [[maybe_unused]] static constexpr int widest = 16;
+    [[maybe_unused]] static constexpr int avx512_lanes = 16;
 
     draws& into;
 

@@ -20,7 +20,7 @@ struct draws {
     std::vector<double> logarithms, normals;
 };
 struct counting_kernel {
-    [[maybe_unused]] static constexpr int widest = 16;
+    [[maybe_unused]] static constexpr int avx512_lanes = 16;
 
     draws& into;
     std::size_t count;

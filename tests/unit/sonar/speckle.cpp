@@ -166,7 +166,7 @@ TEST_CASE("Draws of speckle are normal_pair's to the bit, at every instruction s
         for (const std::size_t blocks : {std::size_t{1}, std::size_t{3}, std::size_t{8}}) {
             // The bins wrap from below 0.
             const in::philox_counter first{0u - 2, 7, 1, 3};
-            std::vector<float> drawn(4 * (blocks + in::detail::speckle_draw_kernel::most_lanes));
+            std::vector<float> drawn(4 * (blocks + in::detail::speckle_draw_kernel::max_lanes));
             in::detail::dispatch(in::detail::speckle_draw_kernel{key, first, drawn.data(), blocks}, level);
             for (std::size_t i = 0; i < blocks; ++i) {
                 const in::philox_counter words =

@@ -3,8 +3,8 @@
 // A kernel is a function object with `template <int N> INSONIFY_INLINE void run() const`, where N is the
 // number of 32-bit values that it processes at a time. Its arithmetic is the same in every lane at every N, and
 // products are never fused with sums, so all levels give the same bytes; N = 1 is scalar code, compiled where
-// INSONIFY_SIMD is 0. Kernels use AVX-512 only if they state their lane count there, `static constexpr int widest =
-// 16`, which is for those that gain more than a tenth: each copy costs compile time.
+// INSONIFY_SIMD is 0. Kernels use AVX-512 only if they state their lane count there, `static constexpr int avx512_lanes
+// = 16`, which is for those that gain more than a tenth: each copy costs compile time.
 #pragma once
 
 #include <insonify/core/error.hpp>
@@ -58,7 +58,7 @@ void run_avx2(const Kernel& kernel) {
 template <class Kernel>
 INSONIFY_TARGET("avx512f,avx512bw,avx512dq,avx512vl")
 INSONIFY_NEVER_FUSED void run_avx512(const Kernel& kernel) {
-    kernel.template run<Kernel::widest>();
+    kernel.template run<Kernel::avx512_lanes>();
 }
 #endif
 
@@ -67,7 +67,7 @@ template <class Kernel>
 void dispatch(const Kernel& kernel, isa level) {
     if (level > best_isa()) level = best_isa();
 #if INSONIFY_DISPATCH
-    if constexpr (requires { Kernel::widest; }) {
+    if constexpr (requires { Kernel::avx512_lanes; }) {
         if (level == isa::avx512) return run_avx512(kernel);
     }
     if (level >= isa::avx2) return run_avx2(kernel);

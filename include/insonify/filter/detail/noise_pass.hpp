@@ -156,7 +156,7 @@ struct unit_draws {
 /// The draws of a run of a row; four pixels in a row share a block of Philox.
 template <class Draws>
 struct draw_kernel {
-    static constexpr int widest = 16;
+    static constexpr int avx512_lanes = 16;
 
     float* into;
     int count;

@@ -23,13 +23,13 @@ struct largest_index_kernel {
 
     template <int N>
     INSONIFY_INLINE void run() const {
-        lanes<std::uint32_t, N> most{}, some;
+        lanes<std::uint32_t, N> maximum{}, some;
         std::size_t i = 0;
         for (; i + N <= count; i += N) {
             load(some, indices + i);
-            most = some > most ? some : most;
+            maximum = some > maximum ? some : maximum;
         }
-        for (int k = 0; k < N; ++k) largest = (std::max)(largest, lane(most, k));
+        for (int k = 0; k < N; ++k) largest = (std::max)(largest, lane(maximum, k));
         for (; i < count; ++i) largest = (std::max)(largest, indices[i]);
     }
 };

@@ -75,7 +75,7 @@ void by_stretches(const scanline& line, std::span<float> heights, Fill&& fill) {
 /// Kernel that calls `model.add_lanes<N>(part, values)`: adds a model's relief along a stretch to its values.
 template <class Model>
 struct relief_kernel {
-    static constexpr int widest = 16;
+    static constexpr int avx512_lanes = 16;
 
     const Model& model;
     const stretch& part;

@@ -43,7 +43,7 @@ struct plane_vertices_kernel {
     const light_plane& plane;
     affine to_plane;  ///< from the mesh to the plane, before the division
     glm::dvec2 lower;
-    double least_depth;
+    double min_depth;
 
     template <int Width>
     INSONIFY_INLINE void run() const {
@@ -63,7 +63,7 @@ struct plane_vertices_kernel {
             vertices[i] = {0, 0, 0, plane_vertex::not_finite};
             return;
         }
-        if (plane.is_near() && !(p.z >= least_depth)) {
+        if (plane.is_near() && !(p.z >= min_depth)) {
             vertices[i] = {0, 0, 0, p.z < 0 ? plane_vertex::behind : plane_vertex::beside};
             return;
         }
@@ -157,17 +157,17 @@ struct tile_assembly_kernel {
             t.range(low, high, axis);
             // A tile more than rounding can tell. NaN goes into all tiles.
             const auto scale = static_cast<float>(1 / tile[axis]);
-            const auto most = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
+            const auto last_cell = static_cast<float>(axis == 0 ? tiles.columns - 1 : tiles.rows - 1);
             const floats margin =
                 0x1p-20f * ((high < 0.0f ? floats{} - low : high) + static_cast<float>(tiles.size[axis]));
             floats f = (low - margin) * scale, l = (high + margin) * scale;
-            outside |= ints(f > most + 1.0f) | ints(l < 0.0f);
+            outside |= ints(f > last_cell + 1.0f) | ints(l < 0.0f);
             f = f > 0.0f ? f : floats{};
-            f = f < most ? f : floats{} + most;
-            l = l < most ? l : floats{} + most;
+            f = f < last_cell ? f : floats{} + last_cell;
+            l = l < last_cell ? l : floats{} + last_cell;
             l = l > 0.0f ? l : floats{};
             f = t.state > 0.0f ? floats{} : f;
-            l = t.state > 0.0f ? floats{} + most : l;
+            l = t.state > 0.0f ? floats{} + last_cell : l;
             convert(from[axis], f);
             convert(to[axis], l);
         });
@@ -196,16 +196,16 @@ class plane_caster {
     plane_caster() = default;
 
     /// @param c            its mesh's indices all have positions
-    /// @param least_depth  nearer to a point light than this, directions are not told apart
+    /// @param min_depth  nearer to a point light than this, directions are not told apart
     template <executor E>
-    plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double least_depth, isa level,
+    plane_caster(const caster& c, const light_plane& plane, const plane_tiles& tiles, double min_depth, isa level,
                  E& ex)
         : triangles_(c.mesh.triangles), vertices_(c.mesh.positions.size(), insonify::detail::memory_of(ex)) {
         affine to_plane{{}, plane(c.placement.offset)};
         for (int i = 0; i < 3; ++i) to_plane.linear[i] = plane.direction(c.placement.linear[i]);
         bulk_ranges(ex, vertices_.size(), 16384, [&](std::size_t first, std::size_t last) {
             insonify::detail::dispatch(plane_vertices_kernel{&c.mesh.positions[first], &vertices_[first], last - first,
-                                                             plane, to_plane, tiles.lower, least_depth},
+                                                             plane, to_plane, tiles.lower, min_depth},
                                        level);
         });
         const std::size_t grain = (std::max)(std::size_t{4096}, (triangles_.size() / 64 + 16) / 16 * 16);

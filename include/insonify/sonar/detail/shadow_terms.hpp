@@ -1,4 +1,4 @@
-// The light of a rig and the names of casters, as shadow policies take and give them.
+// Converts the light of a rig for shadow policies, and casters to shadow labels.
 #pragma once
 
 #include <insonify/shadow/policy.hpp>
@@ -18,8 +18,8 @@ inline shadow::any_light light_in_rig(const overhead_geometry& view) {
                                      static_cast<double>(view.rig().grazing)};
 }
 
-/// The name of a caster, as in labels::shadow. Targets are the first casters.
-inline std::uint16_t name_of_caster(std::uint32_t caster, std::size_t targets) {
+/// The label of a caster in labels::shadow. Targets are the first casters.
+inline std::uint16_t shadow_label(std::uint32_t caster, std::size_t targets) {
     return caster < targets ? static_cast<std::uint16_t>(caster + 1) : labels::by_seabed;
 }
 

@@ -44,12 +44,12 @@ class ping_noise {
 /// Draws of unit power for bins in a row, real and imaginary parts in turn: those of normal_pair, to the same bits. One
 /// block of Philox serves two bins.
 struct speckle_draw_kernel {
-    static constexpr std::size_t most_lanes = 4;  ///< blocks at a time
+    static constexpr std::size_t max_lanes = 4;  ///< blocks at a time
 
     philox_key key;
     philox_counter first;  ///< counter of the first block; its first word, the bin, grows by 2 from block to block
     float* into;
-    std::size_t blocks;  ///< `into` holds 4 values for each, and for as many more as make a multiple of most_lanes
+    std::size_t blocks;  ///< `into` holds 4 values for each, and for as many more as make a multiple of max_lanes
 
     template <int N>
     INSONIFY_INLINE void run() const {
@@ -108,7 +108,7 @@ class speckle_field {
     void row(std::int64_t ping, std::uint32_t look, std::span<float> out) const {
         const std::size_t reach = across_.size() - 1, margin = reach + (reach & 1);
         const std::size_t blocks = (bins_ + 2 * margin + 1) / 2;
-        std::vector<float> white(4 * (blocks + speckle_draw_kernel::most_lanes));
+        std::vector<float> white(4 * (blocks + speckle_draw_kernel::max_lanes));
         const std::uint32_t first = 0u - static_cast<std::uint32_t>(margin);
         dispatch(speckle_draw_kernel{noise_.key(), ping_noise::counter(ping, first, look), white.data(), blocks},
                  best_isa());

@@ -87,7 +87,7 @@ class overhead_painter {
 
     bool has_bottom() const { return !scene_.seabed.empty(); }
 
-    /// Samples the ground in view, and towards the light as far as its relief can throw a shadow into view.
+    /// Samples the ground in view, and towards the light as far as its relief can cast a shadow into view.
     template <executor E>
     void sample_seabed(E& ex) {
         const overhead& rig = view_.rig();
@@ -189,7 +189,7 @@ class overhead_painter {
             s.caster = caster;
             s.instance = instance;
             s.seabed = seabed;
-            s.shadow_name = name_of_caster(caster, targets_.size());
+            s.self_shadow_label = shadow_label(caster, targets_.size());
             s.whole = m;
             ids += placed.shape.triangles.size();
             require(ids < shadow::invalid_id, "triangles of the scene", ids, "below 2^32 - 1");
@@ -208,13 +208,13 @@ class overhead_painter {
                 scene_.targets[i].surface);
     }
 
-    /// Finds what is known of whole triangles before they are drawn. The surfaces point to the answers.
+    /// Decides whole triangles before they are drawn, lit or dark. The surfaces point to the results.
     template <class Occlusion, executor E>
     std::vector<uninitialized_vector<shadow::known>> settle_triangles(const Occlusion& occlusion, E& ex) {
         std::vector<uninitialized_vector<shadow::known>> known;
         if constexpr (shadow::triangle_occlusion<Occlusion>)
             for (surface& s : surfaces_) {
-                // Of a mesh much finer than the picture, points are fewer than triangles.
+                // A mesh much finer than the picture has more triangles than points to test.
                 if (s.mesh.triangles.size() > 2 * out_.image.size()) continue;
                 known.push_back(occlusion.known_triangles(s.caster, view_.eye(), ex));
                 if (!known.back().empty()) s.known = known.back().data();
@@ -222,7 +222,7 @@ class overhead_painter {
         return known;
     }
 
-    /// Draws all surfaces: their light as far as it is known, and the visibility buffer.
+    /// Draws all surfaces: light where it is decided, and the visibility buffer.
     template <executor E>
     void draw_all(E& ex) {
         const overhead& rig = view_.rig();

@@ -42,8 +42,8 @@ inline void require_range(const char* name, float value, float low, float high, 
 inline void require_share(const char* name, float value) {
     require(value >= 0 && value <= 1, name, value, "0 to 1");
 }
-inline void require_segments(const char* name, int value, int fewest, int most) {
-    require(value >= fewest && value <= most, name, value, to_text(fewest) + " to " + to_text(most));
+inline void require_segments(const char* name, int value, int low, int high) {
+    require(value >= low && value <= high, name, value, to_text(low) + " to " + to_text(high));
 }
 
 /// Appends the surface through sections with equal numbers of corners, closed at both ends. The two ends are cut into

@@ -1,7 +1,6 @@
 // Shaders of overhead pictures: light of each visible pixel, over SIMD lanes.
 //
-// Shadows of triangles that are not known to be lit or dark, and labels, are later passes over the images written here
-// (render.hpp).
+// Shadows of undecided triangles, and labels, are later passes over the images written here (render.hpp).
 #pragma once
 
 #include <insonify/core/image.hpp>
@@ -65,7 +64,7 @@ struct surface_vertex_shader {
     }
 };
 
-/// The bottom or a target, as the passes over the picture need it.
+/// The bottom or a target, for the passes over the picture.
 struct surface {
     mesh_view mesh;
     affine to_rig;
@@ -76,8 +75,8 @@ struct surface {
     material whole;                        ///< if there are no types
     const seabed::type* types = nullptr;   ///< by vertex, of a bottom of several types
     const material* materials = nullptr;   ///< by type
-    std::uint16_t shadow_name = 0;         ///< as in labels::shadow, where it lies in its own shadow
-    const shadow::known* known = nullptr;  ///< by triangle, what the light makes of it; null where nothing is known
+    std::uint16_t self_shadow_label = 0;   ///< label in labels::shadow where the surface shades itself
+    const shadow::known* known = nullptr;  ///< lit, dark or undecided, by triangle; null if none is decided
 };
 
 /// The images that shading writes; null pointers are optional.
@@ -87,7 +86,7 @@ struct shaded_images {
     image<std::uint32_t>* ids = nullptr;     ///< the visibility buffer
     bool has_all_ids = true;                 ///< or else those alone where light is undecided
     image<std::uint8_t>* types = nullptr;    ///< seabed::type, of bottoms of several types
-    image<std::uint16_t>* shadow = nullptr;  ///< names of casters, as far as they are known, as in labels::shadow
+    image<std::uint16_t>* shadow = nullptr;  ///< labels of casters that are known, as in labels::shadow
 
     void clear(const rect& tile) const {
         if (undecided != nullptr) undecided->marks.clear(tile);
@@ -187,7 +186,7 @@ class surface_shader {
         f.store(into_.picture, value);
         if (into_.shadow != nullptr) {
             lanes<std::uint16_t, N> names;
-            convert(names, is_dark ? ints{} + static_cast<std::int32_t>(object_.shadow_name) : ints{});
+            convert(names, is_dark ? ints{} + static_cast<std::int32_t>(object_.self_shadow_label) : ints{});
             f.store(*into_.shadow, names);
         }
         static_assert(N <= 8);

@@ -82,8 +82,8 @@ class bottom_tiles {
 
     /// Clamps a depth along a pitched fan to the seabed's bounds; NaN becomes the lower one.
     double clamped(const ping_frame& p, double depth) const {
-        const auto [least, most] = depths(p);
-        return depth > least ? (std::min)(depth, most) : least;
+        const auto [shallowest, deepest] = depths(p);
+        return depth > shallowest ? (std::min)(depth, deepest) : shallowest;
     }
 
     /// Vertices evaluated so far.
@@ -118,9 +118,9 @@ class bottom_tiles {
         std::int64_t last_x = -(std::int64_t{1} << 60), last_y = last_x;
         first_x_ = first_y_ = -last_x;
         for (const ping_frame& p : pings) {
-            const auto [least, most] = depths(p);
+            const auto [shallowest, deepest] = depths(p);
             for (const double x : {steps.from, steps[steps.count + 1]})
-                for (const double down : {least, most}) {
+                for (const double down : {shallowest, deepest}) {
                     const auto [tile_x, tile_y] = tile_of(p.below(x, down));
                     first_x_ = (std::min)(first_x_, tile_x), first_y_ = (std::min)(first_y_, tile_y);
                     last_x = (std::max)(last_x, tile_x), last_y = (std::max)(last_y, tile_y);
@@ -135,12 +135,13 @@ class bottom_tiles {
     /// Marks the tiles that the fans touch.
     void mark(std::span<const ping_frame> pings, const fan_steps& steps) {
         for (const ping_frame& p : pings) {
-            const auto [least, most] = depths(p);
+            const auto [shallowest, deepest] = depths(p);
             for (int i = 0; i < steps.count; ++i) {
-                auto [ax, ay] = tile_of(p.below(steps[i], least));
+                auto [ax, ay] = tile_of(p.below(steps[i], shallowest));
                 std::int64_t bx = ax, by = ay;
-                for (const auto& [x, y] : {tile_of(p.below(steps[i + 1], least)), tile_of(p.below(steps[i], most)),
-                                           tile_of(p.below(steps[i + 1], most))}) {
+                for (const auto& [x, y] :
+                     {tile_of(p.below(steps[i + 1], shallowest)), tile_of(p.below(steps[i], deepest)),
+                      tile_of(p.below(steps[i + 1], deepest))}) {
                     ax = (std::min)(ax, x), ay = (std::min)(ay, y);
                     bx = (std::max)(bx, x), by = (std::max)(by, y);
                 }

@@ -186,14 +186,14 @@ class target_hits {
 
     /// Divides a ray between segments that cover parts of its width and the nearest one that covers all of it.
     void divide(std::size_t k, std::span<const part> parts, bool is_met) {
-        // Above most_parts segments, the ray is sampled at fixed positions.
+        // Above max_parts segments, the ray is sampled at fixed positions.
         ends_.clear();
         ends_.push_back(ray_start(k)), ends_.push_back(ray_start(k) + 1);
-        if (parts.size() <= most_parts) {
+        if (parts.size() <= max_parts) {
             for (const part& p : parts) ends_.push_back(p.low), ends_.push_back(p.high);
         } else {
-            for (std::size_t i = 1; i < most_parts; ++i)
-                ends_.push_back(ray_start(k) + static_cast<double>(i) / static_cast<double>(most_parts));
+            for (std::size_t i = 1; i < max_parts; ++i)
+                ends_.push_back(ray_start(k) + static_cast<double>(i) / static_cast<double>(max_parts));
         }
         std::sort(ends_.begin(), ends_.end());
         for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
@@ -225,7 +225,7 @@ class target_hits {
         if (!(covered > 0.5)) occluders_[k].range = std::numeric_limits<double>::infinity();
     }
 
-    static constexpr std::size_t most_parts = 64;
+    static constexpr std::size_t max_parts = 64;
 
     const ping_fan* fan_ = nullptr;
     std::vector<segment> segments_;
